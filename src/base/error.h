@@ -1,0 +1,41 @@
+#pragma once
+// Errors of the outside world: a file, an argument, a device. One type, thrown where the trouble is met and
+// shown by the program's main function or the editor's toast. Nothing found is std::optional, a numeric
+// outcome is a status with words, and a broken invariant is require() (base/require.h).
+
+#include <stdexcept>
+#include <string>
+
+namespace knead {
+
+// What went wrong, as the command line's exit code tells it.
+enum class Trouble {
+    numeric = 1,      // a system that cannot be solved
+    usage = 2,        // an argument, or a device that is not there
+    input = 3,        // a file that cannot be opened, read or understood
+    check_failed = 4, // a recorded check does not hold
+    output = 5,       // a file that cannot be written
+};
+
+// One sentence for the person at the keyboard: what happened, where, and what to do about it.
+class Error : public std::runtime_error {
+public:
+    // `place` is the file, with a line or an offset where one is known ("wave.knead:12", "scan.ply: byte
+    // 812"); it may be empty for an argument. `words` says what is wrong and the cure, without a full stop at
+    // its end.
+    Error(Trouble trouble, const std::string& place, const std::string& words)
+        : std::runtime_error(place.empty() ? words : place + ": " + words), trouble_(trouble) {}
+
+    Trouble trouble() const { return trouble_; }
+
+private:
+    Trouble trouble_;
+};
+
+// Thrown out of a long stage when its Progress says that it was cancelled. Not an error: nothing is wrong.
+class Cancelled : public std::exception {
+public:
+    const char* what() const noexcept override { return "cancelled"; }
+};
+
+} // namespace knead

@@ -1,0 +1,110 @@
+#include "base/workers.h"
+
+#include "base/require.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace knead {
+
+struct Workers::State {
+    std::vector<std::thread> threads;
+    std::mutex mutex;
+    std::condition_variable wake;
+    std::condition_variable finished;
+
+    // The job at hand; changed under the mutex while no worker is busy.
+    Call call = nullptr;
+    void* context = nullptr;
+    std::size_t count = 0;
+    std::size_t grain = 1;
+    unsigned long job = 0;
+    unsigned busy = 0;
+    bool stopping = false;
+    std::exception_ptr failure;
+
+    std::atomic<std::size_t> next_chunk{0};
+
+    void work_through() {
+        const std::size_t chunks = (count + grain - 1) / grain;
+        for (;;) {
+            const std::size_t chunk = next_chunk.fetch_add(1, std::memory_order_relaxed);
+            if (chunk >= chunks) return;
+            try {
+                call(context, chunk * grain, std::min(count, (chunk + 1) * grain));
+            } catch (...) {
+                const std::lock_guard lock(mutex);
+                if (!failure) failure = std::current_exception();
+                next_chunk.store(chunks, std::memory_order_relaxed);
+            }
+        }
+    }
+
+    void worker_loop() {
+        unsigned long done = 0;
+        std::unique_lock lock(mutex);
+        for (;;) {
+            wake.wait(lock, [&] { return stopping || job != done; });
+            if (stopping) return;
+            done = job;
+            lock.unlock();
+            work_through();
+            lock.lock();
+            if (--busy == 0) finished.notify_one();
+        }
+    }
+};
+
+Workers::Workers(unsigned threads) : state_(std::make_unique<State>()) {
+    if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+    for (unsigned i = 1; i < threads; ++i) state_->threads.emplace_back([this] { state_->worker_loop(); });
+}
+
+Workers::~Workers() {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->stopping = true;
+    }
+    state_->wake.notify_all();
+    for (std::thread& thread : state_->threads) thread.join();
+}
+
+unsigned Workers::threads() const {
+    return static_cast<unsigned>(state_->threads.size()) + 1;
+}
+
+void Workers::run(std::size_t count, std::size_t grain, Call call, void* context) {
+    require(grain > 0, "a chunk needs at least one index");
+    if (count == 0) return;
+    State& state = *state_;
+    if (state.threads.empty() || count <= grain) {
+        for (std::size_t begin = 0; begin < count; begin += grain)
+            call(context, begin, std::min(count, begin + grain));
+        return;
+    }
+    {
+        const std::lock_guard lock(state.mutex);
+        require(state.busy == 0, "parallel loops do not nest");
+        state.call = call;
+        state.context = context;
+        state.count = count;
+        state.grain = grain;
+        state.next_chunk.store(0, std::memory_order_relaxed);
+        state.busy = static_cast<unsigned>(state.threads.size());
+        state.failure = nullptr;
+        ++state.job;
+    }
+    state.wake.notify_all();
+    state.work_through();
+    std::unique_lock lock(state.mutex);
+    state.finished.wait(lock, [&] { return state.busy == 0; });
+    if (state.failure) std::rethrow_exception(std::exchange(state.failure, nullptr));
+}
+
+} // namespace knead

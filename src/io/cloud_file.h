@@ -1,0 +1,42 @@
+#pragma once
+// Point clouds from and to files, whatever the format. The format is told by the file's content first and by
+// its extension second; the table is in cloud_file.cpp, and each format has a file of its own.
+
+#include "base/progress.h"
+#include "cloud/point_cloud.h"
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace knead {
+
+// Reads a cloud with every attribute. Throws Error (input) that names the file, the place in it, and the
+// cure.
+PointCloud read_cloud(const std::filesystem::path& path, Progress& progress);
+
+// The shape to save, in the order of the file; the spans are only read during the call.
+struct PosedShape {
+    std::span<const float> positions; // 3n, relative to cloud.origin, as cloud.positions; empty: as they were
+    std::span<const float> normals;   // 3n, as read_normals() gives them; empty: as they were
+};
+
+// Writes the cloud in a posed shape: same points, order, attributes, types and encoding. A coordinate is
+// saved as the file's own value plus the displacement, posed - rest in double, rounded once to the column's
+// type; one that did not move keeps its bytes (its very text in a text file), and so does a normal that did
+// not turn. Everything else of a file that the cloud was read from stays as it was, byte for byte. A cloud
+// without an image is written as a new file: binary_little_endian PLY. The target is replaced whole or not at
+// all. Throws Error (output) when it cannot be written, when its extension names a format that knead does not
+// write, or when a coordinate no longer fits its column's type; Cancelled when told so.
+void write_cloud(const std::filesystem::path& path, const PointCloud& cloud, const PosedShape& shape,
+                 Progress& progress);
+
+// The names of the format and the encoding that write_cloud() keeps: those of the file that the cloud was
+// read from ("ply", "ascii"), or of the new file that a cloud without an image becomes.
+struct FileKind {
+    std::string_view format;
+    std::string_view encoding;
+};
+FileKind file_kind(const PointCloud& cloud);
+
+} // namespace knead

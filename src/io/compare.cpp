@@ -1,0 +1,103 @@
+#include "io/compare.h"
+
+#include "base/require.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace knead {
+
+namespace {
+
+bool same(double a, double b) {
+    return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+// The distance of two points, or nothing where they cannot be compared.
+std::optional<double> distance(const Vec3d& a, const Vec3d& b) {
+    if (a.allFinite() && b.allFinite()) return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    if (same(a[0], b[0]) && same(a[1], b[1]) && same(a[2], b[2])) return 0.0;
+    return std::nullopt;
+}
+
+template<typename Position>
+Distances distances(std::size_t points, const Position& position, const PointCloud& other) {
+    require(points == other.size(), "distances are between the same points");
+    Distances result;
+    std::vector<double> all;
+    all.reserve(points);
+    double sum = 0;
+    for (std::size_t i = 0; i < points; ++i) {
+        const auto d = distance(position(i), other.file_position(i));
+        if (!d) continue;
+        all.push_back(*d);
+        sum += *d * *d;
+        if (*d > result.largest) {
+            result.largest = *d;
+            result.largest_index = i;
+        }
+    }
+    result.compared = all.size();
+    result.incomparable = points - all.size();
+    if (all.empty()) return result;
+    result.rms = std::sqrt(sum / static_cast<double>(all.size()));
+    // The nearest rank: the smallest distance that at least 95 % do not exceed.
+    const std::size_t rank = (95 * all.size() + 99) / 100 - 1;
+    const auto at = all.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(all.begin(), at, all.end());
+    result.p95 = *at;
+    return result;
+}
+
+bool is_coordinate(const PointCloud& cloud, std::size_t column) {
+    const auto& columns = cloud.coordinate_columns;
+    return std::find(columns.begin(), columns.end(), column) != columns.end();
+}
+
+bool are_equal(const Attribute& a, const Attribute& b) {
+    return a.type == b.type && a.is_list() == b.is_list() && a.first == b.first && a.values == b.values &&
+           (!a.is_list() || a.count_type == b.count_type);
+}
+
+} // namespace
+
+Distances distances_between(const PointCloud& a, const PointCloud& b) {
+    return distances(
+        a.size(), [&](std::size_t i) { return a.file_position(i); }, b);
+}
+
+Distances distances_between(const PointCloud& cloud, std::span<const float> positions,
+                            const PointCloud& other) {
+    require(positions.size() == cloud.positions.size(), "a pose has a position for each point");
+    const auto posed = [&](std::size_t i) {
+        Vec3d p = cloud.file_position(i);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double now = positions[3 * i + axis];
+            const double rest = cloud.positions[3 * i + axis];
+            // What is not finite at rest keeps its own value, as it does when it is saved.
+            if (std::isfinite(rest)) p[static_cast<Eigen::Index>(axis)] += now - rest;
+        }
+        return p;
+    };
+    return distances(cloud.size(), posed, other);
+}
+
+AttributeDifferences attribute_differences(const PointCloud& a, const PointCloud& b) {
+    AttributeDifferences differences;
+    for (std::size_t column = 0; column < a.attributes.size(); ++column) {
+        if (is_coordinate(a, column)) continue;
+        const Attribute& own = a.attributes[column];
+        const auto other = find_attribute(b, own.name);
+        if (!other)
+            differences.only_in_a.push_back(own.name);
+        else if (!are_equal(own, b.attributes[*other]))
+            differences.differ.push_back(own.name);
+    }
+    for (std::size_t column = 0; column < b.attributes.size(); ++column)
+        if (!is_coordinate(b, column) && !find_attribute(a, b.attributes[column].name))
+            differences.only_in_b.push_back(b.attributes[column].name);
+    return differences;
+}
+
+} // namespace knead

@@ -1,0 +1,212 @@
+#include "io/ply_header.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace knead {
+
+namespace {
+
+struct TypeNames {
+    ScalarType type;
+    std::string_view classic;
+    std::string_view sized;
+};
+
+constexpr std::array<TypeNames, 8> type_names = {{
+    {ScalarType::int8, "char", "int8"},
+    {ScalarType::uint8, "uchar", "uint8"},
+    {ScalarType::int16, "short", "int16"},
+    {ScalarType::uint16, "ushort", "uint16"},
+    {ScalarType::int32, "int", "int32"},
+    {ScalarType::uint32, "uint", "uint32"},
+    {ScalarType::float32, "float", "float32"},
+    {ScalarType::float64, "double", "float64"},
+}};
+
+using Words = std::vector<std::string_view>;
+
+Words split(std::string_view line) {
+    constexpr std::string_view blanks = " \t\r\v\f";
+    Words words;
+    for (std::size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;) {
+        const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
+        words.push_back(line.substr(at, end - at));
+        at = line.find_first_not_of(blanks, end);
+    }
+    return words;
+}
+
+// Cuts the header into lines and knows where it is.
+class HeaderLines {
+public:
+    HeaderLines(std::string_view text, std::string shown) : text_(text), shown_(std::move(shown)) {
+        // The first line tells how lines end. A lone \r must not swallow a first body byte that happens to
+        // be \n.
+        const std::size_t end = text.find_first_of("\r\n");
+        const bool lone_return =
+            end != std::string_view::npos && text[end] == '\r' && text.substr(end + 1, 1) != "\n";
+        ending_ = lone_return ? '\r' : '\n';
+    }
+
+    // The next line's words; nothing at the end of the file.
+    std::optional<Words> next() {
+        if (at_ >= text_.size()) return std::nullopt;
+        const std::size_t end = std::min(text_.find(ending_, at_), text_.size());
+        const std::string_view line = text_.substr(at_, end - at_);
+        at_ = std::min(end + 1, text_.size());
+        ++line_;
+        return split(line);
+    }
+
+    std::size_t at() const { return at_; }
+    std::size_t line() const { return line_; }
+
+    [[noreturn]] void fail(const std::string& words) const {
+        throw Error(Trouble::input, shown_ + ":" + std::to_string(line_), words);
+    }
+
+private:
+    std::string_view text_;
+    std::string shown_;
+    char ending_ = '\n';
+    std::size_t at_ = 0;
+    std::size_t line_ = 0;
+};
+
+void parse_format(const Words& words, const HeaderLines& lines, bool& seen, PlyHeader& header) {
+    if (seen) lines.fail("a second format line; keep only one");
+    if (!header.elements.empty()) lines.fail("the format line must come before the first element");
+    if (words.size() != 3)
+        lines.fail("a format line is 'format ENCODING 1.0', three words; this one has " +
+                   std::to_string(words.size()));
+    for (const auto encoding :
+         {PlyEncoding::ascii, PlyEncoding::binary_little_endian, PlyEncoding::binary_big_endian}) {
+        if (words[1] != name_of(encoding)) continue;
+        if (words[2] != "1.0") lines.fail("PLY version " + quoted(words[2]) + "; knead reads version 1.0");
+        header.encoding = encoding;
+        seen = true;
+        return;
+    }
+    lines.fail("unknown encoding " + quoted(words[1]) +
+               "; PLY has ascii, binary_little_endian and binary_big_endian");
+}
+
+void parse_element(const Words& words, const HeaderLines& lines, PlyHeader& header) {
+    if (words.size() != 3)
+        lines.fail("an element line is 'element NAME COUNT', three words; this one has " +
+                   std::to_string(words.size()));
+    PlyElement element{std::string(words[1]), 0, {}, lines.line()};
+    const char* const end = words[2].data() + words[2].size();
+    const auto [stopped, trouble] = std::from_chars(words[2].data(), end, element.count);
+    if (trouble == std::errc::result_out_of_range)
+        lines.fail("the count " + quoted(words[2]) + " is larger than any file; correct the header");
+    if (trouble != std::errc{} || stopped != end)
+        lines.fail("the count " + quoted(words[2]) +
+                   " is not a whole number of at least 0; correct the header");
+    const bool again = std::any_of(header.elements.begin(), header.elements.end(),
+                                   [&](const PlyElement& other) { return other.name == element.name; });
+    if (again && element.name == "vertex")
+        lines.fail("a second element vertex; knead reads one cloud a file");
+    header.elements.push_back(std::move(element));
+}
+
+ScalarType parse_type(std::string_view word, const HeaderLines& lines) {
+    const auto type = ply_type(word);
+    if (!type)
+        lines.fail("unknown type " + quoted(word) +
+                   "; PLY has char, uchar, short, ushort, int, uint, float and double (int8 … float64)");
+    return *type;
+}
+
+void parse_property(const Words& words, const HeaderLines& lines, PlyHeader& header) {
+    if (header.elements.empty()) lines.fail("a property before any element; an element line must come first");
+    const bool is_list = words.size() > 1 && words[1] == "list";
+    if (words.size() != (is_list ? 5U : 3U))
+        lines.fail(
+            "a property line is 'property TYPE NAME' or 'property list TYPE TYPE NAME'; this one has " +
+            std::to_string(words.size()) + " words");
+    PlyProperty property;
+    property.name = words.back();
+    property.is_list = is_list;
+    property.type = parse_type(words[words.size() - 2], lines);
+    if (is_list) {
+        property.count_type = parse_type(words[2], lines);
+        if (property.count_type == ScalarType::float32 || property.count_type == ScalarType::float64)
+            lines.fail("a list's length cannot be of type " + quoted(words[2]) +
+                       "; it must be a whole number");
+    }
+    PlyElement& element = header.elements.back();
+    for (const PlyProperty& other : element.properties)
+        if (other.name == property.name)
+            lines.fail("element " + quoted(element.name) + " has two properties " + quoted(property.name) +
+                       "; rename one of them");
+    element.properties.push_back(std::move(property));
+}
+
+} // namespace
+
+std::string_view name_of(PlyEncoding encoding) {
+    switch (encoding) {
+    case PlyEncoding::ascii:
+        return "ascii";
+    case PlyEncoding::binary_little_endian:
+        return "binary_little_endian";
+    case PlyEncoding::binary_big_endian:
+        return "binary_big_endian";
+    }
+    return "";
+}
+
+bool PlyElement::has_lists() const {
+    return std::any_of(properties.begin(), properties.end(), [](const PlyProperty& p) { return p.is_list; });
+}
+
+std::optional<ScalarType> ply_type(std::string_view name) {
+    for (const TypeNames& names : type_names)
+        if (name == names.classic || name == names.sized) return names.type;
+    return std::nullopt;
+}
+
+std::string_view ply_name_of(ScalarType type) {
+    return type_names[static_cast<std::size_t>(type)].classic;
+}
+
+std::string quoted(std::string_view text) {
+    constexpr std::size_t longest = 40;
+    std::string shown = "'";
+    for (const char letter : text.substr(0, longest)) shown += letter >= ' ' && letter <= '~' ? letter : '?';
+    return shown + (text.size() > longest ? "…'" : "'");
+}
+
+PlyHeader parse_ply_header(std::span<const std::byte> bytes, const std::string& shown) {
+    HeaderLines lines({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, shown);
+    PlyHeader header;
+    bool format_seen = false;
+    if (lines.next() != Words{"ply"}) lines.fail("the first line of a PLY file is 'ply' alone");
+    while (const auto words = lines.next()) {
+        if (words->empty()) continue;
+        const std::string_view keyword = words->front();
+        if (keyword == "comment" || keyword == "obj_info") continue;
+        if (keyword == "format") {
+            parse_format(*words, lines, format_seen, header);
+        } else if (keyword == "element") {
+            parse_element(*words, lines, header);
+        } else if (keyword == "property") {
+            parse_property(*words, lines, header);
+        } else if (keyword == "end_header" && words->size() == 1) {
+            if (!format_seen) lines.fail("the header has no format line, so its encoding is unknown");
+            header.body = lines.at();
+            return header;
+        } else {
+            lines.fail("unknown header line " + quoted(keyword) +
+                       "; a PLY header has format, comment, obj_info, element, property and end_header");
+        }
+    }
+    lines.fail("the header has no end_header line: the file is cut off; get it again from its source");
+}
+
+} // namespace knead

@@ -1,0 +1,92 @@
+#include "io/posed_values.h"
+
+#include "base/error.h"
+#include "base/require.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace knead {
+
+namespace {
+
+template<typename Integer>
+std::optional<double> rounded_to_integer(double value) {
+    const double whole = std::nearbyint(value);
+    // The comparison is written so that it fails for NaN.
+    const bool fits = whole >= static_cast<double>(std::numeric_limits<Integer>::min()) &&
+                      whole <= static_cast<double>(std::numeric_limits<Integer>::max());
+    return fits ? std::optional(whole) : std::nullopt;
+}
+
+// The nearest value that the type holds; nothing where it holds none.
+std::optional<double> rounded_to(ScalarType type, double value) {
+    switch (type) {
+    case ScalarType::int8:
+        return rounded_to_integer<std::int8_t>(value);
+    case ScalarType::uint8:
+        return rounded_to_integer<std::uint8_t>(value);
+    case ScalarType::int16:
+        return rounded_to_integer<std::int16_t>(value);
+    case ScalarType::uint16:
+        return rounded_to_integer<std::uint16_t>(value);
+    case ScalarType::int32:
+        return rounded_to_integer<std::int32_t>(value);
+    case ScalarType::uint32:
+        return rounded_to_integer<std::uint32_t>(value);
+    case ScalarType::float32:
+        value = static_cast<double>(static_cast<float>(value));
+        break;
+    case ScalarType::float64:
+        break;
+    }
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+} // namespace
+
+std::vector<PosedColumn> posed_columns(const PointCloud& cloud, const PosedShape& shape) {
+    std::vector<PosedColumn> columns;
+    const auto add = [&](std::size_t column, const float* rest, const float* posed) {
+        columns.push_back({column, &cloud.attributes[column], rest, posed});
+    };
+    if (!shape.positions.empty()) {
+        require(shape.positions.size() == cloud.positions.size(), "a pose has a position for each point");
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            add(cloud.coordinate_columns[axis], cloud.positions.data() + axis, shape.positions.data() + axis);
+    }
+    const auto normals = find_normals(cloud);
+    if (!shape.normals.empty() && normals) {
+        require(shape.normals.size() == cloud.positions.size(), "a pose has a normal for each point");
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            add((*normals)[axis], nullptr, shape.normals.data() + axis);
+    }
+    std::sort(columns.begin(), columns.end(),
+              [](const PosedColumn& a, const PosedColumn& b) { return a.column < b.column; });
+    return columns;
+}
+
+std::optional<double> posed_value(const PosedColumn& column, std::size_t i, const std::string& shown) {
+    const float posed = column.posed[3 * i];
+    const double own = value_at(*column.attribute, i);
+    if (column.rest == nullptr) {
+        // A normal with no direction stays as it was: normals are turned, never invented.
+        if (!std::isfinite(posed) || posed == static_cast<float>(own)) return std::nullopt;
+        return static_cast<double>(posed);
+    }
+    const float rest = column.rest[3 * i];
+    if (posed == rest || !std::isfinite(rest)) return std::nullopt;
+    const double value = own + (static_cast<double>(posed) - static_cast<double>(rest));
+    const auto rounded = rounded_to(column.attribute->type, value);
+    if (!rounded)
+        throw Error(Trouble::output, shown,
+                    "point " + std::to_string(i) + " moves to " + column.attribute->name + " = " +
+                        std::to_string(value) + ", which the file's type " +
+                        std::string(name_of(column.attribute->type)) +
+                        " cannot hold; move it less, or convert the cloud's coordinates to float first");
+    if (*rounded == own) return std::nullopt;
+    return rounded;
+}
+
+} // namespace knead

@@ -1,0 +1,71 @@
+#pragma once
+// Scalars as they lie in binary files: copied, counted and stored with or without turning their bytes round.
+
+#include "cloud/point_cloud.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace knead {
+
+// Copies one scalar of `size` bytes, turned round if `swap`.
+inline void copy_scalar(const std::byte* from, std::size_t size, bool swap, std::byte* to) {
+    if (swap)
+        std::reverse_copy(from, from + size, to);
+    else
+        std::memcpy(to, from, size);
+}
+
+// One scalar of an integer type; `swap` says that it lies in the other byte order.
+inline std::int64_t load_integer(const std::byte* from, ScalarType type, bool swap) {
+    std::array<std::byte, 8> native{};
+    copy_scalar(from, size_of(type), swap, native.data());
+    const auto as = [&]<typename T>(T value) {
+        std::memcpy(&value, native.data(), sizeof value);
+        return static_cast<std::int64_t>(value);
+    };
+    switch (type) {
+    case ScalarType::int8:
+        return as(std::int8_t{});
+    case ScalarType::uint8:
+        return as(std::uint8_t{});
+    case ScalarType::int16:
+        return as(std::int16_t{});
+    case ScalarType::uint16:
+        return as(std::uint16_t{});
+    case ScalarType::int32:
+        return as(std::int32_t{});
+    case ScalarType::uint32:
+        return as(std::uint32_t{});
+    case ScalarType::float32:
+    case ScalarType::float64:
+        break;
+    }
+    return -1;
+}
+
+// Stores a value that the type holds exactly, in native byte order.
+inline void store_scalar(double value, ScalarType type, std::byte* to) {
+    const auto put = [to](auto typed) { std::memcpy(to, &typed, sizeof typed); };
+    switch (type) {
+    case ScalarType::int8:
+        return put(static_cast<std::int8_t>(value));
+    case ScalarType::uint8:
+        return put(static_cast<std::uint8_t>(value));
+    case ScalarType::int16:
+        return put(static_cast<std::int16_t>(value));
+    case ScalarType::uint16:
+        return put(static_cast<std::uint16_t>(value));
+    case ScalarType::int32:
+        return put(static_cast<std::int32_t>(value));
+    case ScalarType::uint32:
+        return put(static_cast<std::uint32_t>(value));
+    case ScalarType::float32:
+        return put(static_cast<float>(value));
+    case ScalarType::float64:
+        return put(value);
+    }
+}
+
+} // namespace knead

@@ -1,0 +1,83 @@
+#include "io/compare.h"
+#include "io/ply_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace knead::test {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+TEST(Compare, of_a_cloud_with_itself_is_zero) {
+    const PointCloud cloud = make_cloud(std::vector<float>{1, 2, 3, nan, 5, 6, 7, 8, 9});
+    const Distances distances = distances_between(cloud, cloud);
+    EXPECT_EQ(distances.largest, 0);
+    EXPECT_EQ(distances.rms, 0);
+    EXPECT_EQ(distances.compared, 3U);
+    EXPECT_EQ(distances.incomparable, 0U);
+    EXPECT_TRUE(attribute_differences(cloud, cloud).none());
+}
+
+TEST(Compare, measures_in_the_files_coordinates) {
+    std::vector<float> positions(3 * 100, 5.0F);
+    const PointCloud a = make_cloud(positions);
+    positions[3 * 17] += 3;
+    positions[3 * 17 + 1] += 4;
+    for (std::size_t i = 90; i < 94; ++i) positions[3 * i + 2] += 1;
+    const PointCloud b = make_cloud(positions);
+    const Distances distances = distances_between(a, b);
+    EXPECT_EQ(distances.largest, 5);
+    EXPECT_EQ(distances.largest_index, 17U);
+    EXPECT_EQ(distances.p95, 0) << "95 points of 100 are at distance 0";
+    EXPECT_DOUBLE_EQ(distances.rms, std::sqrt(29.0 / 100));
+    positions[3 * 94] += 2;
+    EXPECT_EQ(distances_between(a, make_cloud(positions)).p95, 1);
+}
+
+TEST(Compare, counts_points_that_are_finite_in_one_cloud_only) {
+    const PointCloud a = make_cloud(std::vector<float>{1, 2, 3, nan, 5, 6, nan, 1, 1});
+    const PointCloud b = make_cloud(std::vector<float>{nan, 2, 3, nan, 5, 6, nan, 2, 1});
+    const Distances distances = distances_between(a, b);
+    EXPECT_EQ(distances.incomparable, 2U);
+    EXPECT_EQ(distances.compared, 1U);
+    EXPECT_EQ(distances.largest, 0);
+}
+
+TEST(Compare, of_no_points_is_zero) {
+    const PointCloud cloud = make_cloud({});
+    EXPECT_EQ(distances_between(cloud, cloud).compared, 0U);
+}
+
+TEST(Compare, of_a_pose_agrees_with_its_saved_file) {
+    const PointCloud cloud = read_bytes(sample({}));
+    std::vector<float> posed = cloud.positions;
+    posed[4] += 2.5F;
+    const PointCloud saved = read_bytes(written(cloud, {posed, {}}));
+    EXPECT_EQ(distances_between(cloud, posed, saved).largest, 0);
+    EXPECT_EQ(distances_between(cloud, cloud.positions, saved).largest, 2.5);
+    EXPECT_EQ(distances_between(cloud, cloud.positions, saved).largest_index, 1U);
+}
+
+TEST(Compare, names_attributes_that_differ) {
+    const std::vector<float> point{1, 2, 3};
+    PointCloud a = make_cloud(point);
+    PointCloud b = make_cloud(point);
+    add_attribute(a, "same", point);
+    add_attribute(b, "other", point);
+    add_attribute(b, "same", point);
+    add_attribute(a, "type", std::vector<float>{1});
+    add_attribute(b, "type", std::vector<std::uint8_t>{1});
+    add_attribute(a, "value", std::vector<std::uint8_t>{1});
+    add_attribute(b, "value", std::vector<std::uint8_t>{2});
+    add_attribute(a, "mine", point);
+    const AttributeDifferences differences = attribute_differences(a, b);
+    EXPECT_EQ(differences.differ, (std::vector<std::string>{"type", "value"}));
+    EXPECT_EQ(differences.only_in_a, std::vector<std::string>{"mine"});
+    EXPECT_EQ(differences.only_in_b, std::vector<std::string>{"other"});
+}
+
+} // namespace
+} // namespace knead::test

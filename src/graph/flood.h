@@ -1,0 +1,69 @@
+#pragma once
+// The nearest samples of every vertex along the surface.
+//
+// The paper's Algorithm 1 searches the graph from every point until it has met K samples. Here all samples
+// flood the graph together, level by level, and a vertex keeps the first K different samples that reach it:
+// the same sets at O(n K k) instead of O(n r) for searches of r vertices. It is enough that a vertex passes
+// on what it keeps: if s is among the K first at p, it is among the K first at the vertex before p on a
+// shortest way from s, because whatever beats it there beats it at p too.
+//
+// A link is 1 to 63 levels long. With all of them 1, distance is the number of links, as in the paper. knead
+// measures them by their length (link_lengths()): the number of links follows the lattice that a scanner left
+// rather than the surface, and on the survey's cylinder it tore the tube apart between rings. Equal distances
+// go by sample number, so samples should be numbered in no particular direction (shuffled()).
+
+#include "base/progress.h"
+#include "base/workers.h"
+#include "graph/csr.h"
+#include "graph/influences.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace knead {
+
+// How long each link is, in levels: its length over an eighth of the median, rounded, 1 … 63; one entry for
+// every entry of graph.neighbor. `positions`: 3 floats a vertex.
+std::vector<std::uint8_t> link_lengths(const Graph& graph, std::span<const float> positions,
+                                       Workers& workers);
+
+// The same vertices in an order that depends on nothing but their numbers and follows no direction.
+std::vector<Index> shuffled(std::vector<Index> vertices);
+
+// Up to K = influences_per_row samples a vertex, by (distance, sample number), tightly packed rows of K
+// places. A vertex whose component has fewer samples has a shorter list, and none in a component without
+// samples.
+struct FloodLists {
+    std::size_t width = influences_per_row; // K
+    std::vector<Index> sample;              // numbers of samples; no_index in empty places
+    std::vector<std::uint32_t> distance;    // in levels
+    std::vector<std::uint8_t> count;        // of each vertex
+
+    std::size_t vertices() const { return count.size(); }
+};
+
+// Floods the graph from `samples`, which are different vertices; sample s is the one at samples[s].
+// `lengths`: one entry for every entry of graph.neighbor, 1 … 63, the same in both directions. `width` K: 1 …
+// influences_per_row.
+FloodLists flood(const Graph& graph, std::span<const std::uint8_t> lengths, std::span<const Index> samples,
+                 std::size_t width, Workers& workers, Progress& progress);
+
+// What add_samples() changed: whole rows as they were before, each vertex once, in no particular order.
+struct FloodPatch {
+    struct Row {
+        Index vertex;
+        std::uint8_t count;
+        Index sample[influences_per_row];
+        std::uint32_t distance[influences_per_row];
+    };
+    std::vector<Row> rows;
+};
+
+// Adds the samples number first_new, first_new + 1, … at the vertices `added`, which hold no sample yet, as
+// if they had been in the flood from the start; only what they reach is flooded. revert() takes it back.
+FloodPatch add_samples(FloodLists& lists, const Graph& graph, std::span<const std::uint8_t> lengths,
+                       std::span<const Index> added, Index first_new, Workers& workers, Progress& progress);
+void revert(FloodLists& lists, const FloodPatch& patch);
+
+} // namespace knead

@@ -1,0 +1,53 @@
+#include "graph/local_frames.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace knead {
+
+namespace {
+
+Vec3d position_of(std::span<const float> positions, std::size_t v) {
+    return Eigen::Map<const Vec3f>(positions.data() + 3 * v).cast<double>();
+}
+
+Quatd frame_at(const Graph& graph, std::span<const float> positions, std::size_t v) {
+    const auto row = graph.row(v);
+    if (row.empty()) return Quatd::Identity();
+    Vec3d mean = position_of(positions, v);
+    for (const Index u : row) mean += position_of(positions, u);
+    mean /= static_cast<double>(row.size() + 1);
+    Mat3d spread = Mat3d::Zero();
+    const auto add = [&](std::size_t u) {
+        const Vec3d away = position_of(positions, u) - mean;
+        spread.noalias() += away * away.transpose();
+    };
+    add(v);
+    for (const Index u : row) add(u);
+
+    const Eigen::SelfAdjointEigenSolver<Mat3d> solver(spread); // smallest first
+    Mat3d axes;
+    axes.col(0) = solver.eigenvectors().col(2);
+    axes.col(1) = solver.eigenvectors().col(1);
+    axes.col(2) = axes.col(0).cross(axes.col(1)); // right-handed, whatever the signs
+    return Quatd(axes).normalized();
+}
+
+} // namespace
+
+std::vector<Quatd> local_frames(const Graph& graph, std::span<const float> positions, Workers& workers) {
+    std::vector<Quatd> frames(graph.size());
+    workers.for_each(graph.size(), 1024, [&](std::size_t v) { frames[v] = frame_at(graph, positions, v); });
+    return frames;
+}
+
+std::vector<float> frame_normals(std::span<const Quatd> frames) {
+    std::vector<float> normals(3 * frames.size());
+    for (std::size_t v = 0; v < frames.size(); ++v) {
+        const Vec3d normal = frames[v] * Vec3d::UnitZ();
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            normals[3 * v + axis] = static_cast<float>(normal[static_cast<Eigen::Index>(axis)]);
+    }
+    return normals;
+}
+
+} // namespace knead

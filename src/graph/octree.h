@@ -1,0 +1,21 @@
+#pragma once
+// Samples by an octree over the point set.
+
+#include "base/types.h"
+
+#include <span>
+#include <vector>
+
+namespace knead {
+
+// `count` of the vertices, evenly spread by number: cells of an octree are halved, always the one that holds
+// most vertices (a cell is halved along x, then y, then z, so three halvings are one step of an octree),
+// until there are `count` of them; each gives the vertex nearest to the mean position of its own. Denser
+// regions get more samples.
+//
+// `code`: all vertices' Morton codes, ascending; `positions`: 3 floats a vertex; `among`: the vertices to
+// choose from, ascending. Returns vertices, ascending; all of `among` if there are no more than `count`.
+std::vector<Index> octree_samples(std::span<const std::uint64_t> code, std::span<const float> positions,
+                                  std::span<const Index> among, std::size_t count);
+
+} // namespace knead

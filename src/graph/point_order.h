@@ -1,0 +1,44 @@
+#pragma once
+// The order in which points are computed with, and which of them are one vertex of the graph.
+//
+// Points are ordered along the Morton curve: neighbours in space are neighbours in memory, which makes every
+// later stage two to three times faster, and a cell of an octree is a range. Points at exactly the same
+// position follow each other and share a graph vertex, or they would fill each other's lists of neighbours.
+
+#include "base/progress.h"
+#include "base/types.h"
+#include "base/workers.h"
+
+#include <span>
+#include <vector>
+
+namespace knead {
+
+struct PointOrder {
+    std::vector<Index>
+        file_index; // of each ordered point; points with a coordinate that is not finite are left out
+    std::vector<Index> vertex; // of each ordered point, ascending
+    std::vector<Index>
+        first_point; // of each vertex: its first ordered point, that of the lowest file index; and the end
+    std::vector<std::uint64_t> code; // of each vertex: its Morton code, 21 bits an axis, ascending
+
+    std::size_t points() const { return file_index.size(); }
+    std::size_t vertices() const { return code.size(); }
+};
+
+// `positions`: 3n floats in the order of the file. The order depends on the positions alone; ties go by
+// coordinates, then by file index.
+PointOrder order_points(std::span<const float> positions, Workers& workers, Progress& progress);
+
+// Values of the points in the order of the file (`width` floats a point) in the order of computation, and
+// back. `scatter` leaves the values of points that the order leaves out as they are.
+void gather(const PointOrder& order, std::span<const float> file_values, std::size_t width,
+            std::span<float> ordered, Workers& workers);
+void scatter(const PointOrder& order, std::span<const float> ordered, std::size_t width,
+             std::span<float> file_values, Workers& workers);
+
+// Each vertex's position: 3 floats a vertex, from 3 floats an ordered point.
+std::vector<float> vertex_positions(const PointOrder& order, std::span<const float> ordered_positions,
+                                    Workers& workers);
+
+} // namespace knead

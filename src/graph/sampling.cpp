@@ -1,0 +1,132 @@
+#include "graph/sampling.h"
+
+#include "graph/octree.h"
+#include "graph/symmetric_graph.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace knead {
+
+namespace {
+
+// Vertices by label, ascending within each.
+using ByLabel = std::map<Index, std::vector<Index>>;
+
+bool touches_free(const Graph& graph, std::span<const Index> label, Index v) {
+    return std::ranges::any_of(graph.row(v), [&](Index u) { return label[u] == no_index; });
+}
+
+ByLabel borders(const Graph& graph, std::span<const Index> label, const std::vector<bool>& taken) {
+    ByLabel border;
+    for (Index v = 0; v < label.size(); ++v)
+        if (label[v] != no_index && !taken[v] && touches_free(graph, label, v)) border[label[v]].push_back(v);
+    return border;
+}
+
+// Adds a sample wherever a label has none in a component that it reaches into.
+void give_each_one(const VertexShape& shape, std::span<const Index> label, std::vector<bool>& taken,
+                   std::vector<Index>& added) {
+    std::map<std::pair<Index, Index>, std::vector<Index>> parts;
+    for (Index v = 0; v < label.size(); ++v)
+        if (label[v] != no_index) parts[{label[v], shape.components.component[v]}].push_back(v);
+    for (const auto& [part, vertices] : parts) {
+        if (std::ranges::any_of(vertices, [&](Index v) { return taken[v]; })) continue;
+        const Index chosen = octree_samples(shape.code, shape.positions, vertices, 1).front();
+        taken[chosen] = true;
+        added.push_back(chosen);
+    }
+}
+
+// The pairs of samples whose territories touch, once for every link of the point graph between them, sorted.
+std::vector<std::pair<Index, Index>> touching(const FloodLists& lists, const Graph& points) {
+    std::vector<std::pair<Index, Index>> pairs;
+    for (Index p = 0; p < points.size(); ++p) {
+        if (lists.count[p] == 0) continue;
+        const Index a = lists.sample[p * lists.width];
+        for (const Index q : points.row(p)) {
+            if (q > p) break; // rows ascend, and the link is met again from its other end
+            const Index b = lists.sample[q * lists.width];
+            if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
+        }
+    }
+    std::ranges::sort(pairs);
+    return pairs;
+}
+
+} // namespace
+
+std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
+                           std::span<const std::uint8_t> lengths, std::span<const float> positions,
+                           int rounds, Workers& workers, Progress& progress) {
+    const auto position = [&](std::size_t v) {
+        return Eigen::Map<const Vec3f>(positions.data() + 3 * v).cast<double>();
+    };
+    for (int round = 0; round < rounds; ++round) {
+        const FloodLists nearest = flood(graph, lengths, samples, 1, workers, progress);
+        std::vector<Vec3d> mean(samples.size(), Vec3d::Zero());
+        std::vector<double> count(samples.size(), 0);
+        for (std::size_t v = 0; v < graph.size(); ++v) {
+            if (nearest.count[v] == 0) continue;
+            mean[nearest.sample[v]] += position(v);
+            count[nearest.sample[v]] += 1;
+        }
+        for (std::size_t s = 0; s < samples.size(); ++s) mean[s] /= count[s];
+        std::vector<double> smallest(samples.size(), std::numeric_limits<double>::infinity());
+        for (std::size_t v = 0; v < graph.size(); ++v) {
+            if (nearest.count[v] == 0) continue;
+            const Index s = nearest.sample[v];
+            const double squared = (position(v) - mean[s]).squaredNorm();
+            if (squared >= smallest[s]) continue;
+            smallest[s] = squared;
+            samples[s] = static_cast<Index>(v);
+        }
+    }
+    return samples;
+}
+
+std::vector<Index> handle_samples(const VertexShape& shape, std::span<const Index> label,
+                                  std::span<const Index> base, std::size_t budget) {
+    std::vector<bool> taken(label.size(), false);
+    for (const Index v : base) taken[v] = true;
+    std::vector<Index> added;
+    const ByLabel border = borders(shape.graph, label, taken);
+    for (const auto& [handle, vertices] : border) {
+        for (const Index v : octree_samples(shape.code, shape.positions, vertices, budget / border.size())) {
+            taken[v] = true;
+            added.push_back(v);
+        }
+    }
+    give_each_one(shape, label, taken, added);
+    return added;
+}
+
+SampleGraph sample_graph(const FloodLists& lists, std::span<const Index> samples, const Graph& points,
+                         Workers& workers) {
+    std::vector<Index> nearest(samples.size() * sample_neighbors, no_index);
+    workers.for_each(samples.size(), 1024, [&](std::size_t s) {
+        const std::size_t at = samples[s] * lists.width;
+        std::size_t kept = 0;
+        for (std::size_t e = 0; e < lists.count[samples[s]] && kept < sample_neighbors; ++e)
+            if (lists.sample[at + e] != s) nearest[s * sample_neighbors + kept++] = lists.sample[at + e];
+    });
+    const std::vector<std::pair<Index, Index>> pairs = touching(lists, points);
+    SampleGraph result;
+    result.graph = with_edges(symmetric_graph(nearest, sample_neighbors, workers), pairs);
+    result.contact.assign(result.graph.neighbor.size(), 0.5F);
+    for (auto pair = pairs.begin(); pair != pairs.end();) {
+        const auto next = std::find_if(pair, pairs.end(), [&](const auto& other) { return other != *pair; });
+        const auto links = static_cast<float>(next - pair);
+        result.contact[*find_link(result.graph, pair->first, pair->second)] = links;
+        result.contact[*find_link(result.graph, pair->second, pair->first)] = links;
+        pair = next;
+    }
+    return result;
+}
+
+SampleGraph sample_graph_of_all(const Graph& points) {
+    return {points, std::vector<float>(points.neighbor.size(), 1.0F)};
+}
+
+} // namespace knead

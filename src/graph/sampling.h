@@ -1,0 +1,59 @@
+#pragma once
+// The samples of a cloud, the graph between them, and which of them move a point.
+
+#include "graph/flood.h"
+#include "graph/neighbors.h"
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace knead {
+
+// What handle_samples() needs to know of the cloud, all a vertex.
+struct VertexShape {
+    std::span<const std::uint64_t> code; // Morton codes, ascending
+    std::span<const float> positions;    // 3 floats a vertex
+    const Graph& graph;
+    const Components& components;
+};
+
+// Moves samples to the middle of what they are nearest to: each round floods the graph from all of them, and
+// each goes to the vertex of its territory that is nearest to the territory's mean position (Lloyd's method
+// along the surface). Cells of an octree are up to twice as long as wide, all the same way, and samples left
+// at their centres would link along rows only. A few rounds leave them evenly spaced in all directions, and
+// still denser where the points are.
+std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
+                           std::span<const std::uint8_t> lengths, std::span<const float> positions,
+                           int rounds, Workers& workers, Progress& progress);
+
+// The samples that a set of handles needs beside the base samples. Labels tell the handles apart: label[v] is
+// the handle of vertex v, or no_index where it is free.
+//   - Up to `budget` in all, shared out evenly between the labels that have a border, are spread along the
+//   borders: the
+//     vertices of a handle that have a free neighbour.
+//   - Every label owns at least one sample in every component that it reaches into, budget or not.
+// Returns vertices that hold no base sample, pairwise different. `base`: vertices, in any order.
+std::vector<Index> handle_samples(const VertexShape& shape, std::span<const Index> label,
+                                  std::span<const Index> base, std::size_t budget);
+
+// The graph between samples, and how long a border the territories of two linked ones share. A sample's
+// territory is the vertices that it is the nearest sample of.
+struct SampleGraph {
+    Graph graph;
+    std::vector<float> contact; // for every entry of graph.neighbor: links of the point graph that cross the
+                                // border; ½ if none
+};
+
+// Links each sample to the `sample_neighbors` nearest others along the surface, and back, and to all whose
+// territories touch its own. The latter never leave a seam between rows of samples, and make the components
+// of the samples those of the points: where the six nearest leave a neck open, the floods still meet.
+// `samples`: the vertex of each sample; `lists`: the flood from them over the graph `points`.
+inline constexpr std::size_t sample_neighbors = 6;
+SampleGraph sample_graph(const FloodLists& lists, std::span<const Index> samples, const Graph& points,
+                         Workers& workers);
+
+// The sample graph where every point is a sample: the graph of the points, every contact 1.
+SampleGraph sample_graph_of_all(const Graph& points);
+
+} // namespace knead

@@ -1,0 +1,92 @@
+#include "graph/symmetric_graph.h"
+
+#include "base/require.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <utility>
+
+namespace knead {
+
+namespace {
+
+constexpr std::size_t grain = 4096;
+
+bool names(std::span<const Index> list, Index vertex) {
+    return std::ranges::find(list, vertex) != list.end();
+}
+
+// Replaces counts by where each row begins; returns the total.
+void counts_to_rows(std::vector<Index>& counts) {
+    std::size_t total = 0;
+    for (Index& entry : counts) {
+        const std::size_t count = entry;
+        entry = static_cast<Index>(total);
+        total += count;
+        require(total < std::numeric_limits<Index>::max(), "a graph has at most 2^32 - 2 links");
+    }
+}
+
+} // namespace
+
+Graph symmetric_graph(std::span<const Index> lists, std::size_t width, Workers& workers) {
+    Graph graph;
+    const std::size_t vertices = width == 0 ? 0 : lists.size() / width;
+    graph.first.assign(vertices + 1, 0);
+    const auto list = [&](std::size_t v) { return lists.subspan(v * width, width); };
+
+    // Calls found(i, j) for every link i → j whose back link the lists lack.
+    const auto for_missing_back_links = [&](auto&& found) {
+        workers.for_each(vertices, grain, [&](std::size_t i) {
+            for (const Index j : list(i))
+                if (j != no_index && !names(list(j), static_cast<Index>(i))) found(static_cast<Index>(i), j);
+        });
+    };
+    workers.for_each(vertices, grain, [&](std::size_t i) {
+        graph.first[i] =
+            static_cast<Index>(width - static_cast<std::size_t>(std::ranges::count(list(i), no_index)));
+    });
+    for_missing_back_links(
+        [&](Index, Index j) { std::atomic_ref(graph.first[j]).fetch_add(1, std::memory_order_relaxed); });
+    counts_to_rows(graph.first);
+
+    graph.neighbor.resize(graph.first.back());
+    std::vector<Index> end(vertices);
+    workers.for_each(vertices, grain, [&](std::size_t i) {
+        Index at = graph.first[i];
+        for (const Index j : list(i))
+            if (j != no_index) graph.neighbor[at++] = j;
+        end[i] = at;
+    });
+    for_missing_back_links([&](Index i, Index j) {
+        graph.neighbor[std::atomic_ref(end[j]).fetch_add(1, std::memory_order_relaxed)] = i;
+    });
+    // Back links arrive in any order; sorted rows make the graph independent of it.
+    workers.for_each(vertices, grain, [&](std::size_t v) {
+        std::sort(graph.neighbor.begin() + graph.first[v], graph.neighbor.begin() + graph.first[v + 1]);
+    });
+    return graph;
+}
+
+Graph with_edges(const Graph& graph, std::span<const std::pair<Index, Index>> edges) {
+    std::vector<std::pair<Index, Index>> links;
+    links.reserve(graph.neighbor.size() + 2 * edges.size());
+    for (std::size_t v = 0; v < graph.size(); ++v)
+        for (const Index u : graph.row(v)) links.emplace_back(static_cast<Index>(v), u);
+    for (const auto& [a, b] : edges) {
+        links.emplace_back(a, b);
+        links.emplace_back(b, a);
+    }
+    std::ranges::sort(links);
+    links.erase(std::ranges::unique(links).begin(), links.end());
+
+    Graph result;
+    result.first.assign(graph.size() + 1, 0);
+    for (const auto& link : links) ++result.first[link.first];
+    counts_to_rows(result.first);
+    for (const auto& link : links) result.neighbor.push_back(link.second);
+    return result;
+}
+
+} // namespace knead

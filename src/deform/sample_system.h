@@ -1,0 +1,90 @@
+#pragma once
+// The deformation of the samples: how their positions and rotations follow the handles.
+//
+// Samples s have rest positions p, displacements u (so they are at x = p + u now) and rotations r (unit
+// quaternions, rest to now); edges (i, j) of the sample graph have rest vectors e_ij = p_j - p_i and weights
+// w_ij. The shape sought makes
+//
+//     E = Σ w_ij |x_j - x_i - R_i e_ij|² + β Σ w_ij |r_j - r_i|²,   β = α s²
+//
+// small: Equation (2) of the paper, and Equation (1), which is a Laplacian of the rotations (DESIGN 2;
+// tests/deform proves it). s is the cloud's size, so that the stiffness does not depend on how many samples
+// there are. One iteration is
+//
+//     1. r*_i = the rotation nearest to Σ_j w_ij (x_j - x_i) e_ijᵀ, of the hemisphere of r_i,
+//     2. (β/ℓ² L + C) r = C r* with the handles' rotations given, normalised; C_i = Σ_j w_ij |e_ij|²/ℓ², ℓ² =
+//     mean |e|²,
+//     3. L x = b with the handles' positions given; b_i = Σ_j w_ij ½(M_i + M_j)(p_i - p_j), M = R, or R S on
+//     a handle,
+//
+// with L the graph's weighted Laplacian. The fixed point of these steps is what knead means by the deformed
+// shape. Both matrices stand as long as the handle set and the rest shape do. Everything is solved for u and
+// r - 1, which are exactly zero where nothing moves.
+
+#include "base/workers.h"
+#include "graph/csr.h"
+#include "solve/sparse_lu.h"
+
+#include <span>
+#include <vector>
+
+namespace knead {
+
+// What a handle does to the points it holds: p → linear p + offset, about the cloud's origin.
+struct HandleMotion {
+    Quatd rotation =
+        Quatd::Identity(); // unit; continues its own hemisphere from frame to frame, so that turns are kept
+    Mat3d linear = Mat3d::Identity(); // the rotation, times the stretch of a scaling handle
+    Vec3d offset = Vec3d::Zero();
+};
+
+// What stays while an edit lasts.
+struct SampleRest {
+    Graph graph;                 // between samples
+    std::vector<double> weight;  // of each link of the graph, the same in both directions, > 0
+    std::vector<Vec3d> position; // p, relative to the cloud's origin
+    std::vector<Index> handle;   // of each sample; no_index where it is free
+    double cloud_size = 1;       // s, in the units of the positions
+    double stiffness = 0.01;     // α
+};
+
+// Where the samples are; also the warm start of the next frame.
+struct SampleState {
+    std::vector<Quatd> rotation;     // r
+    std::vector<Vec3d> displacement; // u
+};
+
+// Both systems, factorised, and the work space of an iteration.
+struct SampleSystem {
+    SampleRest rest;
+    std::vector<Index>
+        unknown; // of each sample: its row in the systems; no_index for handles and left-out ones
+    std::vector<Index> free_sample; // of each row: its sample
+    std::vector<bool> left_out;     // of each sample: whether no handle holds its component
+    double smoothing = 0;           // β/ℓ²
+    std::vector<double> confidence; // C, of each row
+    SparseFactor rotations;         // β/ℓ² L + C
+    SparseFactor positions;         // L
+
+    std::vector<Mat3d> turn;     // M - I, of each sample
+    std::vector<double> columns; // right-hand sides and solutions
+};
+
+// Prepares both systems: one ordering, two factorisations. Samples whose component holds no handle are left
+// out and stay at rest. On a bad outcome the system must not be iterated.
+FactorOutcome build_system(SampleRest rest, SampleSystem& system);
+
+// All samples at rest.
+SampleState rest_state(const SampleSystem& system);
+
+// Starts an edit: rotations from Equation (1) alone (harmonic between the handles), then positions. `handles`
+// holds the motion of every handle that `rest.handle` names.
+void start_edit(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
+                Workers& workers);
+
+// One iteration from where the samples are, towards the handles' present motions. Allocates nothing of its
+// own. Returns the longest way that a sample went.
+double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
+               Workers& workers);
+
+} // namespace knead

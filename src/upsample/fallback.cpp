@@ -1,0 +1,60 @@
+// An upsampler that survives its device.
+
+#include "upsample/devices.h"
+
+#include <utility>
+
+namespace knead {
+
+namespace {
+
+class FallbackUpsampler final : public Upsampler {
+public:
+    FallbackUpsampler(std::unique_ptr<Upsampler> primary, Workers& workers)
+        : workers_(workers), current_(std::move(primary)) {}
+
+    std::string device() const override { return current_->device(); }
+
+    void prepare(const UpsampleInput& input, std::size_t motions) override {
+        input_ = input;
+        motions_ = motions;
+        try {
+            current_->prepare(input, motions);
+        } catch (const DeviceFailure& failure) {
+            replace(failure);
+        }
+    }
+
+    void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override {
+        try {
+            current_->run(motions, positions, normals);
+        } catch (const DeviceFailure& failure) {
+            replace(failure);
+            current_->run(motions, positions, normals);
+        }
+    }
+
+    std::string take_warning() override { return std::exchange(warning_, {}); }
+
+private:
+    void replace(const DeviceFailure& failure) {
+        warning_ = current_->device() + " failed (" + failure.what() +
+                   "); the points are moved in plain C++ from here on, with the same result";
+        current_ = make_reference_upsampler(workers_);
+        current_->prepare(input_, motions_);
+    }
+
+    Workers& workers_;
+    std::unique_ptr<Upsampler> current_;
+    UpsampleInput input_;
+    std::size_t motions_ = 0;
+    std::string warning_;
+};
+
+} // namespace
+
+std::unique_ptr<Upsampler> make_fallback_upsampler(std::unique_ptr<Upsampler> primary, Workers& workers) {
+    return std::make_unique<FallbackUpsampler>(std::move(primary), workers);
+}
+
+} // namespace knead

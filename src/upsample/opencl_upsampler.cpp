@@ -1,0 +1,275 @@
+// The upsampling kernel on an OpenCL device: kernels/upsample.cl, built and fed.
+
+#include "base/require.h"
+#include "upsample/opencl_devices.h"
+#include "upsample/packed_motions.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace knead {
+
+namespace embedded {
+extern const char* const upsample_kernel;
+}
+
+namespace {
+
+constexpr std::size_t points_per_group = 256;
+
+// What exists once a device: opened by the first prepare().
+struct OpenedDevice {
+    DeviceHandle part; // null for the whole device
+    ContextHandle context;
+    ProgramHandle program;
+    KernelHandle move_positions;
+    KernelHandle move_both;
+    QueueHandle queue;
+};
+
+std::string build_log(cl_program program, cl_device_id device) {
+    std::size_t size = 0;
+    if (clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size) != CL_SUCCESS ||
+        size == 0)
+        return "no build log";
+    std::string log(size, '\0');
+    if (clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr) != CL_SUCCESS)
+        return "no build log";
+    log.resize(std::min(log.size(), log.find('\0')));
+    return log;
+}
+
+// Root and quotient are rounded correctly where the device can do so: then it agrees with C++ to the bit.
+std::string build_options(cl_device_id device) {
+    std::string options = "-D K=" + std::to_string(influences_per_row);
+    cl_device_fp_config floats = 0;
+    if (clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof floats, &floats, nullptr) == CL_SUCCESS &&
+        (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0)
+        options += " -cl-fp32-correctly-rounded-divide-sqrt";
+    return options;
+}
+
+ProgramHandle build(cl_context context, cl_device_id device) {
+    cl_int code = CL_SUCCESS;
+    const char* text = embedded::upsample_kernel;
+    ProgramHandle program(clCreateProgramWithSource(context, 1, &text, nullptr, &code));
+    check_opencl(code, "reading the kernel");
+    const std::string options = build_options(device);
+    code = clBuildProgram(program.get(), 1, &device, options.c_str(), nullptr, nullptr);
+    if (code == CL_BUILD_PROGRAM_FAILURE)
+        throw DeviceFailure("the kernel does not compile: " + build_log(program.get(), device));
+    check_opencl(code, "building the kernel");
+    return program;
+}
+
+KernelHandle kernel_named(cl_program program, const char* name) {
+    cl_int code = CL_SUCCESS;
+    KernelHandle kernel(clCreateKernel(program, name, &code));
+    check_opencl(code, "finding the kernel");
+    return kernel;
+}
+
+OpenedDevice open_device(const OpenClDevice& device, unsigned threads) {
+    OpenedDevice opened;
+    opened.part = limited_to(device, threads);
+    cl_device_id id = opened.part ? opened.part.get() : device.id;
+    cl_int code = CL_SUCCESS;
+    opened.context.reset(clCreateContext(nullptr, 1, &id, nullptr, nullptr, &code));
+    check_opencl(code, "opening the device");
+    opened.queue.reset(clCreateCommandQueue(opened.context.get(), id, 0, &code));
+    check_opencl(code, "making a queue");
+    opened.program = build(opened.context.get(), id);
+    opened.move_positions = kernel_named(opened.program.get(), "upsample_positions");
+    opened.move_both = kernel_named(opened.program.get(), "upsample_positions_and_normals");
+    return opened;
+}
+
+BufferHandle make_buffer(cl_context context, cl_mem_flags flags, std::size_t bytes, void* host) {
+    cl_int code = CL_SUCCESS;
+    BufferHandle buffer(clCreateBuffer(context, flags, bytes, host, &code));
+    check_opencl(code, "allocating memory");
+    return buffer;
+}
+
+template<typename... Arguments>
+void set_arguments(cl_kernel kernel, const Arguments&... arguments) {
+    cl_uint place = 0;
+    // A buffer is passed as its handle, a pointer. NOLINTNEXTLINE(bugprone-sizeof-expression)
+    (check_opencl(clSetKernelArg(kernel, place++, sizeof(Arguments), &arguments), "passing an argument"),
+     ...);
+}
+
+// A buffer for one of the results, and the caller's array that it wraps or is read into.
+struct Result {
+    BufferHandle buffer;
+    std::span<float> wrapped;
+};
+
+class OpenClUpsampler final : public Upsampler {
+public:
+    OpenClUpsampler(OpenClDevice device, unsigned threads, DeviceMemory memory)
+        : device_(std::move(device)), threads_(threads),
+          shares_memory_(memory == DeviceMemory::as_the_device_has_it &&
+                         device_.description.type == DeviceType::cpu) {}
+
+    std::string device() const override { return device_.description.name; }
+
+    void prepare(const UpsampleInput& input, std::size_t motions) override {
+        require_valid_input(input, motions);
+        input_ = {};
+        motion_count_ = motions;
+        moved_positions_ = {};
+        moved_normals_ = {};
+        if (!opened_.queue) opened_ = open_device(device_, threads_);
+        if (!input.row.empty()) {
+            positions_ = hand_over(input.positions);
+            normals_ = input.normals.empty() ? nullptr : hand_over(input.normals);
+            row_ = hand_over(input.row);
+            sample_ = hand_over(std::span<const Index>(input.rows->sample));
+            weight_ = hand_over(std::span<const float>(input.rows->weight));
+            make_motions();
+            if (!shares_memory_) make_results(input);
+            launch_once(input);
+        }
+        input_ = input;
+    }
+
+    void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override {
+        require_valid_frame(input_, motion_count_, motions, positions, normals);
+        if (positions.empty()) return;
+        write_motions(motions);
+        if (shares_memory_) {
+            wrap(positions, moved_positions_);
+            if (!normals.empty()) wrap(normals, moved_normals_);
+        }
+        launch(input_.row.size(), input_.row.size(), moved_positions_.buffer.get(),
+               moved_normals_.buffer.get());
+        read(moved_positions_, positions);
+        if (!normals.empty()) read(moved_normals_, normals);
+    }
+
+private:
+    template<typename Value>
+    BufferHandle hand_over(std::span<const Value> values) {
+        const cl_mem_flags how = shares_memory_ ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
+        // OpenCL takes no pointer to const, but only reads what is CL_MEM_READ_ONLY.
+        return make_buffer(opened_.context.get(), CL_MEM_READ_ONLY | how, values.size_bytes(),
+                           const_cast<Value*>(values.data()));
+    }
+
+    void make_motions() {
+        const std::size_t floats = motion_count_ * packed_motion_floats;
+        packed_.assign(shares_memory_ ? 0 : floats, 0.0F);
+        const cl_mem_flags where = shares_memory_ ? CL_MEM_ALLOC_HOST_PTR : 0;
+        motions_ =
+            make_buffer(opened_.context.get(), CL_MEM_READ_ONLY | where, floats * sizeof(float), nullptr);
+    }
+
+    void make_results(const UpsampleInput& input) {
+        moved_positions_.buffer =
+            make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, input.positions.size_bytes(), nullptr);
+        if (!input.normals.empty())
+            moved_normals_.buffer =
+                make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, input.normals.size_bytes(), nullptr);
+    }
+
+    // Compiles what a runtime compiles at the first launch, and makes it start its threads. The grid is that
+    // of a frame, as PoCL compiles small and large grids differently; all but the first items have no point
+    // to move.
+    void launch_once(const UpsampleInput& input) {
+        const std::vector<Motion> unmoved(motion_count_);
+        write_motions(unmoved);
+        const std::size_t points = std::min(input.row.size(), points_per_group);
+        const std::size_t bytes = 3 * points * sizeof(float);
+        const BufferHandle positions = make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, bytes, nullptr);
+        const BufferHandle normals = make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, bytes, nullptr);
+        launch(points, input.row.size(), positions.get(), normals.get());
+        check_opencl(clFinish(opened_.queue.get()), "the first launch");
+    }
+
+    void write_motions(std::span<const Motion> motions) {
+        cl_command_queue queue = opened_.queue.get();
+        const std::size_t bytes = motions.size() * packed_motion_floats * sizeof(float);
+        if (!shares_memory_) {
+            pack_motions(motions, packed_.data());
+            check_opencl(clEnqueueWriteBuffer(queue, motions_.get(), CL_FALSE, 0, bytes, packed_.data(), 0,
+                                              nullptr, nullptr),
+                         "writing the motions");
+            return;
+        }
+        cl_int code = CL_SUCCESS;
+        void* mapped = clEnqueueMapBuffer(queue, motions_.get(), CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0,
+                                          bytes, 0, nullptr, nullptr, &code);
+        check_opencl(code, "mapping the motions");
+        pack_motions(motions, static_cast<float*>(mapped));
+        check_opencl(clEnqueueUnmapMemObject(queue, motions_.get(), mapped, 0, nullptr, nullptr),
+                     "writing the motions");
+    }
+
+    void wrap(std::span<float> array, Result& result) {
+        if (result.wrapped.data() == array.data() && result.wrapped.size() == array.size()) return;
+        result = {};
+        result.buffer = make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY | CL_MEM_USE_HOST_PTR,
+                                    array.size_bytes(), array.data());
+        result.wrapped = array;
+    }
+
+    // Moves the first `points` by a grid made for `grid_points`.
+    void launch(cl_ulong points, std::size_t grid_points, cl_mem moved_positions, cl_mem moved_normals) {
+        cl_mem const positions = positions_.get();
+        cl_mem const row = row_.get();
+        cl_mem const sample = sample_.get();
+        cl_mem const weight = weight_.get();
+        cl_mem const motions = motions_.get();
+        cl_mem const normals = normals_.get();
+        cl_kernel kernel = normals ? opened_.move_both.get() : opened_.move_positions.get();
+        if (normals)
+            set_arguments(kernel, points, positions, row, sample, weight, motions, moved_positions, normals,
+                          moved_normals);
+        else
+            set_arguments(kernel, points, positions, row, sample, weight, motions, moved_positions);
+        const std::size_t items = (grid_points + points_per_group - 1) / points_per_group * points_per_group;
+        check_opencl(clEnqueueNDRangeKernel(opened_.queue.get(), kernel, 1, nullptr, &items,
+                                            &points_per_group, 0, nullptr, nullptr),
+                     "launching the kernel");
+    }
+
+    // Waits for the result and makes it visible in the caller's array.
+    void read(const Result& result, std::span<float> array) {
+        cl_command_queue queue = opened_.queue.get();
+        if (!shares_memory_) {
+            check_opencl(clEnqueueReadBuffer(queue, result.buffer.get(), CL_TRUE, 0, array.size_bytes(),
+                                             array.data(), 0, nullptr, nullptr),
+                         "reading the result");
+            return;
+        }
+        cl_int code = CL_SUCCESS;
+        void* mapped = clEnqueueMapBuffer(queue, result.buffer.get(), CL_TRUE, CL_MAP_READ, 0,
+                                          array.size_bytes(), 0, nullptr, nullptr, &code);
+        check_opencl(code, "running the kernel");
+        check_opencl(clEnqueueUnmapMemObject(queue, result.buffer.get(), mapped, 0, nullptr, nullptr),
+                     "reading the result");
+        check_opencl(clFinish(queue), "reading the result");
+    }
+
+    OpenClDevice device_;
+    unsigned threads_;
+    bool shares_memory_;
+    OpenedDevice opened_;
+
+    UpsampleInput input_;
+    std::size_t motion_count_ = 0;
+    std::vector<float> packed_; // the motions on their way to a device with its own memory
+    BufferHandle positions_, normals_, row_, sample_, weight_, motions_;
+    Result moved_positions_, moved_normals_;
+};
+
+} // namespace
+
+std::unique_ptr<Upsampler> make_opencl_upsampler(std::size_t device, unsigned threads, DeviceMemory memory) {
+    std::vector<OpenClDevice> devices = find_opencl_devices();
+    require(device < devices.size(), "the number of an OpenCL device");
+    return std::make_unique<OpenClUpsampler>(std::move(devices[device]), threads, memory);
+}
+
+} // namespace knead

@@ -1,0 +1,83 @@
+#pragma once
+// From the motions of the samples to every point's new position and normal: Equations (4) to (6) of the
+// paper.
+//
+// In the form that is computed here, a motion displaces a point p by A p + b, and a point is displaced by the
+// weighted mean over its influences,
+//
+//     p' = p + Σ_s w_s (A_s p + b_s),    n' ∥ cof(I + Σ_s w_s A_s) n,    |n'| = |n|.
+//
+// For a rotation R about a sample that moved from p_s to x_s, A = R - I and b = x_s - p_s - A p_s, which
+// makes it Equation (4); where nothing moves, A and b are zero and p' is p to the last bit. The cofactor
+// matrix is the right one for normals of any linear map, scaled handles included; for one rotation it is that
+// rotation, Equation (5). A normal that the map flattens to zero, or whose length squared does not fit a
+// float, stays as it was at rest.
+//
+// The result has the same bits on every run and for any number of threads. Kernel and reference do the same
+// operations in the same order, unfused, and agree to the bit on a device that rounds as IEEE 754 does.
+
+#include "graph/influences.h"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace knead {
+
+class Workers;
+
+// The displacement of one sample or handle: row-major [A | b], lengths in the cloud's units, about its
+// origin.
+struct Motion {
+    float map[12] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}; // A00 A01 A02 b0  A10 A11 A12 b1  A20 A21 A22 b2
+};
+
+// The rest shape and who moves it. Views: the arrays must stay unchanged for as long as an Upsampler holds
+// them.
+struct UpsampleInput {
+    std::span<const float> positions; // 3n, rest, relative to the cloud's origin
+    std::span<const float> normals;   // 3n, rest, any length; or empty
+    std::span<const Index> row;       // n: each point's row of influences
+    const InfluenceRows* rows = nullptr;
+};
+
+// An OpenCL device cannot do its work: the words say which call failed, on what, and OpenCL's reason, with
+// the build log where it was the build. Thrown by prepare() and run() of an Upsampler that runs on a device.
+class DeviceFailure : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+// Moves all points. One object a device; set-up and per-frame work are separate. One thread at a time.
+class Upsampler {
+public:
+    virtual ~Upsampler() = default;
+
+    // What computes: "reference" or the OpenCL device's name.
+    virtual std::string device() const = 0;
+
+    // Takes the rest shape and the influences; again whenever any of them changed. Motions named by `rows`
+    // are numbered below `motions`. Everything that happens once is done here, so that all frames take the
+    // same time: opening the device and building the kernel (in the first call only), uploading, and a first
+    // small launch.
+    virtual void prepare(const UpsampleInput& input, std::size_t motions) = 0;
+
+    // One frame: takes all `motions` that prepare() was told of, writes 3n posed positions, and 3n normals if
+    // the input had them (else `normals` must be empty). The results must not overlap the rest shape. The
+    // spans are the caller's; on a CPU device nothing is copied on the way if they are the same
+    // as in the last frame. Allocates nothing after the first frame.
+    virtual void run(std::span<const Motion> motions, std::span<float> positions,
+                     std::span<float> normals) = 0;
+
+    // What the user should know about the last calls (a device that failed and was replaced), once; else
+    // empty.
+    virtual std::string take_warning() { return {}; }
+};
+
+// The same in plain C++ across `workers`, which must outlive it: the yardstick for every device, and what
+// works where there is none. Never fails.
+std::unique_ptr<Upsampler> make_reference_upsampler(Workers& workers);
+
+} // namespace knead

@@ -1,0 +1,241 @@
+// What every Upsampler promises, asked of the reference, of every OpenCL device, and of every OpenCL device
+// made to copy as a GPU does.
+
+#include "base/require.h"
+#include "base/workers.h"
+#include "upsample/devices.h"
+#include "upsample/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace knead {
+namespace {
+
+using namespace knead::test;
+
+constexpr double epsilon = 1.2e-7; // one step of a float at 1
+// In a random scene every value that is summed is below 4 (A) or 2 (p and b); a row of eight, then three
+// products, then the point, are 12 rounded steps or so, plus the rounding of the weights, which need not sum
+// to exactly 1.
+constexpr double position_tolerance = 40 * 4 * epsilon;
+// The blend of rotations has a norm of at most 1, so the cofactor's rounding is about twice that of the map,
+// and normalising divides it by the length of the product, below which normals are not compared.
+constexpr double least_length = 0.1;
+constexpr double normal_tolerance = 2 * position_tolerance / least_length;
+
+enum class Path { reference, device, device_with_own_memory };
+
+class EveryUpsampler : public ::testing::TestWithParam<Path> {
+protected:
+    // One of each device there is; empty where the test is to be skipped.
+    std::vector<std::unique_ptr<Upsampler>> all(unsigned threads = 0) {
+        std::vector<std::unique_ptr<Upsampler>> made;
+        if (GetParam() == Path::reference) {
+            workers_.push_back(std::make_unique<Workers>(threads));
+            made.push_back(make_reference_upsampler(*workers_.back()));
+            return made;
+        }
+        const bool own = GetParam() == Path::device_with_own_memory;
+        const std::size_t devices = list_devices().size();
+        for (std::size_t i = 0; i < devices; ++i)
+            made.push_back(make_opencl_upsampler(
+                i, threads, own ? DeviceMemory::own : DeviceMemory::as_the_device_has_it));
+        return made;
+    }
+
+    void SetUp() override {
+        if (GetParam() != Path::reference && list_devices().empty())
+            GTEST_SKIP() << "there is no OpenCL device";
+    }
+
+private:
+    std::vector<std::unique_ptr<Workers>> workers_; // outlive what all() made
+};
+
+INSTANTIATE_TEST_SUITE_P(, EveryUpsampler,
+                         ::testing::Values(Path::reference, Path::device, Path::device_with_own_memory),
+                         [](const auto& tested) {
+                             return tested.param == Path::reference ? "Reference"
+                                    : tested.param == Path::device  ? "Device"
+                                                                    : "DeviceWithOwnMemory";
+                         });
+
+bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
+}
+
+bool same_bits(const Posed& a, const Posed& b) {
+    return same_bits(a.positions, b.positions) && same_bits(a.normals, b.normals);
+}
+
+TEST_P(EveryUpsampler, LeavesEveryBitWhereNothingMoves) {
+    Scene scene = random_scene(1001, 40, 1);
+    scene.motions.assign(40, Motion{});
+    scene.positions[0] = -0.0F;
+    scene.normals[4] = -0.0F;
+    scene.positions[6] = 1e30F;
+    for (const auto& upsampler : all())
+        EXPECT_TRUE(same_bits(upsampled(*upsampler, scene), Posed{scene.positions, scene.normals}))
+            << upsampler->device();
+}
+
+TEST_P(EveryUpsampler, FollowsTheFormulas) {
+    for (const std::size_t points : {std::size_t{1}, std::size_t{2}, std::size_t{255}, std::size_t{256},
+                                     std::size_t{257}, std::size_t{20'011}}) {
+        const Scene scene = random_scene(points, 50, 2);
+        for (const auto& upsampler : all()) {
+            const Posed posed = upsampled(*upsampler, scene);
+            for (std::size_t i = 0; i < points; ++i) {
+                ASSERT_LT((at(posed.positions, i) - exact_position(scene, i)).norm(), position_tolerance)
+                    << i;
+                ASSERT_NEAR(at(posed.normals, i).norm(), 1, 10 * epsilon) << i;
+                const Vec3d turned = exact_turned(scene, i);
+                if (turned.norm() < least_length) continue;
+                ASSERT_LT((at(posed.normals, i) - turned.normalized()).norm(), normal_tolerance) << i;
+            }
+        }
+    }
+}
+
+TEST_P(EveryUpsampler, MovesEverythingRigidlyByOneMotion) {
+    Scene scene = random_scene(3001, 30, 3);
+    const Mat3d turn = Eigen::AngleAxisd(1.9, Vec3d(1, 2, -1).normalized()).toRotationMatrix();
+    const Vec3d shift(0.5, -0.25, 0.75);
+    scene.motions.assign(30, motion_of(turn, shift));
+    for (const auto& upsampler : all()) {
+        const Posed posed = upsampled(*upsampler, scene);
+        for (std::size_t i = 0; i < scene.row.size(); ++i) {
+            ASSERT_LT((at(posed.positions, i) - (turn * at(scene.positions, i) + shift)).norm(),
+                      position_tolerance);
+            ASSERT_LT((at(posed.normals, i) - turn * at(scene.normals, i)).norm(), position_tolerance);
+        }
+    }
+}
+
+TEST_P(EveryUpsampler, KeepsNormalsPerpendicularUnderScaling) {
+    Scene scene = random_scene(2000, 1, 4);
+    Mat3d linear;
+    linear << 2, 0.3, 0, -0.1, 0.5, 0.2, 0, 0, 3; // a handle may scale by axes, and then be turned
+    scene.motions.assign(1, motion_of(linear, Vec3d::Zero()));
+    for (const auto& upsampler : all()) {
+        const Posed posed = upsampled(*upsampler, scene);
+        for (std::size_t i = 0; i < scene.row.size(); ++i) {
+            const Vec3d normal = at(scene.normals, i);
+            const Vec3d tangent = linear * normal.unitOrthogonal();
+            ASSERT_NEAR(at(posed.normals, i).dot(tangent.normalized()), 0, position_tolerance);
+            ASSERT_GT(at(posed.normals, i).dot(linear * normal), 0); // still on the same side
+        }
+    }
+}
+
+TEST_P(EveryUpsampler, KeepsTheLengthOfNormals) {
+    Scene scene = random_scene(600, 20, 5);
+    for (std::size_t i = 0; i < scene.normals.size(); ++i)
+        scene.normals[i] *= i / 3 % 2 == 0 ? 1e-6F : 300.0F;
+    for (std::size_t i = 30; i < 33; ++i) scene.normals[i] = 0;
+    for (const auto& upsampler : all()) {
+        const Posed posed = upsampled(*upsampler, scene);
+        for (std::size_t i = 0; i < scene.row.size(); ++i) {
+            const double length = at(scene.normals, i).norm();
+            ASSERT_NEAR(at(posed.normals, i).norm(), length, 10 * epsilon * length);
+        }
+        EXPECT_EQ(at(posed.normals, 10), Vec3d::Zero().eval());
+    }
+}
+
+TEST_P(EveryUpsampler, KeepsANormalThatTheMapFlattens) {
+    Scene scene = random_scene(10, 1, 6);
+    scene.motions.assign(1, motion_of(Mat3d::Zero(), Vec3d(1, 2, 3)));
+    for (const auto& upsampler : all()) {
+        const Posed posed = upsampled(*upsampler, scene);
+        EXPECT_TRUE(same_bits(posed.normals, scene.normals));
+        for (std::size_t i = 0; i < 10; ++i)
+            EXPECT_LT((at(posed.positions, i) - Vec3d(1, 2, 3)).norm(), position_tolerance);
+    }
+}
+
+TEST_P(EveryUpsampler, TakesCloudsWithoutNormalsAndWithoutPoints) {
+    const Scene bare = random_scene(777, 9, 7, false);
+    const Scene full = random_scene(777, 9, 7, true);
+    const Scene empty = random_scene(0, 9, 7);
+    for (const auto& upsampler : all()) {
+        const Posed without = upsampled(*upsampler, bare);
+        EXPECT_TRUE(without.normals.empty());
+        for (std::size_t i = 0; i < 777; ++i)
+            ASSERT_LT((at(without.positions, i) - exact_position(bare, i)).norm(), position_tolerance);
+        EXPECT_TRUE(upsampled(*upsampler, empty).positions.empty());
+        upsampler->prepare(full.input(), full.motions.size()); // and with both again, after neither
+        EXPECT_EQ(upsampled(*upsampler, full).normals.size(), 3 * 777U);
+    }
+}
+
+TEST_P(EveryUpsampler, GivesTheSameBytesAgainAndOnAnyNumberOfThreads) {
+    const Scene scene = random_scene(100'003, 500, 8);
+    std::vector<Posed> expected;
+    for (const auto& upsampler : all(1)) expected.push_back(upsampled(*upsampler, scene));
+    for (const unsigned threads : {1U, 2U, 0U}) {
+        const auto upsamplers = all(threads);
+        for (std::size_t i = 0; i < upsamplers.size(); ++i) {
+            Posed posed = upsampled(*upsamplers[i], scene);
+            EXPECT_TRUE(same_bits(posed, expected[i])) << threads << " threads";
+            std::fill(posed.positions.begin(), posed.positions.end(), 0.0F);
+            upsamplers[i]->run(scene.motions, posed.positions, posed.normals);
+            EXPECT_TRUE(same_bits(posed, expected[i])) << threads << " threads, again";
+        }
+    }
+}
+
+// Five steps of a float, for devices that round quotients and roots less exactly or flush tiny numbers to
+// zero; PoCL differs from the reference in no bit.
+TEST_P(EveryUpsampler, AgreesWithTheReference) {
+    const Scene scene = random_scene(50'021, 300, 9);
+    Workers workers(2);
+    const Posed expected = upsampled(*make_reference_upsampler(workers), scene);
+    for (const auto& upsampler : all()) {
+        const Posed posed = upsampled(*upsampler, scene);
+        for (std::size_t i = 0; i < posed.positions.size(); ++i) {
+            ASSERT_NEAR(posed.positions[i], expected.positions[i], 5 * epsilon) << i;
+            ASSERT_NEAR(posed.normals[i], expected.normals[i], 5 * epsilon) << i;
+        }
+        if (upsampler->device().find("pthread") != std::string::npos) {
+            EXPECT_TRUE(same_bits(posed, expected));
+        }
+    }
+}
+
+TEST_P(EveryUpsampler, TakesNewMotionsAndOtherArraysEveryFrame) {
+    Scene scene = random_scene(5000, 60, 10);
+    const std::vector<Motion> other = random_scene(1, 60, 11).motions;
+    for (const auto& upsampler : all()) {
+        const Posed first = upsampled(*upsampler, scene);
+        Posed a = first;
+        Posed b = first;
+        upsampler->run(other, a.positions, a.normals);
+        upsampler->run(scene.motions, b.positions, b.normals);
+        EXPECT_FALSE(same_bits(a, first));
+        EXPECT_TRUE(same_bits(b, first));
+        upsampler->run(scene.motions, a.positions, a.normals); // into the array of two frames ago
+        EXPECT_TRUE(same_bits(a, first));
+    }
+}
+
+TEST_P(EveryUpsampler, RefusesRowsAndSamplesThatDoNotExist) {
+    for (const auto& upsampler : all()) {
+        Scene scene = random_scene(10, 5, 12);
+        EXPECT_THROW(upsampler->prepare(scene.input(), 0), BrokenInvariant);
+        scene.row[3] = static_cast<Index>(scene.rows.size());
+        EXPECT_THROW(upsampler->prepare(scene.input(), 5), BrokenInvariant);
+        scene.row[3] = 0;
+        upsampler->prepare(scene.input(), 5);
+        std::vector<float> places(30);
+        EXPECT_THROW(upsampler->run(scene.motions, places, {}), BrokenInvariant);
+        EXPECT_THROW(upsampler->run({}, places, places), BrokenInvariant);
+    }
+}
+
+} // namespace
+} // namespace knead

@@ -1,0 +1,118 @@
+#include "edit/handles.h"
+
+#include "base/error.h"
+#include "graph/point_order.h"
+
+#include <algorithm>
+
+namespace knead {
+
+namespace {
+
+struct Contains {
+    Vec3d p;
+    bool operator()(const BoxRegion& box) const {
+        return (p.array() >= box.lowest.array()).all() && (p.array() <= box.highest.array()).all();
+    }
+    bool operator()(const SphereRegion& sphere) const { return (p - sphere.center).norm() <= sphere.radius; }
+    bool operator()(const HalfspaceRegion& side) const { return (p - side.point).dot(side.normal) >= 0; }
+    bool operator()(const WholeRegion& /*whole*/) const { return true; }
+};
+
+std::vector<Index> points_of(const std::vector<IndexRange>& ranges, const PointCloud& cloud,
+                             const std::string& place) {
+    std::vector<Index> points;
+    for (const IndexRange& range : ranges) {
+        if (range.last >= cloud.size())
+            throw Error(Trouble::input, place,
+                        "\"points\" names point " + std::to_string(range.last) + ", but the cloud has " +
+                            std::to_string(cloud.size()) + " points, numbered from 0");
+        for (std::uint64_t i = range.first; i <= range.last; ++i) points.push_back(static_cast<Index>(i));
+    }
+    std::ranges::sort(points);
+    points.erase(std::ranges::unique(points).begin(), points.end());
+    return points;
+}
+
+std::vector<Index> points_in(const Region& region, const PointCloud& cloud,
+                             const std::function<Vec3d(std::size_t)>& file_position) {
+    std::vector<Index> points;
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+        if (is_finite(cloud, i) && std::visit(Contains{file_position(i)}, region))
+            points.push_back(static_cast<Index>(i));
+    return points;
+}
+
+// Which of two labels a vertex takes that has points of both.
+Index stronger(Index a, Index b, Index outside) {
+    if (a == no_index) return b;
+    if (b == no_index) return a;
+    if (a == outside) return b;
+    if (b == outside) return a;
+    return std::max(a, b);
+}
+
+} // namespace
+
+bool hold_the_same(const std::vector<Handle>& a, const std::vector<Handle>& b) {
+    return std::ranges::equal(
+        a, b, [](const Handle& x, const Handle& y) { return x.role == y.role && x.points == y.points; });
+}
+
+std::vector<Index> resolve_points(const HandleLine& line, const PointCloud& cloud,
+                                  const std::function<Vec3d(std::size_t)>& file_position,
+                                  const std::string& place) {
+    const std::string named = "the handle \"" + line.name + "\"";
+    std::vector<Index> points;
+    if (const auto* ranges = std::get_if<std::vector<IndexRange>>(&line.points)) {
+        points = points_of(*ranges, cloud, place);
+        if (std::ranges::none_of(points, [&](Index i) { return is_finite(cloud, i); }))
+            throw Error(Trouble::input, place, named + " holds no point with finite coordinates");
+    } else {
+        points = points_in(std::get<Region>(line.points), cloud, file_position);
+        if (points.empty())
+            throw Error(
+                Trouble::input, place,
+                named + " holds no points: its \"region\" is empty; `knead info` shows where the cloud lies");
+    }
+    return points;
+}
+
+HandleMotion motion_of(const HandlePose& pose, const Vec3d& pivot, const Vec3d& origin, const Quatd& before) {
+    HandleMotion motion;
+    motion.rotation = pose.rotate.normalized();
+    if (motion.rotation.dot(before) < 0) motion.rotation.coeffs() = -motion.rotation.coeffs();
+    const Mat3d axes = pose.axes.normalized().toRotationMatrix();
+    const Mat3d stretch = axes * pose.scale.asDiagonal() * axes.transpose();
+    const bool stretched = pose.scale != Vec3d::Ones();
+    motion.linear = motion.rotation.toRotationMatrix();
+    if (stretched) motion.linear = motion.linear * stretch;
+    const Vec3d center = pivot - origin;
+    motion.offset = center - motion.linear * center + pose.translate;
+    return motion;
+}
+
+HandleLabels label_points(const std::vector<Handle>& handles, const PointOrder& order,
+                          std::size_t file_points) {
+    HandleLabels labels;
+    labels.outside = static_cast<Index>(handles.size());
+    const bool has_region = std::ranges::any_of(
+        handles, [](const Handle& handle) { return handle.role == HandleRole::region_of_interest; });
+    std::vector<Index> of_file_point(file_points, has_region ? labels.outside : no_index);
+    for (const bool region_pass : {true, false})
+        for (Index h = 0; h < handles.size(); ++h) {
+            if ((handles[h].role == HandleRole::region_of_interest) != region_pass) continue;
+            for (const Index i : *handles[h].points) of_file_point[i] = region_pass ? no_index : h;
+        }
+
+    labels.point.resize(order.points());
+    labels.vertex.assign(order.vertices(), no_index);
+    for (std::size_t i = 0; i < order.points(); ++i) {
+        labels.point[i] = of_file_point[order.file_index[i]];
+        Index& vertex = labels.vertex[order.vertex[i]];
+        vertex = stronger(vertex, labels.point[i], labels.outside);
+    }
+    return labels;
+}
+
+} // namespace knead

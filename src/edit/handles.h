@@ -1,0 +1,49 @@
+#pragma once
+// Handles as the document knows them, and where their poses send points.
+
+#include "cloud/point_cloud.h"
+#include "deform/sample_system.h"
+#include "edit/session.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace knead {
+
+struct Handle {
+    std::string name;
+    HandleRole role = HandleRole::moving;
+    std::shared_ptr<const std::vector<Index>> points; // in the file, ascending, each once; never empty
+};
+
+// Whether two lists of handles hold the same points in the same way, whatever their names. (The same points
+// are the same array: handles share theirs when they are copied.)
+bool hold_the_same(const std::vector<Handle>& a, const std::vector<Handle>& b);
+
+// The points that a handle line means. `file_position(i)` is where point i lies now, in the file's
+// coordinates; points that are not finite belong to no region. Throws Error (input) at `place` for an index
+// beyond the cloud and for a handle without any finite point.
+std::vector<Index> resolve_points(const HandleLine& line, const PointCloud& cloud,
+                                  const std::function<Vec3d(std::size_t)>& file_position,
+                                  const std::string& place);
+
+// The motion p → pivot + R S (p - pivot) + translate about the cloud's origin. Of the two quaternions of the
+// turn, the one of the hemisphere of `before` (the frame before; the identity at first), which keeps turns
+// beyond 360°; at exactly 90° between them, as written.
+HandleMotion motion_of(const HandlePose& pose, const Vec3d& pivot, const Vec3d& origin, const Quatd& before);
+
+// Who holds each ordered point (or vertex): a number in `handles`, `outside` for what lies outside the region
+// of interest, no_index for free ones. A point in several handles belongs to the one declared last; handles
+// beat the region.
+struct HandleLabels {
+    std::vector<Index> point;
+    std::vector<Index> vertex; // that of its points which was declared last; free only if all of them are
+    Index outside = 0;         // = the number of handles
+};
+struct PointOrder;
+HandleLabels label_points(const std::vector<Handle>& handles, const PointOrder& order,
+                          std::size_t file_points);
+
+} // namespace knead

@@ -1,0 +1,245 @@
+#include "edit/pipeline.h"
+
+#include "base/error.h"
+#include "base/require.h"
+#include "base/stopwatch.h"
+#include "cloud/extent.h"
+#include "deform/rotation.h"
+#include "graph/edge_weights.h"
+#include "graph/octree.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace knead {
+
+namespace {
+
+// Of the samples asked for, this many more may be spent on the borders of handles.
+constexpr double handle_share = 0.2;
+
+constexpr int relaxing_rounds = 3;
+
+Vec3d at(std::span<const float> positions, std::size_t i) {
+    return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
+}
+
+// [A | b] of a sample that turned (A = M - I) and moved about its rest position.
+Motion motion_about(const Mat3d& beyond_identity, const Vec3d& offset) {
+    Motion motion;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            motion.map[4 * row + column] = static_cast<float>(beyond_identity(row, column));
+        motion.map[4 * row + 3] = static_cast<float>(offset[row]);
+    }
+    return motion;
+}
+
+Motion motion_of_handle(const HandleMotion& handle) {
+    return motion_about(handle.linear - Mat3d::Identity(), handle.offset);
+}
+
+} // namespace
+
+Pipeline::Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampler)
+    : cloud_(cloud), workers_(workers), upsampler_(upsampler), cloud_size_(knead::cloud_size(cloud)) {}
+
+void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
+    const Settings& now = input.settings;
+    const Settings& before = input_.settings;
+    stale_.points |= now.neighbors != before.neighbors;
+    stale_.samples |= now.samples != before.samples;
+    stale_.handles |= !hold_the_same(input.handles, input_.handles);
+    stale_.influences |= now.weights != before.weights;
+    stale_.systems |= now.stiffness != before.stiffness || input.rest != input_.rest;
+    stale_.upsampler |= input.rest != input_.rest;
+    input_ = input;
+
+    // Each stage makes those that use it stale, and is done once it returned.
+    if (stale_.points) {
+        prepare_points(progress);
+        stale_.samples = true;
+        stale_.points = false;
+    }
+    if (stale_.samples) {
+        prepare_samples(progress);
+        stale_.handles = true;
+        stale_.samples = false;
+    }
+    if (stale_.handles) {
+        prepare_handles(progress);
+        stale_.influences = stale_.systems = true;
+        stale_.handles = false;
+    }
+    if (stale_.influences) {
+        prepare_influences();
+        stale_.upsampler = true;
+        stale_.influences = false;
+    }
+    if (stale_.systems) {
+        prepare_systems();
+        stale_.systems = false;
+    }
+    if (stale_.upsampler) {
+        prepare_upsampler();
+        stale_.upsampler = false;
+    }
+}
+
+void Pipeline::prepare_points(Progress& progress) {
+    Stopwatch clock;
+    if (opened_.positions.empty()) {
+        order_ = order_points(cloud_.positions, workers_, progress);
+        require(order_.points() > 0, "a pipeline needs a finite point");
+        opened_.positions.resize(3 * order_.points());
+        gather(order_, cloud_.positions, 3, opened_.positions, workers_);
+        const std::vector<float> normals = read_normals(cloud_);
+        opened_.normals.resize(normals.empty() ? 0 : 3 * order_.points());
+        if (!normals.empty()) gather(order_, normals, 3, opened_.normals, workers_);
+        vertex_positions_ = vertex_positions(order_, opened_.positions, workers_);
+        seconds_.order += clock.lap();
+    }
+    graph_ = neighbor_graph(vertex_positions_, input_.settings.neighbors, workers_, progress);
+    components_ = find_components(graph_);
+    link_lengths_ = link_lengths(graph_, vertex_positions_, workers_);
+    seconds_.neighbors += clock.lap();
+}
+
+void Pipeline::prepare_samples(Progress& progress) {
+    Stopwatch clock;
+    progress.step("choosing samples", 0);
+    const std::size_t vertices = order_.vertices();
+    samples_.resize(vertices);
+    std::iota(samples_.begin(), samples_.end(), Index{0});
+    every_point_ = !input_.settings.samples || *input_.settings.samples >= vertices;
+    if (!every_point_) {
+        const auto chosen =
+            octree_samples(order_.code, vertex_positions_, samples_, *input_.settings.samples);
+        samples_ = relaxed(shuffled(chosen), graph_, link_lengths_, vertex_positions_, relaxing_rounds,
+                           workers_, progress);
+    }
+    base_samples_ = samples_.size();
+    seconds_.sampling += clock.lap();
+
+    handle_flood_.reset();
+    lists_ = every_point_ ? FloodLists{}
+                          : flood(graph_, link_lengths_, samples_, influences_per_row, workers_, progress);
+    seconds_.geodesic += clock.lap();
+}
+
+void Pipeline::prepare_handles(Progress& progress) {
+    Stopwatch clock;
+    if (handle_flood_) revert(lists_, *handle_flood_);
+    handle_flood_.reset();
+    samples_.resize(base_samples_);
+
+    labels_ = label_points(input_.handles, order_, cloud_.size());
+    held_component_.assign(components_.size.size(), false);
+    for (std::size_t v = 0; v < order_.vertices(); ++v)
+        if (labels_.vertex[v] != no_index) held_component_[components_.component[v]] = true;
+    strays_ = {};
+    strays_.parts = static_cast<std::size_t>(std::ranges::count(held_component_, false));
+    for (const Index vertex : order_.vertex)
+        if (!held_component_[components_.component[vertex]]) ++strays_.points;
+
+    if (every_point_) {
+        sample_graph_ = sample_graph_of_all(graph_);
+        seconds_.sampling += clock.lap();
+        return;
+    }
+    const VertexShape shape{order_.code, vertex_positions_, graph_, components_};
+    const auto budget = static_cast<std::size_t>(handle_share * static_cast<double>(base_samples_));
+    const std::vector<Index> added = shuffled(handle_samples(shape, labels_.vertex, samples_, budget));
+    samples_.insert(samples_.end(), added.begin(), added.end());
+    seconds_.sampling += clock.lap();
+
+    handle_flood_ = add_samples(lists_, graph_, link_lengths_, added, static_cast<Index>(base_samples_),
+                                workers_, progress);
+    sample_graph_ = sample_graph(lists_, samples_, graph_, workers_);
+    seconds_.geodesic += clock.lap();
+}
+
+void Pipeline::prepare_influences() {
+    Stopwatch clock;
+    rows_ = every_point_ ? own_rows(order_.vertices())
+                         : influence_rows(lists_, input_.settings.weights, workers_);
+
+    // A held point is moved by its handle alone, whatever samples are near, and a point of a stray part by
+    // nothing.
+    const auto samples = static_cast<Index>(samples_.size());
+    const Index outside = labels_.outside;
+    std::vector<Index> row_of_label(outside + 1);
+    for (Index label = 0; label <= outside; ++label)
+        row_of_label[label] = append_single(rows_, samples + label);
+    row_of_point_.resize(order_.points());
+    workers_.for_each(order_.points(), 1 << 14, [&](std::size_t i) {
+        const Index vertex = order_.vertex[i];
+        const bool held = held_component_[components_.component[vertex]];
+        const Index label = held ? labels_.point[i] : outside;
+        row_of_point_[i] = label == no_index ? vertex : row_of_label[label];
+    });
+    motions_.assign(samples + outside + 1, Motion{});
+    seconds_.geodesic += clock.lap();
+}
+
+void Pipeline::prepare_systems() {
+    Stopwatch clock;
+    const RestShape& rest_shape = input_.rest ? *input_.rest : opened_;
+    SampleRest rest;
+    rest.graph = sample_graph_.graph;
+    rest.position.reserve(samples_.size());
+    for (const Index v : samples_) {
+        rest.position.push_back(at(rest_shape.positions, order_.first_point[v]));
+        rest.handle.push_back(labels_.vertex[v]);
+    }
+    rest.weight = isotropic_weights(rest.graph, rest.position, sample_graph_.contact, workers_);
+    rest.cloud_size = cloud_size_;
+    rest.stiffness = input_.settings.stiffness;
+    const FactorOutcome outcome = build_system(std::move(rest), system_);
+    seconds_.factorize += clock.lap();
+    if (!outcome.solved)
+        throw Error(Trouble::numeric, "",
+                    "the deformation cannot be computed: " + outcome.words +
+                        "; another number of samples or another stiffness may help");
+}
+
+void Pipeline::prepare_upsampler() {
+    Stopwatch clock;
+    const RestShape& rest = input_.rest ? *input_.rest : opened_;
+    posed_.positions.resize(rest.positions.size());
+    posed_.normals.resize(rest.normals.size());
+    upsampler_.prepare({rest.positions, rest.normals, row_of_point_, &rows_}, motions_.size());
+    seconds_.device += clock.lap();
+}
+
+std::span<const HandleMotion> Pipeline::all_motions(const std::vector<HandleMotion>& motions) {
+    require(motions.size() == labels_.outside, "a motion a handle");
+    handle_motions_.assign(motions.begin(), motions.end());
+    handle_motions_.emplace_back();
+    return handle_motions_;
+}
+
+void Pipeline::start_edit(const std::vector<HandleMotion>& motions, SampleState& state) {
+    knead::start_edit(system_, all_motions(motions), state, workers_);
+}
+
+double Pipeline::iterate(const std::vector<HandleMotion>& motions, SampleState& state) {
+    return knead::iterate(system_, all_motions(motions), state, workers_);
+}
+
+void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {
+    const std::size_t samples = samples_.size();
+    workers_.for_each(samples, 1024, [&](std::size_t s) {
+        const Index handle = system_.rest.handle[s];
+        if (handle != no_index && handle != labels_.outside) {
+            motions_[s] = motion_of_handle(motions[handle]);
+        } else {
+            const Mat3d turn = turn_of(state.rotation[s]);
+            motions_[s] = motion_about(turn, state.displacement[s] - turn * system_.rest.position[s]);
+        }
+    });
+    for (std::size_t h = 0; h < motions.size(); ++h) motions_[samples + h] = motion_of_handle(motions[h]);
+    upsampler_.run(motions_, posed_.positions, posed_.normals);
+}
+
+} // namespace knead

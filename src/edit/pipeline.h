@@ -1,0 +1,144 @@
+#pragma once
+// The whole way from a cloud and its handles to posed points: every stage once, kept until one of its inputs
+// changes.
+//
+//     neighbors                 → order, graph, components
+//     samples                   → base samples and their flood
+//     handle set                → labels, handle samples (which flood only what they reach), sample graph
+//     weights                   → influences
+//     rest shape, stiffness     → both systems, ordered and factorised
+//     poses                     → iterations, then upsampling
+//
+// Which points are samples and what they influence is decided on the shape as it was opened, so a commit
+// changes none of it. Editor, replay, benchmarks and tests all come through here.
+
+#include "base/progress.h"
+#include "deform/sample_system.h"
+#include "edit/handles.h"
+#include "graph/neighbors.h"
+#include "graph/point_order.h"
+#include "graph/sampling.h"
+#include "upsample/upsample.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace knead {
+
+// The shape that an edit starts from, in the order of computation.
+struct RestShape {
+    std::vector<float> positions; // 3n, relative to the cloud's origin
+    std::vector<float> normals;   // 3n, or empty
+};
+
+// All that the stages depend on beside the cloud.
+struct PipelineInput {
+    Settings settings;
+    std::vector<Handle> handles;           // in the order of declaration
+    std::shared_ptr<const RestShape> rest; // null: as opened
+};
+
+// Wall-clock seconds spent in each stage so far.
+struct StageSeconds {
+    double order = 0;     // Morton order, duplicates
+    double neighbors = 0; // graph, components
+    double sampling = 0;  // base samples, labels, handle samples
+    double geodesic = 0;  // floods, sample graph, influences
+    double factorize = 0; // ordering and factorisation of both systems
+    double device = 0;    // the kernel's build and first touch
+};
+
+class Pipeline {
+public:
+    // All of these must outlive the pipeline. The cloud must not change, and has at least one finite point.
+    Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampler);
+
+    // Runs the stages whose inputs changed since the last call. Throws Error (numeric) if a system cannot be
+    // factorised, and Cancelled; then the next call starts the unfinished stages again.
+    void prepare(const PipelineInput& input, Progress& progress);
+
+    // --- After prepare() ---
+
+    // All samples at rest.
+    SampleState rest_state() const { return knead::rest_state(system_); }
+
+    // Equation (1) alone, for the first frame of an edit. `motions`: one a handle.
+    void start_edit(const std::vector<HandleMotion>& motions, SampleState& state);
+
+    // One iteration; returns the longest way that a sample went.
+    double iterate(const std::vector<HandleMotion>& motions, SampleState& state);
+
+    // Every point's position and normal for a state of the samples, into buffers that the pipeline keeps.
+    void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
+    const RestShape& posed() const { return posed_; }
+
+    const PointOrder& order() const { return order_; }
+    const Graph& graph() const { return graph_; }
+    const Components& components() const { return components_; }
+    const std::vector<Index>& samples() const { return samples_; } // the vertex of each
+    const HandleLabels& labels() const { return labels_; }
+    const RestShape& opened() const { return opened_; } // the shape in the file
+    double cloud_size() const { return cloud_size_; }
+
+    // Parts of the cloud that hold no handle, which stay where they are.
+    struct Strays {
+        std::size_t parts = 0;
+        std::size_t points = 0;
+    };
+    Strays strays() const { return strays_; }
+
+    const StageSeconds& seconds() const { return seconds_; }
+
+private:
+    void prepare_points(Progress& progress);
+    void prepare_samples(Progress& progress);
+    void prepare_handles(Progress& progress);
+    void prepare_influences();
+    void prepare_systems();
+    void prepare_upsampler();
+    std::span<const HandleMotion> all_motions(const std::vector<HandleMotion>& motions);
+
+    const PointCloud& cloud_;
+    Workers& workers_;
+    Upsampler& upsampler_;
+    double cloud_size_;
+    PipelineInput input_;
+    StageSeconds seconds_;
+
+    // Which stages have to run again before the next frame.
+    struct Stale {
+        bool points = true, samples = true, handles = true, influences = true, systems = true,
+             upsampler = true;
+    };
+    Stale stale_;
+
+    PointOrder order_;
+    RestShape opened_;
+    std::vector<float> vertex_positions_; // as opened
+    Graph graph_;
+    Components components_;
+    std::vector<std::uint8_t> link_lengths_;
+
+    bool every_point_ = false;
+    std::vector<Index> samples_;
+    std::size_t base_samples_ = 0;
+    FloodLists lists_; // empty if every point is a sample
+    std::optional<FloodPatch> handle_flood_;
+
+    HandleLabels labels_;
+    Strays strays_;
+    std::vector<bool> held_component_;
+    SampleGraph sample_graph_;
+
+    InfluenceRows rows_;
+    std::vector<Index> row_of_point_;
+
+    SampleSystem system_;
+    std::vector<HandleMotion> handle_motions_; // those of the handles, and the identity for what is outside
+    std::vector<Motion> motions_;
+    RestShape posed_;
+};
+
+} // namespace knead

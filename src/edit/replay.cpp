@@ -1,0 +1,277 @@
+#include "edit/replay.h"
+
+#include "base/error.h"
+#include "base/stopwatch.h"
+#include "base/whole_file.h"
+#include "io/cloud_file.h"
+#include "io/compare.h"
+#include "io/digest.h"
+#include "upsample/devices.h"
+
+#include <algorithm>
+
+#include <sys/resource.h>
+
+namespace knead {
+
+namespace {
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+std::uint64_t peak_memory() {
+    struct rusage usage {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+PointCloud open_cloud(const Session& session, const ReplayOptions& options, Progress& progress) {
+    const std::filesystem::path path = options.cloud ? *options.cloud : session.resolve(session.cloud);
+    PointCloud cloud = read_cloud(path, progress);
+    if (session.points && *session.points != cloud.size())
+        throw Error(Trouble::input, session.place(1),
+                    "\"points\": the session was recorded on a cloud of " + std::to_string(*session.points) +
+                        " points, but " + path.string() + " has " + std::to_string(cloud.size()));
+    if (session.sha256 && !options.cloud && *session.sha256 != sha256_of_file(path))
+        throw Error(Trouble::input, session.place(1),
+                    "\"sha256\": " + path.string() +
+                        " is not the file that the session was recorded on; give it with --cloud to use it "
+                        "all the same");
+    if (bounds_of(cloud).finite_points == 0)
+        throw Error(Trouble::input, path.string(),
+                    "holds no point with finite coordinates, so there is nothing to edit");
+    return cloud;
+}
+
+// A check that --record-checks puts in.
+struct RecordedCheck {
+    std::size_t after_line = 0; // of the session; 0: behind the header
+    std::filesystem::path file; // beside the session
+    std::vector<float> positions;
+    std::vector<float> normals;
+};
+
+class Replay {
+public:
+    Replay(const Session& session, const ReplayOptions& options, Progress& progress,
+           const std::function<void(const std::string&)>& warn)
+        : session_(session), options_(options), progress_(progress), warn_(warn), workers_(options.threads) {}
+
+    ReplayReport run() {
+        Stopwatch clock;
+        PointCloud cloud = open_cloud(session_, options_, progress_);
+        report_.read = clock.lap();
+        UpsamplerChoice choice = make_upsampler(options_.device, workers_, options_.threads);
+        const double device_seconds = clock.lap();
+        upsampler_ = choice.upsampler.get();
+        for (const std::string& remark : cloud.remarks) add_warning(remark);
+        if (!choice.warning.empty()) add_warning(choice.warning);
+
+        Document document(std::move(cloud), changed(session_.settings, options_.overrides), workers_,
+                          *upsampler_, options_.rehearse ? Document::Mode::rehearsal : Document::Mode::real);
+        for (const SessionLine& line : session_.lines) carry_out(document, line);
+        finish_edit(document, session_.lines.empty() ? 1 : session_.lines.back().number);
+
+        clock.lap();
+        if (!options_.rehearse) write_results(document);
+        report_.write = clock.lap();
+        fill_report(document, device_seconds);
+        return std::move(report_);
+    }
+
+private:
+    void carry_out(Document& document, const SessionLine& line) {
+        const std::string place = session_.place(line.number);
+        progress_.stop_if_cancelled();
+        std::visit([&](const auto& action) { act(document, action, line.number, place); }, line.action);
+        const std::string words = upsampler_->take_warning();
+        if (!words.empty()) add_warning(words);
+    }
+
+    void act(Document& document, const HandleLine& line, std::size_t /*number*/, const std::string& place) {
+        document.declare(line, place);
+    }
+    void act(Document& document, const DragLine& line, std::size_t /*number*/, const std::string& place) {
+        document.drag(line, place, progress_);
+        checked_ = false;
+        if (!options_.rehearse) warn_of_strays(document);
+    }
+    void act(Document& document, const SettleLine& line, std::size_t /*number*/,
+             const std::string& /*place*/) {
+        document.settle(line, progress_);
+        checked_ = false;
+    }
+    void act(Document& document, const CheckLine& line, std::size_t number, const std::string& /*place*/) {
+        if (!is_recorded_name(line.positions)) check(document, line, number);
+    }
+    void act(Document& document, const CommitLine& /*line*/, std::size_t number,
+             const std::string& /*place*/) {
+        finish_edit(document, number - 1);
+        document.commit(progress_);
+    }
+    void act(Document& document, const SetLine& line, std::size_t /*number*/, const std::string& place) {
+        document.change_settings(merged(line.change, options_.overrides), place);
+    }
+    void act(Document& document, const DeleteLine& line, std::size_t /*number*/, const std::string& place) {
+        document.remove(line, place);
+    }
+    void act(Document& document, const RenameLine& line, std::size_t /*number*/, const std::string& place) {
+        document.rename(line, place);
+    }
+    void act(Document& document, const UndoLine& /*line*/, std::size_t /*number*/, const std::string& place) {
+        document.undo(place);
+        checked_ = false;
+    }
+    void act(Document& document, const RedoLine& /*line*/, std::size_t /*number*/, const std::string& place) {
+        document.redo(place);
+        checked_ = false;
+    }
+
+    void check(Document& document, const CheckLine& line, std::size_t number) {
+        CheckResult result;
+        result.line = number;
+        const std::filesystem::path path = session_.resolve(line.positions);
+        if (options_.rehearse) {
+            if (!std::filesystem::exists(path))
+                throw Error(Trouble::input, session_.place(number),
+                            "\"positions\": there is no file " + path.string());
+            return;
+        }
+        const PointCloud expected = read_cloud(path, progress_);
+        if (expected.size() != document.cloud().size()) {
+            result.words = path.string() + " has " + std::to_string(expected.size()) + " points, the cloud " +
+                           std::to_string(document.cloud().size());
+        } else {
+            const Distances distances =
+                distances_between(document.cloud(), document.positions(progress_), expected);
+            const double diagonal = document.bounds().diagonal();
+            result.distance = diagonal > 0 ? distances.largest / diagonal : distances.largest;
+            result.held = distances.incomparable == 0 && *result.distance <= line.tolerance;
+            if (!result.held)
+                result.words = "point " + std::to_string(distances.largest_index) + " lies " +
+                               std::to_string(*result.distance) + " D from " + path.string() +
+                               ", allowed are " + std::to_string(line.tolerance) + " D";
+        }
+        report_.checks.push_back(std::move(result));
+    }
+
+    // At the end of an edit: how well the handles are met, and the check that records it.
+    void finish_edit(Document& document, std::size_t after_line) {
+        if (options_.rehearse) return;
+        report_.handle_error = std::max(report_.handle_error, document.handle_error(progress_));
+        if (!options_.record_checks || checked_) return;
+        checked_ = true;
+        recorded_.push_back({after_line, recorded_name(recorded_.size() + 1), document.positions(progress_),
+                             document.normals(progress_)});
+    }
+
+    std::filesystem::path recorded_name(std::size_t number) const {
+        return session_.file.stem().string() + "-check-" + std::to_string(number) + ".ply";
+    }
+
+    // Whether a check's cloud is one that this run records anew.
+    bool is_recorded_name(const std::filesystem::path& name) const {
+        return options_.record_checks && name.parent_path().empty() && name.extension() == ".ply" &&
+               name.string().starts_with(session_.file.stem().string() + "-check-");
+    }
+
+    void write_results(Document& document) {
+        if (options_.out) {
+            const std::vector<float> positions = document.positions(progress_);
+            const std::vector<float> normals = document.normals(progress_);
+            write_cloud(*options_.out, document.cloud(), {positions, normals}, progress_);
+            report_.written.push_back(*options_.out);
+        }
+        if (!options_.record_checks) return;
+        for (const RecordedCheck& recorded : recorded_) {
+            const std::filesystem::path path = session_.resolve(recorded.file);
+            write_cloud(path, document.cloud(), {recorded.positions, recorded.normals}, progress_);
+            report_.written.push_back(path);
+        }
+        write_session();
+        report_.written.push_back(session_.file);
+    }
+
+    // The session as it was, line for line, with the recorded checks in place of earlier recorded ones.
+    void write_session() const {
+        FileInTheMaking file(session_.file);
+        file.write(session_.header_text + "\n");
+        auto next = recorded_.begin();
+        const auto put_checks_up_to = [&](std::size_t line) {
+            for (; next != recorded_.end() && next->after_line <= line; ++next)
+                file.write(to_text(CheckLine{next->file, 1e-4}) + "\n");
+        };
+        put_checks_up_to(1);
+        for (const SessionLine& line : session_.lines) {
+            put_checks_up_to(line.number - 1);
+            const auto* check = std::get_if<CheckLine>(&line.action);
+            if (!check || !is_recorded_name(check->positions)) file.write(line.text + "\n");
+        }
+        put_checks_up_to(no_index);
+        file.commit();
+    }
+
+    void warn_of_strays(const Document& document) {
+        const Pipeline::Strays strays = document.pipeline().strays();
+        if (strays.parts == 0) return;
+        const bool one = strays.parts == 1;
+        add_warning(std::to_string(strays.parts) + (one ? " part" : " parts") + " of the cloud (" +
+                    std::to_string(strays.points) + (strays.points == 1 ? " point" : " points") +
+                    ") hang together with no handle and " +
+                    (one ? "stays where it is" : "stay where they are"));
+    }
+
+    void add_warning(const std::string& words) {
+        if (std::ranges::find(report_.warnings, words) != report_.warnings.end()) return;
+        report_.warnings.push_back(words);
+        warn_(words);
+    }
+
+    void fill_report(const Document& document, double device_seconds) {
+        const Pipeline& pipeline = document.pipeline();
+        const FrameLog& log = document.log();
+        report_.points = document.cloud().size();
+        report_.components = pipeline.components().size.size();
+        report_.strays = pipeline.strays().parts;
+        report_.samples = pipeline.samples().size();
+        report_.frames = log.frames;
+        report_.iterations = log.iteration.size();
+        report_.threads = workers_.threads();
+        report_.device = upsampler_->device();
+        report_.diagonal = document.bounds().diagonal();
+        report_.stages = pipeline.seconds();
+        report_.stages.device += device_seconds;
+        report_.solve = median(log.iteration);
+        report_.upsample = median(log.upsample);
+        report_.peak_memory = peak_memory();
+        report_.total = since_start_.seconds();
+    }
+
+    const Session& session_;
+    const ReplayOptions& options_;
+    Progress& progress_;
+    const std::function<void(const std::string&)>& warn_;
+    Stopwatch since_start_;
+    Workers workers_;
+    Upsampler* upsampler_ = nullptr;
+    ReplayReport report_;
+    std::vector<RecordedCheck> recorded_;
+    bool checked_ = true; // whether the shape now was recorded already, or nothing changed it since
+};
+
+} // namespace
+
+bool ReplayReport::all_checks_held() const {
+    return std::ranges::all_of(checks, [](const CheckResult& check) { return check.held; });
+}
+
+ReplayReport replay(const Session& session, const ReplayOptions& options, Progress& progress,
+                    const std::function<void(const std::string&)>& warn) {
+    return Replay(session, options, progress, warn).run();
+}
+
+} // namespace knead

@@ -1,0 +1,24 @@
+#pragma once
+// The subcommands, one file each: a function declares the arguments to CLI11 and, when its subcommand was
+// chosen, puts what is to be done into `job`.
+
+#include "cli/terminal.h"
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace knead {
+
+// Does the work and returns the exit code: 0, or 4 when a check failed. All other troubles are thrown.
+using Job = std::function<int(Terminal&)>;
+
+void add_replay(CLI::App& app, Job& job);
+void add_info(CLI::App& app, Job& job);
+void add_diff(CLI::App& app, Job& job);
+void add_make(CLI::App& app, Job& job);
+void add_devices(CLI::App& app, Job& job);
+
+} // namespace knead

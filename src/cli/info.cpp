@@ -1,0 +1,146 @@
+// `knead info FILE`: what is in a cloud.
+
+#include "cli/commands.h"
+#include "cloud/point_cloud.h"
+#include "io/cloud_file.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <iomanip>
+#include <memory>
+
+namespace knead {
+
+namespace {
+
+struct Facts {
+    FileKind kind;
+    std::size_t points = 0;
+    Bounds bounds;
+    std::size_t duplicates = 0;
+};
+
+std::uint64_t mixed(std::uint64_t value) {
+    value ^= value >> 33U;
+    value *= 0xff51afd7ed558ccdU;
+    value ^= value >> 33U;
+    value *= 0xc4ceb9fe1a85ec53U;
+    return value ^ (value >> 33U);
+}
+
+std::uint64_t hash_of(const Vec3d& p) {
+    std::uint64_t hash = 0;
+    // Adding zero makes one zero of the two, which are equal.
+    for (const double value : p) hash = mixed(hash ^ std::bit_cast<std::uint64_t>(value + 0.0));
+    return hash;
+}
+
+// Finite points less distinct positions, by the file's own values.
+std::size_t count_duplicates(const PointCloud& cloud, Progress& progress) {
+    constexpr std::size_t points_between_reports = std::size_t{1} << 17;
+    // An open hash table, at most half full.
+    std::vector<Index> table(std::bit_ceil(2 * cloud.size() + 1), no_index);
+    std::size_t duplicates = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        if (i % points_between_reports == 0)
+            progress.step("counting duplicates", static_cast<double>(i) / static_cast<double>(cloud.size()));
+        if (!is_finite(cloud, i)) continue;
+        const Vec3d p = cloud.file_position(i);
+        std::size_t slot = hash_of(p) & (table.size() - 1);
+        while (table[slot] != no_index && cloud.file_position(table[slot]) != p)
+            slot = (slot + 1) & (table.size() - 1);
+        if (table[slot] == no_index)
+            table[slot] = static_cast<Index>(i);
+        else
+            ++duplicates;
+    }
+    return duplicates;
+}
+
+Facts facts_of(const PointCloud& cloud, Progress& progress) {
+    Facts facts;
+    facts.kind = file_kind(cloud);
+    facts.points = cloud.size();
+    facts.bounds = bounds_of(cloud);
+    facts.duplicates = count_duplicates(cloud, progress);
+    // A count of components comes here, into a field of Facts; the two functions below show it.
+    return facts;
+}
+
+std::string json_of(const PointCloud& cloud, const Facts& facts) {
+    const auto vector = [](const Vec3d& v) { return nlohmann::ordered_json{v[0], v[1], v[2]}; };
+    nlohmann::ordered_json json;
+    json["points"] = facts.points;
+    json["finite"] = facts.bounds.finite_points;
+    json["attributes"] = nlohmann::ordered_json::array();
+    for (const Attribute& attribute : cloud.attributes)
+        json["attributes"].push_back(
+            {{"name", attribute.name}, {"type", name_of(attribute.type)}, {"list", attribute.is_list()}});
+    json["bounds"]["min"] = vector(facts.bounds.lowest);
+    json["bounds"]["max"] = vector(facts.bounds.highest);
+    json["diagonal"] = facts.bounds.diagonal();
+    json["duplicates"] = facts.duplicates;
+    json["format"] = facts.kind.format;
+    json["encoding"] = facts.kind.encoding;
+    json["remarks"] = cloud.remarks;
+    // Names come from the file, in any encoding; JSON is UTF-8.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+void print(const PointCloud& cloud, const Facts& facts, std::ostream& out) {
+    const auto line = [&out](const char* name) -> std::ostream& {
+        return out << std::left << std::setw(12) << name;
+    };
+    const auto vector = [&out](const Vec3d& v) { out << v[0] << "  " << v[1] << "  " << v[2] << '\n'; };
+    out << std::setprecision(10);
+    line("format") << facts.kind.format << ", " << facts.kind.encoding << '\n';
+    line("points") << facts.points << '\n';
+    line("finite") << facts.bounds.finite_points << '\n';
+    line("duplicates") << facts.duplicates << '\n';
+    if (facts.bounds.finite_points > 0) {
+        line("lowest"), vector(facts.bounds.lowest);
+        line("highest"), vector(facts.bounds.highest);
+        line("diagonal") << facts.bounds.diagonal() << '\n';
+    }
+    std::size_t widest = 0;
+    for (const Attribute& attribute : cloud.attributes) widest = std::max(widest, attribute.name.size());
+    const char* title = "attributes";
+    for (const Attribute& attribute : cloud.attributes) {
+        line(title) << std::setw(static_cast<int>(widest) + 2) << attribute.name << name_of(attribute.type)
+                    << (attribute.is_list() ? " list" : "") << '\n';
+        title = "";
+    }
+    for (const std::string& remark : cloud.remarks) line("remark") << remark << '\n';
+}
+
+int info(const std::string& file, bool as_json, Terminal& terminal) {
+    const PointCloud cloud = read_cloud(file, terminal);
+    const Facts facts = facts_of(cloud, terminal);
+    if (as_json)
+        terminal.out << json_of(cloud, facts) << '\n';
+    else
+        print(cloud, facts, terminal.out);
+    return 0;
+}
+
+} // namespace
+
+void add_info(CLI::App& app, Job& job) {
+    struct Options {
+        std::string file;
+        bool json = false;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("info", "What is in a cloud: points, attributes, bounds, duplicates");
+    command->add_option("FILE", options->file, "The cloud, a PLY file")->required();
+    command->add_flag("--json", options->json, "Print one JSON object");
+    command->callback([options, &job] {
+        job = [options](Terminal& terminal) { return info(options->file, options->json, terminal); };
+    });
+}
+
+} // namespace knead

@@ -1,0 +1,62 @@
+// The program: parses the command line, runs one subcommand, and turns what it throws into words and an exit
+// code.
+
+#include "base/error.h"
+#include "base/require.h"
+#include "cli/commands.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <new>
+
+namespace {
+
+constexpr int exit_internal = 1;
+constexpr int exit_usage = static_cast<int>(knead::Trouble::usage);
+constexpr int exit_check_failed = static_cast<int>(knead::Trouble::check_failed);
+constexpr int exit_interrupted = 130;
+
+int run(const knead::Job& job, knead::Terminal& terminal) {
+    try {
+        const int code = job(terminal);
+        if (code == 0 || code == exit_check_failed) terminal.flush_data();
+        return code;
+    } catch (const knead::Cancelled&) {
+        terminal.say("knead: stopped; nothing was written");
+        return exit_interrupted;
+    } catch (const knead::Error& error) {
+        terminal.say(std::string("knead: ") + error.what());
+        return static_cast<int>(error.trouble());
+    } catch (const std::bad_alloc&) {
+        terminal.say("knead: there is not enough memory for this");
+        return exit_internal;
+    } catch (const std::exception& error) {
+        terminal.say(std::string("knead: internal error, please report it: ") + error.what());
+        return exit_internal;
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"knead bends, twists and stretches raw point clouds with handles.", "knead"};
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "knead " KNEAD_VERSION);
+    app.set_help_all_flag("--help-all", "Show the help of every subcommand");
+
+    knead::Job job;
+    knead::add_replay(app, job);
+    knead::add_info(app, job);
+    knead::add_diff(app, job);
+    knead::add_make(app, job);
+    knead::add_devices(app, job);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : exit_usage;
+    }
+    knead::Terminal terminal;
+    return run(job, terminal);
+}

@@ -1,0 +1,156 @@
+// knead replay SESSION: carries out a recorded session with no window.
+
+#include "edit/replay.h"
+#include "base/error.h"
+#include "cli/commands.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace knead {
+
+namespace {
+
+struct Arguments {
+    std::string session, cloud, out, samples, device;
+    std::vector<std::string> settings;
+    unsigned threads = 0;
+    bool record_checks = false, dry_run = false, json = false;
+};
+
+ReplayOptions options_from(const Arguments& arguments) {
+    ReplayOptions options;
+    if (!arguments.cloud.empty()) options.cloud = arguments.cloud;
+    if (!arguments.out.empty()) options.out = arguments.out;
+    for (const std::string& assignment : arguments.settings)
+        options.overrides = merged(options.overrides, parse_setting(assignment));
+    if (!arguments.samples.empty())
+        options.overrides = merged(options.overrides, parse_setting("samples=" + arguments.samples));
+    options.device = arguments.device;
+    options.threads = arguments.threads;
+    options.record_checks = arguments.record_checks;
+    options.rehearse = arguments.dry_run;
+    return options;
+}
+
+nlohmann::ordered_json to_json(const ReplayReport& report) {
+    nlohmann::ordered_json checks = nlohmann::ordered_json::array();
+    for (const CheckResult& check : report.checks) {
+        nlohmann::ordered_json entry{{"line", check.line}, {"distance", nullptr}, {"held", check.held}};
+        if (check.distance) entry["distance"] = *check.distance;
+        checks.push_back(std::move(entry));
+    }
+    const StageSeconds& stages = report.stages;
+    return {
+        {"cloud", {{"points", report.points}, {"components", report.components}, {"strays", report.strays}}},
+        {"samples", report.samples},
+        {"frames", report.frames},
+        {"iterations", report.iterations},
+        {"threads", report.threads},
+        {"device", report.device},
+        {"peak_rss_bytes", report.peak_memory},
+        {"handle_error", report.handle_error},
+        {"checks", checks},
+        {"warnings", report.warnings},
+        {"seconds",
+         {{"read", report.read},
+          {"order", stages.order},
+          {"neighbors", stages.neighbors},
+          {"sampling", stages.sampling},
+          {"geodesic", stages.geodesic},
+          {"factorize", stages.factorize},
+          {"solve", report.solve},
+          {"upsample", report.upsample},
+          {"device", stages.device},
+          {"write", report.write},
+          {"total", report.total}}}};
+}
+
+// A duration in the unit that reads best.
+std::string duration(double seconds) {
+    char text[32];
+    if (seconds < 0.001)
+        std::snprintf(text, sizeof text, "%.0f µs", seconds * 1e6);
+    else if (seconds < 1)
+        std::snprintf(text, sizeof text, seconds < 0.1 ? "%.1f ms" : "%.0f ms", seconds * 1e3);
+    else
+        std::snprintf(text, sizeof text, "%.2f s", seconds);
+    return text;
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+// What a replay did, in plain words.
+void tell(const ReplayReport& report, const std::string& session, Terminal& terminal) {
+    const StageSeconds& stages = report.stages;
+    terminal.say("Replayed " + session + ": " + counted(report.points, "point", "points") + ", " +
+                 counted(report.samples, "sample", "samples") + ", " +
+                 counted(report.frames, "frame", "frames") + " of dragging, " +
+                 counted(report.iterations, "iteration", "iterations") + ", on " +
+                 counted(report.threads, "thread", "threads") + " and " + report.device + ".");
+    terminal.say("  reading the cloud            " + duration(report.read));
+    terminal.say("  ordering the points          " + duration(stages.order));
+    terminal.say("  finding neighbours           " + duration(stages.neighbors));
+    terminal.say("  choosing samples             " + duration(stages.sampling));
+    terminal.say("  measuring along the surface  " + duration(stages.geodesic));
+    terminal.say("  factorising both systems     " + duration(stages.factorize));
+    terminal.say("  preparing the device         " + duration(stages.device));
+    terminal.say("  one iteration                " + duration(report.solve));
+    terminal.say("  moving all points            " + duration(report.upsample));
+    terminal.say("  writing                      " + duration(report.write));
+    terminal.say("  in all                       " + duration(report.total));
+    for (const std::filesystem::path& path : report.written) terminal.say("Wrote " + path.string());
+}
+
+int run_replay(const Arguments& arguments, Terminal& terminal) {
+    const ReplayOptions options = options_from(arguments);
+    const Session session = read_session(arguments.session);
+    const ReplayReport report =
+        replay(session, options, terminal, [&](const std::string& words) { terminal.warn(words); });
+    terminal.clear_bar();
+    if (arguments.dry_run)
+        terminal.say(arguments.session + ": " + counted(session.lines.size() + 1, "line", "lines") +
+                     " in order; nothing was computed or written");
+    else if (!arguments.json)
+        tell(report, arguments.session, terminal);
+    for (const CheckResult& check : report.checks)
+        if (!check.held)
+            terminal.say("knead: " + session.place(check.line) + ": check failed: " + check.words);
+    if (!report.checks.empty() && report.all_checks_held())
+        terminal.say(counted(report.checks.size(), "check", "checks") + " held");
+    if (arguments.json) terminal.out << to_json(report).dump(2) << '\n';
+    return report.all_checks_held() ? 0 : static_cast<int>(Trouble::check_failed);
+}
+
+} // namespace
+
+void add_replay(CLI::App& app, Job& job) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("replay", "Carry out a recorded session and save the shape");
+    command->add_option("SESSION", arguments->session, "The session file")->required();
+    command->add_option("--cloud", arguments->cloud, "Another cloud than the session's, of as many points");
+    command->add_option("--out", arguments->out, "Where to save the shape after the last line");
+    command
+        ->add_option("--set", arguments->settings,
+                     "A setting, key=value, over the session's own; may be repeated")
+        ->allow_extra_args(false);
+    command->add_option("--samples", arguments->samples, "Short for --set samples=N, or all");
+    command->add_option("--device", arguments->device,
+                        "An OpenCL device by number or name, or \"reference\"");
+    command->add_option("--threads", arguments->threads, "How many threads to use (default: one a core)")
+        ->check(CLI::Range(1U, 1024U));
+    command->add_flag("--record-checks", arguments->record_checks,
+                      "Write the session again, with a check after each edit and its cloud beside it");
+    command->add_flag("--dry-run", arguments->dry_run, "Check the session without computing anything");
+    command->add_flag("--json", arguments->json, "Print what was measured as JSON");
+    command->callback([arguments, &job] {
+        job = [arguments](Terminal& terminal) { return run_replay(*arguments, terminal); };
+    });
+}
+
+} // namespace knead

@@ -13,22 +13,40 @@
 
 namespace knead {
 
+namespace {
+
+// How often a waiting thread looks before it sleeps: some ten microseconds, the pause between the loops of
+// one stage. Waking a sleeper takes several times as long.
+constexpr int looks_before_sleep = 2000;
+
+template<typename Condition>
+bool comes_soon(Condition&& condition) {
+    for (int look = 0; look < looks_before_sleep; ++look) {
+        if (condition()) return true;
+#if defined(__x86_64__)
+        __builtin_ia32_pause();
+#endif
+    }
+    return false;
+}
+
+} // namespace
+
 struct Workers::State {
     std::vector<std::thread> threads;
     std::mutex mutex;
     std::condition_variable wake;
     std::condition_variable finished;
 
-    // The job at hand; changed under the mutex while no worker is busy.
+    // The job at hand; written while no worker is busy, and published by `job`.
     Call call = nullptr;
     void* context = nullptr;
     std::size_t count = 0;
     std::size_t grain = 1;
-    unsigned long job = 0;
-    unsigned busy = 0;
-    bool stopping = false;
-    std::exception_ptr failure;
-
+    std::exception_ptr failure; // under the mutex
+    std::atomic<unsigned long> job{0};
+    std::atomic<unsigned> busy{0};
+    std::atomic<bool> stopping{false};
     std::atomic<std::size_t> next_chunk{0};
 
     void work_through() {
@@ -48,15 +66,20 @@ struct Workers::State {
 
     void worker_loop() {
         unsigned long done = 0;
-        std::unique_lock lock(mutex);
         for (;;) {
-            wake.wait(lock, [&] { return stopping || job != done; });
+            const auto called = [&] { return stopping || job != done; };
+            if (!comes_soon(called)) {
+                std::unique_lock lock(mutex);
+                wake.wait(lock, called);
+            }
             if (stopping) return;
             done = job;
-            lock.unlock();
             work_through();
-            lock.lock();
-            if (--busy == 0) finished.notify_one();
+            if (busy.fetch_sub(1) == 1) {
+                const std::lock_guard lock(
+                    mutex); // so that the caller is either asleep by now, or looks again
+                finished.notify_one();
+            }
         }
     }
 };
@@ -88,22 +111,24 @@ void Workers::run(std::size_t count, std::size_t grain, Call call, void* context
             call(context, begin, std::min(count, begin + grain));
         return;
     }
+    require(state.busy == 0, "parallel loops do not nest");
+    state.call = call;
+    state.context = context;
+    state.count = count;
+    state.grain = grain;
+    state.next_chunk.store(0, std::memory_order_relaxed);
+    state.busy = static_cast<unsigned>(state.threads.size());
     {
         const std::lock_guard lock(state.mutex);
-        require(state.busy == 0, "parallel loops do not nest");
-        state.call = call;
-        state.context = context;
-        state.count = count;
-        state.grain = grain;
-        state.next_chunk.store(0, std::memory_order_relaxed);
-        state.busy = static_cast<unsigned>(state.threads.size());
-        state.failure = nullptr;
         ++state.job;
     }
     state.wake.notify_all();
     state.work_through();
-    std::unique_lock lock(state.mutex);
-    state.finished.wait(lock, [&] { return state.busy == 0; });
+    const auto all_done = [&] { return state.busy == 0; };
+    if (!comes_soon(all_done)) {
+        std::unique_lock lock(state.mutex);
+        state.finished.wait(lock, all_done);
+    }
     if (state.failure) std::rethrow_exception(std::exchange(state.failure, nullptr));
 }
 

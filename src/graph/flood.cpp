@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <optional>
 
@@ -14,13 +13,57 @@ namespace knead {
 namespace {
 
 constexpr std::uint32_t ring = 64; // levels that can wait at a time: one more than the longest link
-constexpr double levels_a_median_link = 8;
+constexpr double levels_a_median_link = 4;
+constexpr std::size_t far_ahead = 16;
+constexpr Index vertices_a_share =
+    256; // neighbours in the order of the vertices are taken by the same worker
 
-// A sample that reaches, or has reached, a vertex.
+// A sample that reaches a vertex.
 struct Arrival {
     Index vertex;
     Index sample;
 };
+
+// A row of K places: NearestSamples, or as narrow as is needed.
+template<std::size_t K>
+struct Row {
+    std::array<Index, K> sample;
+    std::array<std::uint32_t, K> distance;
+};
+
+constexpr std::uint32_t never = ~std::uint32_t{0};
+
+template<typename Places>
+Places empty_row() {
+    Places row;
+    row.sample.fill(no_index);
+    row.distance.fill(never);
+    return row;
+}
+
+// Whether a sample that arrives at a level would be among the K first.
+template<typename Places>
+bool has_room(const Places& row, Index sample, std::uint32_t level) {
+    if (row.distance.back() < level || (row.distance.back() == level && row.sample.back() < sample))
+        return false;
+    bool there = false;
+    for (const Index held : row.sample) there |= held == sample;
+    return !there;
+}
+
+// Puts it there; the last one goes.
+template<typename Places>
+void insert(Places& row, Index sample, std::uint32_t level) {
+    std::size_t at = row.sample.size() - 1;
+    for (; at > 0; --at) {
+        if (row.distance[at - 1] < level || (row.distance[at - 1] == level && row.sample[at - 1] < sample))
+            break;
+        row.sample[at] = row.sample[at - 1];
+        row.distance[at] = row.distance[at - 1];
+    }
+    row.sample[at] = sample;
+    row.distance[at] = level;
+}
 
 // One flood. A level has two steps, each over many arrivals at once: those that wait for the level are put
 // into the rows of their vertices, and what was gained is sent on along the links, to arrive as many levels
@@ -29,16 +72,23 @@ struct Arrival {
 // A row holds the first K by (distance, sample) of all that arrived, and levels come in ascending order, so
 // it does not matter in which order the arrivals of a level are put in: the result depends on chance as
 // little as on the workers.
+template<typename Places>
 class Flood {
 public:
-    Flood(FloodLists& lists, const Graph& graph, std::span<const std::uint8_t> lengths, Workers& workers)
-        : lists_(lists), width_(lists.width), graph_(graph), lengths_(lengths), workers_(workers),
-          state_(graph.size(), 0) {
+    struct OldRow {
+        Index vertex;
+        Places row;
+    };
+
+    Flood(std::vector<Places>& rows, const Graph& graph, std::span<const std::uint8_t> lengths,
+          Workers& workers)
+        : rows_(rows), graph_(graph), lengths_(lengths), workers_(workers) {
         require(lengths.size() == graph.neighbor.size(), "a length a link");
     }
 
-    // Samples are numbered from `first`. Rows are kept as they were, if `keep_old` says so.
+    // Samples are numbered from `first`. Rows are kept as they were before, if `keep_old` says so.
     void run(std::span<const Index> starts, Index first, bool keep_old, Progress& progress) {
+        if (keep_old) kept_.assign(graph_.size(), 0);
         {
             Gathered<Arrival>::Block block(waiting_[0]);
             for (std::size_t i = 0; i < starts.size(); ++i)
@@ -56,106 +106,85 @@ public:
         }
     }
 
-    std::span<const FloodPatch::Row> old_rows() const { return old_rows_.items(); }
+    std::span<const OldRow> old_rows() const { return old_rows_.items(); }
 
 private:
-    static constexpr std::uint8_t locked = 1;
-    static constexpr std::uint8_t kept = 2;
-
-    // Whether a sample that arrives at a level would be among the K first.
-    bool has_room(Index v, Index sample, std::uint32_t level) const {
-        const std::size_t at = v * width_;
-        const std::size_t count = lists_.count[v];
-        if (count == width_) {
-            const std::uint32_t last = lists_.distance[at + count - 1];
-            if (last < level || (last == level && lists_.sample[at + count - 1] < sample)) return false;
-        }
-        const auto row = lists_.sample.begin() + static_cast<std::ptrdiff_t>(at);
-        return std::find(row, row + static_cast<std::ptrdiff_t>(count), sample) ==
-               row + static_cast<std::ptrdiff_t>(count);
-    }
-
+    // Every worker goes through all arrivals and takes those at vertices of its own share, so no row needs a
+    // lock.
     void put_in(std::span<const Arrival> arrivals, std::uint32_t level, bool keep_old) {
         gained_.clear();
-        workers_.for_chunks(arrivals.size(), 1024, [&](std::size_t begin, std::size_t end) {
-            Gathered<Arrival>::Block gained(gained_);
-            Gathered<FloodPatch::Row>::Block old(old_rows_);
-            for (std::size_t i = begin; i < end; ++i) {
+        const Index shares = arrivals.size() < 2048 ? 1 : workers_.threads();
+        workers_.for_each(shares, 1, [&](std::size_t share) {
+            typename Gathered<Arrival>::Block gained(gained_);
+            typename Gathered<OldRow>::Block old(old_rows_);
+            const auto is_own = [&](Index v) { return (v / vertices_a_share) % shares == share; };
+            for (std::size_t i = 0; i < arrivals.size(); ++i) {
+                if (i + far_ahead < arrivals.size() && is_own(arrivals[i + far_ahead].vertex))
+                    prefetch(arrivals[i + far_ahead].vertex);
                 const auto [v, sample] = arrivals[i];
-                lock(v);
-                if (has_room(v, sample, level)) {
-                    if (keep_old) keep_row(v, old);
-                    insert(v, sample, level);
-                    gained.push(arrivals[i]);
+                if (!is_own(v) || !has_room(rows_[v], sample, level)) continue;
+                if (keep_old && !kept_[v]) {
+                    kept_[v] = 1;
+                    old.push({v, rows_[v]});
                 }
-                unlock(v);
+                insert(rows_[v], sample, level);
+                gained.push(arrivals[i]);
             }
         });
-    }
-
-    void insert(Index v, Index sample, std::uint32_t level) {
-        Index* samples = lists_.sample.data() + v * width_;
-        std::uint32_t* distances = lists_.distance.data() + v * width_;
-        std::size_t at = lists_.count[v];
-        if (at == width_)
-            --at; // the last one goes
-        else
-            ++lists_.count[v];
-        for (; at > 0; --at) {
-            if (distances[at - 1] < level || (distances[at - 1] == level && samples[at - 1] < sample)) break;
-            samples[at] = samples[at - 1];
-            distances[at] = distances[at - 1];
-        }
-        samples[at] = sample;
-        distances[at] = level;
-    }
-
-    void keep_row(Index v, Gathered<FloodPatch::Row>::Block& old) {
-        std::atomic_ref state(state_[v]);
-        if (state.load(std::memory_order_relaxed) & kept) return;
-        state.fetch_or(kept, std::memory_order_relaxed);
-        FloodPatch::Row row{v, lists_.count[v], {}, {}};
-        std::copy_n(lists_.sample.begin() + static_cast<std::ptrdiff_t>(v * width_), width_, row.sample);
-        std::copy_n(lists_.distance.begin() + static_cast<std::ptrdiff_t>(v * width_), width_, row.distance);
-        old.push(row);
     }
 
     // Rows change only in put_in(), so here they are read without locks.
     void send_on(std::uint32_t level) {
         const std::span<const Arrival> gained = gained_.items();
-        workers_.for_chunks(gained.size(), 512, [&](std::size_t begin, std::size_t end) {
-            std::array<std::optional<Gathered<Arrival>::Block>, ring> blocks;
-            for (std::size_t i = begin; i < end; ++i)
-                for (Index link = graph_.first[gained[i].vertex]; link < graph_.first[gained[i].vertex + 1];
-                     ++link) {
-                    const Arrival next{graph_.neighbor[link], gained[i].sample};
-                    const std::uint32_t when = level + lengths_[link];
-                    if (!has_room(next.vertex, next.sample, when)) continue;
-                    auto& block = blocks[when % ring];
-                    if (!block) block.emplace(waiting_[when % ring]);
-                    block->push(next);
+        workers_.for_chunks(gained.size(), 1024, [&](std::size_t begin, std::size_t end) {
+            Blocks blocks;
+            std::array<Departure, 256> departures;
+            std::size_t count = 0;
+            const auto depart = [&] {
+                for (std::size_t d = 0; d < count; ++d) put_in_line(departures[d], blocks);
+                count = 0;
+            };
+            for (std::size_t i = begin; i < end; ++i) {
+                if (i + far_ahead < end)
+                    __builtin_prefetch(&graph_.neighbor[graph_.first[gained[i + far_ahead].vertex]]);
+                const Index v = gained[i].vertex;
+                for (Index link = graph_.first[v]; link < graph_.first[v + 1]; ++link) {
+                    prefetch(graph_.neighbor[link]);
+                    departures[count++] = {{graph_.neighbor[link], gained[i].sample}, level + lengths_[link]};
+                    if (count == departures.size()) depart();
                 }
+            }
+            depart();
         });
     }
 
-    void lock(Index v) {
-        std::atomic_ref state(state_[v]);
-        while (state.fetch_or(locked, std::memory_order_acquire) & locked) {
-        }
-    }
-    void unlock(Index v) {
-        std::atomic_ref(state_[v]).fetch_and(static_cast<std::uint8_t>(~locked), std::memory_order_release);
+    // On its way: arrives when.
+    struct Departure {
+        Arrival arrival;
+        std::uint32_t when;
+    };
+    using Blocks = std::array<std::optional<typename Gathered<Arrival>::Block>, ring>;
+
+    void put_in_line(const Departure& departure, Blocks& blocks) {
+        const auto& [arrival, when] = departure;
+        if (!has_room(rows_[arrival.vertex], arrival.sample, when)) return;
+        auto& block = blocks[when % ring];
+        if (!block) block.emplace(waiting_[when % ring]);
+        block->push(arrival);
     }
 
-    FloodLists& lists_;
-    std::size_t width_;
+    // Fronts run all over the cloud, so the rows they meet are rarely in the cache: they are asked for some
+    // steps ahead.
+    void prefetch(Index v) const { __builtin_prefetch(&rows_[v]); }
+
+    std::vector<Places>& rows_;
     const Graph& graph_;
     std::span<const std::uint8_t> lengths_;
     Workers& workers_;
-    std::vector<std::uint8_t> state_;             // of each vertex: locked, kept
+    std::vector<std::uint8_t> kept_; // of each vertex, whether its old row was kept; empty if none are
     std::array<Gathered<Arrival>, ring> waiting_; // for each of the next levels
     Gathered<Arrival> gained_;                    // at the level at hand
-    Gathered<FloodPatch::Row> old_rows_;
+    Gathered<OldRow> old_rows_;
 };
 
 double length_of(const Graph& graph, std::span<const float> positions, std::size_t v, std::size_t link) {
@@ -205,32 +234,35 @@ std::vector<Index> shuffled(std::vector<Index> vertices) {
     return vertices;
 }
 
-FloodLists flood(const Graph& graph, std::span<const std::uint8_t> lengths, std::span<const Index> samples,
-                 std::size_t width, Workers& workers, Progress& progress) {
-    require(width >= 1 && width <= influences_per_row, "a row has one to K places");
-    FloodLists lists;
-    lists.width = width;
-    lists.sample.assign(graph.size() * width, no_index);
-    lists.distance.assign(graph.size() * width, 0);
-    lists.count.assign(graph.size(), 0);
-    Flood(lists, graph, lengths, workers).run(samples, 0, false, progress);
-    return lists;
+std::vector<NearestSamples> flood(const Graph& graph, std::span<const std::uint8_t> lengths,
+                                  std::span<const Index> samples, Workers& workers, Progress& progress) {
+    std::vector<NearestSamples> nearest(graph.size(), empty_row<NearestSamples>());
+    Flood(nearest, graph, lengths, workers).run(samples, 0, false, progress);
+    return nearest;
 }
 
-FloodPatch add_samples(FloodLists& lists, const Graph& graph, std::span<const std::uint8_t> lengths,
-                       std::span<const Index> added, Index first_new, Workers& workers, Progress& progress) {
-    Flood flood(lists, graph, lengths, workers);
+std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t> lengths,
+                               std::span<const Index> samples, Workers& workers, Progress& progress) {
+    std::vector<Row<1>> rows(graph.size(), empty_row<Row<1>>());
+    Flood(rows, graph, lengths, workers).run(samples, 0, false, progress);
+    std::vector<Index> nearest(graph.size());
+    for (std::size_t v = 0; v < graph.size(); ++v) nearest[v] = rows[v].sample[0];
+    return nearest;
+}
+
+FloodPatch add_samples(std::vector<NearestSamples>& nearest, const Graph& graph,
+                       std::span<const std::uint8_t> lengths, std::span<const Index> added, Index first_new,
+                       Workers& workers, Progress& progress) {
+    Flood flood(nearest, graph, lengths, workers);
     flood.run(added, first_new, true, progress);
-    return {{flood.old_rows().begin(), flood.old_rows().end()}};
+    FloodPatch patch;
+    patch.rows.reserve(flood.old_rows().size());
+    for (const auto& old : flood.old_rows()) patch.rows.push_back({old.vertex, old.row});
+    return patch;
 }
 
-void revert(FloodLists& lists, const FloodPatch& patch) {
-    for (const FloodPatch::Row& row : patch.rows) {
-        const auto at = static_cast<std::ptrdiff_t>(row.vertex * lists.width);
-        lists.count[row.vertex] = row.count;
-        std::copy_n(row.sample, lists.width, lists.sample.begin() + at);
-        std::copy_n(row.distance, lists.width, lists.distance.begin() + at);
-    }
+void revert(std::vector<NearestSamples>& nearest, const FloodPatch& patch) {
+    for (const FloodPatch::Row& row : patch.rows) nearest[row.vertex] = row.nearest;
 }
 
 } // namespace knead

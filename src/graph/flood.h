@@ -17,13 +17,15 @@
 #include "graph/csr.h"
 #include "graph/influences.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace knead {
 
-// How long each link is, in levels: its length over an eighth of the median, rounded, 1 … 63; one entry for
+// How long each link is, in levels: its length over a quarter of the median, rounded, 1 … 63; one entry for
 // every entry of graph.neighbor. `positions`: 3 floats a vertex.
 std::vector<std::uint8_t> link_lengths(const Graph& graph, std::span<const float> positions,
                                        Workers& workers);
@@ -31,39 +33,41 @@ std::vector<std::uint8_t> link_lengths(const Graph& graph, std::span<const float
 // The same vertices in an order that depends on nothing but their numbers and follows no direction.
 std::vector<Index> shuffled(std::vector<Index> vertices);
 
-// Up to K = influences_per_row samples a vertex, by (distance, sample number), tightly packed rows of K
-// places. A vertex whose component has fewer samples has a shorter list, and none in a component without
-// samples.
-struct FloodLists {
-    std::size_t width = influences_per_row; // K
-    std::vector<Index> sample;              // numbers of samples; no_index in empty places
-    std::vector<std::uint32_t> distance;    // in levels
-    std::vector<std::uint8_t> count;        // of each vertex
+// The K nearest samples of a vertex, by (distance, sample number). A vertex whose component has fewer than K
+// keeps the last places empty: sample no_index, the greatest distance.
+struct alignas(64) NearestSamples { // a cache line
+    std::array<Index, influences_per_row> sample;
+    std::array<std::uint32_t, influences_per_row> distance; // in levels
 
-    std::size_t vertices() const { return count.size(); }
+    std::size_t count() const {
+        return static_cast<std::size_t>(std::ranges::find(sample, no_index) - sample.begin());
+    }
 };
 
 // Floods the graph from `samples`, which are different vertices; sample s is the one at samples[s].
-// `lengths`: one entry for every entry of graph.neighbor, 1 … 63, the same in both directions. `width` K: 1 …
-// influences_per_row.
-FloodLists flood(const Graph& graph, std::span<const std::uint8_t> lengths, std::span<const Index> samples,
-                 std::size_t width, Workers& workers, Progress& progress);
+// `lengths`: one entry for every entry of graph.neighbor, 1 … 63, the same in both directions. Returns one
+// row a vertex.
+std::vector<NearestSamples> flood(const Graph& graph, std::span<const std::uint8_t> lengths,
+                                  std::span<const Index> samples, Workers& workers, Progress& progress);
+
+// The same for K = 1: each vertex's nearest sample, no_index in a component without samples.
+std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t> lengths,
+                               std::span<const Index> samples, Workers& workers, Progress& progress);
 
 // What add_samples() changed: whole rows as they were before, each vertex once, in no particular order.
 struct FloodPatch {
     struct Row {
         Index vertex;
-        std::uint8_t count;
-        Index sample[influences_per_row];
-        std::uint32_t distance[influences_per_row];
+        NearestSamples nearest;
     };
     std::vector<Row> rows;
 };
 
 // Adds the samples number first_new, first_new + 1, … at the vertices `added`, which hold no sample yet, as
 // if they had been in the flood from the start; only what they reach is flooded. revert() takes it back.
-FloodPatch add_samples(FloodLists& lists, const Graph& graph, std::span<const std::uint8_t> lengths,
-                       std::span<const Index> added, Index first_new, Workers& workers, Progress& progress);
-void revert(FloodLists& lists, const FloodPatch& patch);
+FloodPatch add_samples(std::vector<NearestSamples>& nearest, const Graph& graph,
+                       std::span<const std::uint8_t> lengths, std::span<const Index> added, Index first_new,
+                       Workers& workers, Progress& progress);
+void revert(std::vector<NearestSamples>& nearest, const FloodPatch& patch);
 
 } // namespace knead

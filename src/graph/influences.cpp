@@ -36,18 +36,18 @@ void fill_weights(const std::uint32_t* distances, std::size_t count, InfluenceWe
 
 } // namespace
 
-InfluenceRows influence_rows(const FloodLists& lists, InfluenceWeights weights, Workers& workers) {
+InfluenceRows influence_rows(std::span<const NearestSamples> nearest, InfluenceWeights weights,
+                             Workers& workers) {
     InfluenceRows rows;
-    rows.sample.assign(lists.vertices() * width, 0);
-    rows.weight.assign(lists.vertices() * width, 0);
-    workers.for_each(lists.vertices(), 4096, [&](std::size_t v) {
-        const std::size_t count = lists.count[v];
+    rows.sample.assign(nearest.size() * width, 0);
+    rows.weight.assign(nearest.size() * width, 0);
+    workers.for_each(nearest.size(), 4096, [&](std::size_t v) {
+        const std::size_t count = nearest[v].count();
         if (count == 0) return;
-        const std::size_t at = v * width;
-        std::fill_n(rows.sample.begin() + static_cast<std::ptrdiff_t>(at), width, lists.sample[at]);
-        std::copy_n(lists.sample.begin() + static_cast<std::ptrdiff_t>(at), count,
-                    rows.sample.begin() + static_cast<std::ptrdiff_t>(at));
-        fill_weights(lists.distance.data() + at, count, weights, rows.weight.data() + at);
+        Index* samples = rows.sample.data() + v * width;
+        std::fill_n(samples, width, nearest[v].sample[0]);
+        std::copy_n(nearest[v].sample.data(), count, samples);
+        fill_weights(nearest[v].distance.data(), count, weights, rows.weight.data() + v * width);
     });
     return rows;
 }

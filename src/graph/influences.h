@@ -27,12 +27,13 @@ enum class InfluenceWeights {
     paper,  // 1/d²
 };
 
-struct FloodLists;
+struct NearestSamples;
 
-// One row a vertex from the flood's lists and distances; d = 0 takes that sample alone, a lone
+// One row a vertex from the flood's samples and distances; d = 0 takes that sample alone, a lone
 // sample and equal distances share evenly. A vertex without samples gets a row of sample 0 with all weights
 // 0.
-InfluenceRows influence_rows(const FloodLists& lists, InfluenceWeights weights, Workers& workers);
+InfluenceRows influence_rows(std::span<const NearestSamples> nearest, InfluenceWeights weights,
+                             Workers& workers);
 
 // One row a vertex that is its own sample: sample v at vertex v.
 InfluenceRows own_rows(std::size_t vertices);

@@ -40,14 +40,14 @@ void give_each_one(const VertexShape& shape, std::span<const Index> label, std::
 }
 
 // The pairs of samples whose territories touch, once for every link of the point graph between them, sorted.
-std::vector<std::pair<Index, Index>> touching(const FloodLists& lists, const Graph& points) {
+std::vector<std::pair<Index, Index>> touching(std::span<const NearestSamples> nearest, const Graph& points) {
     std::vector<std::pair<Index, Index>> pairs;
     for (Index p = 0; p < points.size(); ++p) {
-        if (lists.count[p] == 0) continue;
-        const Index a = lists.sample[p * lists.width];
+        const Index a = nearest[p].sample[0];
+        if (a == no_index) continue;
         for (const Index q : points.row(p)) {
             if (q > p) break; // rows ascend, and the link is met again from its other end
-            const Index b = lists.sample[q * lists.width];
+            const Index b = nearest[q].sample[0];
             if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
         }
     }
@@ -64,19 +64,19 @@ std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
         return Eigen::Map<const Vec3f>(positions.data() + 3 * v).cast<double>();
     };
     for (int round = 0; round < rounds; ++round) {
-        const FloodLists nearest = flood(graph, lengths, samples, 1, workers, progress);
+        const std::vector<Index> nearest = territories(graph, lengths, samples, workers, progress);
         std::vector<Vec3d> mean(samples.size(), Vec3d::Zero());
         std::vector<double> count(samples.size(), 0);
         for (std::size_t v = 0; v < graph.size(); ++v) {
-            if (nearest.count[v] == 0) continue;
-            mean[nearest.sample[v]] += position(v);
-            count[nearest.sample[v]] += 1;
+            if (nearest[v] == no_index) continue;
+            mean[nearest[v]] += position(v);
+            count[nearest[v]] += 1;
         }
         for (std::size_t s = 0; s < samples.size(); ++s) mean[s] /= count[s];
         std::vector<double> smallest(samples.size(), std::numeric_limits<double>::infinity());
         for (std::size_t v = 0; v < graph.size(); ++v) {
-            if (nearest.count[v] == 0) continue;
-            const Index s = nearest.sample[v];
+            if (nearest[v] == no_index) continue;
+            const Index s = nearest[v];
             const double squared = (position(v) - mean[s]).squaredNorm();
             if (squared >= smallest[s]) continue;
             smallest[s] = squared;
@@ -102,24 +102,24 @@ std::vector<Index> handle_samples(const VertexShape& shape, std::span<const Inde
     return added;
 }
 
-SampleGraph sample_graph(const FloodLists& lists, std::span<const Index> samples, const Graph& points,
-                         Workers& workers) {
-    std::vector<Index> nearest(samples.size() * sample_neighbors, no_index);
+SampleGraph sample_graph(std::span<const NearestSamples> nearest, std::span<const Index> samples,
+                         const Graph& points, Workers& workers) {
+    std::vector<Index> links(samples.size() * sample_neighbors, no_index);
     workers.for_each(samples.size(), 1024, [&](std::size_t s) {
-        const std::size_t at = samples[s] * lists.width;
         std::size_t kept = 0;
-        for (std::size_t e = 0; e < lists.count[samples[s]] && kept < sample_neighbors; ++e)
-            if (lists.sample[at + e] != s) nearest[s * sample_neighbors + kept++] = lists.sample[at + e];
+        for (const Index other : nearest[samples[s]].sample)
+            if (other != s && other != no_index && kept < sample_neighbors)
+                links[s * sample_neighbors + kept++] = other;
     });
-    const std::vector<std::pair<Index, Index>> pairs = touching(lists, points);
+    const std::vector<std::pair<Index, Index>> pairs = touching(nearest, points);
     SampleGraph result;
-    result.graph = with_edges(symmetric_graph(nearest, sample_neighbors, workers), pairs);
+    result.graph = with_edges(symmetric_graph(links, sample_neighbors, workers), pairs);
     result.contact.assign(result.graph.neighbor.size(), 0.5F);
     for (auto pair = pairs.begin(); pair != pairs.end();) {
         const auto next = std::find_if(pair, pairs.end(), [&](const auto& other) { return other != *pair; });
-        const auto links = static_cast<float>(next - pair);
-        result.contact[*find_link(result.graph, pair->first, pair->second)] = links;
-        result.contact[*find_link(result.graph, pair->second, pair->first)] = links;
+        const auto contact = static_cast<float>(next - pair);
+        result.contact[*find_link(result.graph, pair->first, pair->second)] = contact;
+        result.contact[*find_link(result.graph, pair->second, pair->first)] = contact;
         pair = next;
     }
     return result;

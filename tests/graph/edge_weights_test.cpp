@@ -1,0 +1,125 @@
+#include "graph/clouds.h"
+#include "graph/edge_weights.h"
+#include "graph/symmetric_graph.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+
+namespace knead {
+namespace {
+
+using test::Cloud;
+using test::Machine;
+
+std::vector<Vec3d> places(const Cloud& cloud) {
+    std::vector<Vec3d> position;
+    for (std::size_t v = 0; v < cloud.size(); ++v) position.push_back(cloud.at(v));
+    return position;
+}
+
+std::vector<double> weights_for(const Graph& graph, const std::vector<Vec3d>& position,
+                                unsigned threads = 2) {
+    Machine machine(threads);
+    const std::vector<float> contact(graph.neighbor.size(), 1.0F);
+    return isotropic_weights(graph, position, contact, machine.workers);
+}
+
+void expect_symmetric_and_positive(const Graph& graph, const std::vector<double>& weight) {
+    ASSERT_EQ(weight.size(), graph.neighbor.size());
+    for (Index v = 0; v < graph.size(); ++v) {
+        for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link) {
+            ASSERT_TRUE(std::isfinite(weight[link]));
+            ASSERT_GT(weight[link], 0);
+            ASSERT_EQ(weight[link], weight[*find_link(graph, graph.neighbor[link], v)]);
+        }
+    }
+}
+
+TEST(IsotropicWeights, AreSymmetricAndPositive) {
+    for (const auto& [name, cloud] : test::several_clouds()) {
+        SCOPED_TRACE(name);
+        expect_symmetric_and_positive(cloud.graph, weights_for(cloud.graph, places(cloud)));
+    }
+}
+
+// A lattice in the plane, `aspect` times as wide in y as in x, linked to its eight neighbours.
+struct Lattice {
+    static constexpr int edge = 15;
+    Graph graph;
+    std::vector<Vec3d> position;
+
+    explicit Lattice(double aspect) {
+        graph.first.assign(edge * edge + 1, 0);
+        std::vector<std::pair<Index, Index>> edges;
+        for (int x = 0; x < edge; ++x) {
+            for (int y = 0; y < edge; ++y) {
+                position.emplace_back(x, aspect * y, 0);
+                for (const auto& [dx, dy] : {std::pair(1, 0), {0, 1}, {1, 1}, {1, -1}})
+                    if (x + dx < edge && y + dy >= 0 && y + dy < edge)
+                        edges.emplace_back(x * edge + y, (x + dx) * edge + y + dy);
+            }
+        }
+        graph = with_edges(graph, edges);
+    }
+
+    // Largest over smallest eigenvalue of Σ w e eᵀ in the plane, at the middle of the lattice.
+    double anisotropy(const std::vector<double>& weight) const {
+        constexpr std::size_t middle = (edge / 2) * edge + edge / 2;
+        Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+        for (Index link = graph.first[middle]; link < graph.first[middle + 1]; ++link) {
+            const Eigen::Vector2d e = (position[graph.neighbor[link]] - position[middle]).head<2>();
+            spread += weight[link] * e * e.transpose();
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread);
+        return solver.eigenvalues()[1] / solver.eigenvalues()[0];
+    }
+};
+
+TEST(IsotropicWeights, PullEvenlyWhereSamplesLieInRows) {
+    const Lattice lattice(3);
+    const std::vector<double> uniform(lattice.graph.neighbor.size(), 1);
+    // 9 for uniform weights: six of the eight links are 3 or √10 long, and none as long along x. A few
+    // updates need not arrive at 1.
+    EXPECT_GT(lattice.anisotropy(uniform), 5);
+    EXPECT_LT(lattice.anisotropy(weights_for(lattice.graph, lattice.position)), 1.3);
+}
+
+TEST(IsotropicWeights, StayEvenWhereTheLatticeIsSquare) {
+    const Lattice lattice(1);
+    EXPECT_NEAR(lattice.anisotropy(weights_for(lattice.graph, lattice.position)), 1, 1e-9); // by symmetry
+}
+
+TEST(IsotropicWeights, DoNotDependOnTheUnit) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 1000));
+    std::vector<Vec3d> scaled = places(cloud);
+    for (Vec3d& p : scaled) p *= 1000;
+    const auto weight = weights_for(cloud.graph, places(cloud));
+    const auto other = weights_for(cloud.graph, scaled);
+    for (std::size_t link = 0; link < weight.size(); ++link)
+        ASSERT_NEAR(other[link], weight[link], 1e-9 * weight[link]); // rounding only
+}
+
+TEST(IsotropicWeights, AreFiniteWhereSamplesCoincide) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::sphere, 400));
+    std::vector<Vec3d> position = places(cloud);
+    for (std::size_t v = 0; v < 50; ++v) position[v] = position[60]; // whole stars without extent
+    expect_symmetric_and_positive(cloud.graph, weights_for(cloud.graph, position));
+    std::ranges::fill(position, Vec3d(1, 2, 3));
+    expect_symmetric_and_positive(cloud.graph, weights_for(cloud.graph, position));
+}
+
+TEST(IsotropicWeights, AreTheSameForAnyNumberOfThreads) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 5000));
+    const auto one = weights_for(cloud.graph, places(cloud), 1);
+    EXPECT_EQ(weights_for(cloud.graph, places(cloud), 2), one);
+    EXPECT_EQ(weights_for(cloud.graph, places(cloud), 5), one);
+}
+
+TEST(IsotropicWeights, AcceptAGraphWithoutLinks) {
+    const Cloud cloud = test::cloud_of({1, 2, 3});
+    EXPECT_TRUE(weights_for(cloud.graph, places(cloud)).empty());
+}
+
+} // namespace
+} // namespace knead

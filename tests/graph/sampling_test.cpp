@@ -1,0 +1,203 @@
+#include "graph/clouds.h"
+#include "graph/octree.h"
+#include "graph/sampling.h"
+
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace knead {
+namespace {
+
+using test::Cloud;
+using test::Machine;
+
+std::vector<Index> octree_of(const Cloud& cloud, std::size_t count) {
+    std::vector<Index> all(cloud.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    return octree_samples(cloud.code, cloud.positions, all, count);
+}
+
+std::vector<Index> relaxed_of(const Cloud& cloud, const std::vector<Index>& samples, int rounds,
+                              unsigned threads = 2) {
+    Machine machine(threads);
+    return relaxed(samples, cloud.graph, cloud.lengths, cloud.positions, rounds, machine.workers,
+                   machine.progress);
+}
+
+bool all_different(const std::vector<Index>& vertices) {
+    return std::set<Index>(vertices.begin(), vertices.end()).size() == vertices.size();
+}
+
+// Standard deviation over mean of the distances to the nearest other sample: 0 if they are all alike.
+double unevenness(const Cloud& cloud, const std::vector<Index>& samples) {
+    double sum = 0;
+    double squares = 0;
+    for (const Index s : samples) {
+        double nearest = 1e30;
+        for (const Index t : samples)
+            if (t != s) nearest = std::min(nearest, (cloud.at(s) - cloud.at(t)).norm());
+        sum += nearest;
+        squares += nearest * nearest;
+    }
+    const auto count = static_cast<double>(samples.size());
+    return std::sqrt(squares / count - sum * sum / count / count) / (sum / count);
+}
+
+TEST(Relaxed, KeepsTheCountAndNeverPutsTwoOnOneVertex) {
+    for (const auto& [name, cloud] : test::several_clouds()) {
+        SCOPED_TRACE(name);
+        for (const std::size_t count : {1U, 10U, 150U}) {
+            const std::vector<Index> samples = relaxed_of(cloud, shuffled(octree_of(cloud, count)), 3);
+            EXPECT_EQ(samples.size(), count);
+            EXPECT_TRUE(all_different(samples));
+            for (const Index v : samples) EXPECT_LT(v, cloud.size());
+        }
+    }
+}
+
+TEST(Relaxed, KeepsEverySampleInItsComponent) {
+    const Cloud cloud = test::cloud_of(test::two_patches(false));
+    const std::vector<Index> before = octree_of(cloud, 30);
+    const std::vector<Index> after = relaxed_of(cloud, before, 3);
+    for (std::size_t s = 0; s < before.size(); ++s)
+        EXPECT_EQ(cloud.components.component[before[s]], cloud.components.component[after[s]]);
+}
+
+TEST(Relaxed, SpacesSamplesMoreEvenly) {
+    for (const Shape shape : {Shape::plane, Shape::sphere, Shape::knot}) {
+        const Cloud cloud = test::cloud_of(test::shape_positions(shape, 8000));
+        const std::vector<Index> before = shuffled(octree_of(cloud, 300));
+        const std::vector<Index> after = relaxed_of(cloud, before, 3);
+        // About 0.24 before and 0.21 after on the plane, whose cells are even from the start; 0.17 and 0.14
+        // on the knot.
+        EXPECT_LT(unevenness(cloud, after), 0.95 * unevenness(cloud, before)) << name_of(shape);
+    }
+}
+
+TEST(Relaxed, IsTheSameForAnyNumberOfThreads) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 20000));
+    const std::vector<Index> samples = shuffled(octree_of(cloud, 500));
+    const std::vector<Index> one = relaxed_of(cloud, samples, 3, 1);
+    EXPECT_EQ(relaxed_of(cloud, samples, 3, 2), one);
+    EXPECT_EQ(relaxed_of(cloud, samples, 3, 5), one);
+}
+
+// --- handle_samples() ---
+
+using Part = std::pair<Index, Index>; // handle, component
+
+std::set<Part> parts_of(const Cloud& cloud, const std::vector<Index>& label,
+                        const std::vector<Index>& vertices) {
+    std::set<Part> parts;
+    for (const Index v : vertices)
+        if (label[v] != no_index) parts.insert({label[v], cloud.components.component[v]});
+    return parts;
+}
+
+std::vector<Index> everything(const Cloud& cloud) {
+    std::vector<Index> all(cloud.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    return all;
+}
+
+// All of `base` and `added` together, which must be different vertices.
+std::vector<Index> joined(std::vector<Index> base, const std::vector<Index>& added) {
+    base.insert(base.end(), added.begin(), added.end());
+    EXPECT_TRUE(all_different(base)) << "a vertex was added twice, or is a base sample already";
+    return base;
+}
+
+// Handle 0: the low end; 1: the high end; 2: a single vertex in the middle.
+std::vector<Index> label_tube(const Cloud& cloud) {
+    std::vector<Index> label(cloud.size(), no_index);
+    Index middle = 0;
+    for (Index v = 0; v < cloud.size(); ++v) {
+        const double z = cloud.at(v).z();
+        if (z < -2) label[v] = 0;
+        if (z > 2.2) label[v] = 1;
+        if ((cloud.at(v) - Vec3d(0.5, 0, 0)).norm() < (cloud.at(middle) - Vec3d(0.5, 0, 0)).norm())
+            middle = v;
+    }
+    label[middle] = 2;
+    return label;
+}
+
+TEST(HandleSamples, GiveEveryHandleOneHoweverThin) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::cylinder, 6000));
+    const std::vector<Index> label = label_tube(cloud);
+    for (const std::size_t budget : {0U, 1U, 2U, 30U, 100000U}) {
+        for (const std::size_t base_count : {0U, 1U, 20U}) {
+            const std::vector<Index> base = octree_of(cloud, base_count);
+            const auto samples = joined(base, handle_samples(cloud.shape(), label, base, budget));
+            EXPECT_EQ(parts_of(cloud, label, samples), parts_of(cloud, label, everything(cloud)))
+                << "budget " << budget << ", base " << base_count;
+        }
+    }
+}
+
+TEST(HandleSamples, GiveAHandleOneInEveryComponentThatItReachesInto) {
+    const Cloud cloud = test::cloud_of(test::two_patches(false));
+    std::vector<Index> label(cloud.size(), no_index);
+    for (Index v = 0; v < cloud.size(); ++v)
+        if (cloud.at(v).y() < 4) label[v] = cloud.at(v).x() < 6 ? 1 : 0; // the first patch ends at x = 11
+    label[0] = 0;
+    label[cloud.size() - 1] = 0;
+    const std::set<Part> all = parts_of(cloud, label, everything(cloud));
+    EXPECT_GE(all.size(), 3U) << "the handles are meant to reach into both components";
+    const auto added = handle_samples(cloud.shape(), label, {}, 0);
+    EXPECT_EQ(added.size(), all.size());
+    EXPECT_EQ(parts_of(cloud, label, added), all);
+}
+
+TEST(HandleSamples, SpreadTheBudgetAlongTheBorders) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::cylinder, 6000));
+    const std::vector<Index> label = label_tube(cloud);
+    const std::vector<Index> base = octree_of(cloud, 100);
+    const auto added = handle_samples(cloud.shape(), label, base, 30);
+    joined(base, added);
+    // Ten each for the two tubes' rims; handle 2 has one vertex.
+    std::map<Index, std::size_t> count;
+    for (const Index v : added) {
+        ASSERT_NE(label[v], no_index);
+        ++count[label[v]];
+        EXPECT_TRUE(std::ranges::any_of(cloud.graph.row(v), [&](Index u) { return label[u] == no_index; }))
+            << "not on the border";
+    }
+    EXPECT_EQ(count[0], 10U);
+    EXPECT_EQ(count[1], 10U);
+    EXPECT_EQ(count[2], 1U);
+    // Around the rim: no gap of more than a quarter turn between ten samples.
+    std::vector<double> angles;
+    for (const Index v : added)
+        if (label[v] == 0) angles.push_back(std::atan2(cloud.at(v).y(), cloud.at(v).x()));
+    std::ranges::sort(angles);
+    angles.push_back(angles.front() + 2 * std::numbers::pi);
+    for (std::size_t i = 1; i < angles.size(); ++i)
+        EXPECT_LT(angles[i] - angles[i - 1], std::numbers::pi / 2);
+}
+
+TEST(HandleSamples, StayWithinTheBudgetWhereBaseSamplesHoldEveryHandle) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::cylinder, 6000));
+    std::vector<Index> label = label_tube(cloud);
+    std::ranges::replace(label, Index{2}, no_index);
+    const std::vector<Index> base = octree_of(cloud, 200);
+    for (const std::size_t budget : {0U, 1U, 7U, 40U})
+        EXPECT_LE(handle_samples(cloud.shape(), label, base, budget).size(), budget);
+}
+
+TEST(HandleSamples, AreNoneWithoutHandlesOrWhereEveryPointIsASample) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::cylinder, 1000));
+    const std::vector<Index> free(cloud.size(), no_index);
+    EXPECT_TRUE(handle_samples(cloud.shape(), free, {}, 100).empty());
+    EXPECT_TRUE(handle_samples(cloud.shape(), label_tube(cloud), everything(cloud), 100).empty());
+}
+
+TEST(HandleSamples, AreFoundWhereAHandleHoldsAWholeComponent) {
+    const Cloud cloud = test::cloud_of(test::two_patches(false)); // it has no border then
+    const std::vector<Index> label = cloud.components.component;
+    EXPECT_EQ(handle_samples(cloud.shape(), label, {}, 50).size(), 2U);
+}
+
+} // namespace
+} // namespace knead

@@ -1,0 +1,40 @@
+#pragma once
+// Algorithm 1 with lengths: a Dijkstra search from one point, the yardstick for the flood along
+// link_lengths().
+
+#include "graph/algorithm1.h"
+
+#include <queue>
+#include <span>
+#include <utility>
+
+namespace knead::test {
+
+// The first k samples by (distance, sample number). `lengths`: one entry for every entry of graph.neighbor.
+inline std::vector<Reached> nearest_by_length(const Graph& graph, std::span<const std::uint8_t> lengths,
+                                              const std::vector<Index>& samples, Index start,
+                                              std::size_t k = influences_per_row) {
+    std::vector<Index> sample_at(graph.size(), no_index);
+    for (Index s = 0; s < samples.size(); ++s) sample_at[samples[s]] = s;
+    using Waiting = std::pair<unsigned, Index>; // distance, vertex
+    std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting;
+    std::vector<bool> done(graph.size(), false);
+    std::vector<Reached> found;
+    waiting.emplace(0, start);
+    while (!waiting.empty()) {
+        const auto [distance, v] = waiting.top();
+        waiting.pop();
+        if (done[v]) continue;
+        done[v] = true;
+        // Vertices come by distance: beyond the k-th sample's there is nothing to find.
+        if (found.size() >= k && distance > found[k - 1].hops) break;
+        if (sample_at[v] != no_index) found.push_back({distance, sample_at[v]});
+        for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link)
+            if (!done[graph.neighbor[link]]) waiting.emplace(distance + lengths[link], graph.neighbor[link]);
+    }
+    std::ranges::sort(found);
+    if (found.size() > k) found.resize(k);
+    return found;
+}
+
+} // namespace knead::test

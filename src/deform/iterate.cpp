@@ -12,6 +12,11 @@ namespace {
 
 constexpr std::size_t grain = 256;
 
+// q - 1 as a vector w x y z: what the systems are solved for.
+Eigen::Vector4d beyond_one(const Quatd& q) {
+    return {q.w() - 1, q.x(), q.y(), q.z()};
+}
+
 // Equations (3): the samples of handles go where the handles are.
 void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state) {
     for (std::size_t s = 0; s < system.rest.handle.size(); ++s) {
@@ -24,11 +29,10 @@ void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, 
     }
 }
 
-// The first columns of the right-hand side for rotations: `own(row)` of the sample itself, and what the
-// handles around it give, times `smoothing`.
-template<typename Own>
-void assemble_rotations(SampleSystem& system, const SampleState& state, double smoothing, Own&& own,
-                        Workers& workers) {
+// The right-hand side for four columns: `own(row)` of the sample itself, and what `given(sample)` of the
+// handles around it says, times `smoothing`.
+template<typename Own, typename Given>
+void assemble_rotations(SampleSystem& system, double smoothing, Own&& own, Given&& given, Workers& workers) {
     const SampleRest& rest = system.rest;
     const std::size_t rows = system.free_sample.size();
     workers.for_each(rows, grain, [&](std::size_t row) {
@@ -36,26 +40,43 @@ void assemble_rotations(SampleSystem& system, const SampleState& state, double s
         Eigen::Vector4d side = own(row);
         for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
             const Index j = rest.graph.neighbor[link];
-            if (system.unknown[j] != no_index) continue;
-            const Quatd& given = state.rotation[j];
-            side += smoothing * rest.weight[link] *
-                    Eigen::Vector4d(given.w() - 1, given.x(), given.y(), given.z());
+            if (system.unknown[j] == no_index) side += smoothing * rest.weight[link] * beyond_one(given(j));
         }
         for (std::size_t c = 0; c < 4; ++c) system.columns[c * rows + row] = side[static_cast<int>(c)];
     });
 }
 
-// The solved rotations, normalised; one that vanished stays what it was.
-void take_rotations(SampleSystem& system, SampleState& state, Workers& workers) {
+// Calls take(sample, quaternion) with the solution, normalised, where it did not vanish.
+template<typename Take>
+void for_solved_rotations(const SampleSystem& system, Take&& take, Workers& workers) {
     const std::size_t rows = system.free_sample.size();
     workers.for_each(rows, grain, [&](std::size_t row) {
         const double* column = system.columns.data() + row;
-        const Quatd solved(1 + column[0], column[rows], column[2 * rows], column[3 * rows]);
+        Quatd solved(1 + column[0], column[rows], column[2 * rows], column[3 * rows]);
         const double length = solved.norm();
-        const Index i = system.free_sample[row];
-        if (length > 1e-6) state.rotation[i].coeffs() = solved.coeffs() / length;
-        system.turn[i] = turn_of(state.rotation[i]);
+        if (!(length > 1e-6)) return;
+        solved.coeffs() /= length;
+        take(system.free_sample[row], solved);
     });
+}
+
+// Equation (1) for how far the handles turned since the last frame: harmonic increments between them, on top
+// of the turns that the samples have already made.
+void turn_with_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
+                       Workers& workers) {
+    const auto increment = [&](Index s) -> Quatd {
+        const Index handle = system.rest.handle[s];
+        if (handle == no_index) return Quatd::Identity(); // of a part without handles
+        return handles[handle].rotation * state.rotation[s].conjugate();
+    };
+    assemble_rotations(
+        system, 1.0, [](std::size_t) -> Eigen::Vector4d { return Eigen::Vector4d::Zero(); }, increment,
+        workers);
+    system.positions.solve(system.columns, 4);
+    for_solved_rotations(
+        system,
+        [&](Index s, const Quatd& turn) { state.rotation[s] = (turn * state.rotation[s]).normalized(); },
+        workers);
 }
 
 // Step 1: the rotation that the sample's edges made.
@@ -65,7 +86,9 @@ Quatd local_rotation(const SampleRest& rest, const SampleState& state, Index i) 
         const Index j = rest.graph.neighbor[link];
         const Vec3d edge = rest.position[j] - rest.position[i];
         const Vec3d now = edge + (state.displacement[j] - state.displacement[i]);
-        spread.noalias() += (rest.weight[link] * now) * edge.transpose();
+        // In this order the sum is symmetric to the last bit where nothing moved; (w now) edgeᵀ would not be.
+        const Mat3d product = now * edge.transpose();
+        spread += rest.weight[link] * product;
     }
     return nearest_rotation(spread, state.rotation[i]);
 }
@@ -74,6 +97,10 @@ Quatd local_rotation(const SampleRest& rest, const SampleState& state, Index i) 
 double solve_positions(SampleSystem& system, SampleState& state, Workers& workers) {
     const SampleRest& rest = system.rest;
     const std::size_t rows = system.free_sample.size();
+    workers.for_each(rows, grain, [&](std::size_t row) {
+        const Index i = system.free_sample[row];
+        system.turn[i] = turn_of(state.rotation[i]);
+    });
     workers.for_each(rows, grain, [&](std::size_t row) {
         const Index i = system.free_sample[row];
         Vec3d side = Vec3d::Zero();
@@ -101,13 +128,10 @@ double solve_positions(SampleSystem& system, SampleState& state, Workers& worker
 
 } // namespace
 
-void start_edit(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
-                Workers& workers) {
+void follow_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
+                    Workers& workers) {
+    turn_with_handles(system, handles, state, workers);
     place_handles(system, handles, state);
-    assemble_rotations(
-        system, state, 1.0, [](std::size_t) -> Eigen::Vector4d { return Eigen::Vector4d::Zero(); }, workers);
-    system.positions.solve(system.columns, 4);
-    take_rotations(system, state, workers);
     solve_positions(system, state, workers);
 }
 
@@ -115,14 +139,15 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
                Workers& workers) {
     place_handles(system, handles, state);
     assemble_rotations(
-        system, state, system.smoothing,
+        system, system.smoothing,
         [&](std::size_t row) -> Eigen::Vector4d {
-            const Quatd local = local_rotation(system.rest, state, system.free_sample[row]);
-            return system.confidence[row] * Eigen::Vector4d(local.w() - 1, local.x(), local.y(), local.z());
+            return system.confidence[row] *
+                   beyond_one(local_rotation(system.rest, state, system.free_sample[row]));
         },
-        workers);
+        [&](Index s) -> const Quatd& { return state.rotation[s]; }, workers);
     system.rotations.solve(system.columns, 4);
-    take_rotations(system, state, workers);
+    for_solved_rotations(
+        system, [&](Index s, const Quatd& rotation) { state.rotation[s] = rotation; }, workers);
     return solve_positions(system, state, workers);
 }
 

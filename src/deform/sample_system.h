@@ -77,10 +77,12 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system);
 // All samples at rest.
 SampleState rest_state(const SampleSystem& system);
 
-// Starts an edit: rotations from Equation (1) alone (harmonic between the handles), then positions. `handles`
-// holds the motion of every handle that `rest.handle` names.
-void start_edit(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
-                Workers& workers);
+// Starts a frame from where the last one ended: Equation (1) alone for how far the handles turned since then,
+// harmonic between them, is put on top of the turns that the samples have made, and positions follow. From
+// rest this is the paper's linear solution. Turns are handed on evenly in every frame and add up, however
+// many there are. `handles` holds the motion of every handle that `rest.handle` names.
+void follow_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
+                    Workers& workers);
 
 // One iteration from where the samples are, towards the handles' present motions. Allocates nothing of its
 // own. Returns the longest way that a sample went.

@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <string>
 
 // OpenBLAS's own; its header would bring all of BLAS.
 extern "C" void openblas_set_num_threads(int threads);
@@ -73,11 +75,39 @@ superlu_options_t symmetric_options() {
     return options;
 }
 
-std::string words_for(int info, int size) {
-    if (info > size)
-        return "there is not enough memory to factorise the system of " + std::to_string(size) + " samples";
-    return "the system of " + std::to_string(size) + " samples is singular at its row " +
-           std::to_string(info - 1);
+FactorOutcome singular_at(int row, int size) {
+    return {false, "the system of " + std::to_string(size) + " samples is singular at its row " +
+                       std::to_string(row)};
+}
+
+// The diagonal; zero where an entry is missing.
+std::vector<double> diagonal_of(const SparseMatrix& matrix) {
+    std::vector<double> diagonal(static_cast<std::size_t>(matrix.size()), 0);
+    for (std::size_t column = 0; column < diagonal.size(); ++column)
+        for (int at = matrix.first[column]; at < matrix.first[column + 1]; ++at)
+            if (matrix.row[static_cast<std::size_t>(at)] == static_cast<int>(column))
+                diagonal[column] = matrix.value[static_cast<std::size_t>(at)];
+    return diagonal;
+}
+
+// A pivot of a positive definite matrix is part of its diagonal. What rounding leaves of a singular one is
+// 1e-16 of it, and some more after many steps; of a chain of a million samples held at one end, 1e-6.
+constexpr double smallest_pivot = 1e-11;
+
+// The first row whose pivot vanished, if there is one.
+template<typename Factors>
+std::optional<int> vanished_pivot(const Factors& factors, std::span<const double> diagonal) {
+    const auto& blocks =
+        *static_cast<const SCformat*>(factors.lower.Store); // pivots stand in the blocks of L
+    const auto* values = static_cast<const double*>(blocks.nzval);
+    for (std::size_t i = 0; i < diagonal.size(); ++i) {
+        const int row = factors.order[i];
+        const int column = factors.column_order[i];
+        const int first_of_block = blocks.sup_to_col[blocks.col_to_sup[column]];
+        const double pivot = values[blocks.nzval_colptr[column] + column - first_of_block];
+        if (!(pivot > smallest_pivot * diagonal[static_cast<std::size_t>(row)])) return row;
+    }
+    return std::nullopt;
 }
 
 } // namespace
@@ -107,6 +137,11 @@ FactorOutcome SparseFactor::factorize(const SparseMatrix& matrix, std::span<cons
     for (const double value : matrix.value)
         if (!std::isfinite(value)) return {false, "the system holds a number that is not finite"};
 
+    // SuperLU reads outside its arrays where a column is empty.
+    const std::vector<double> diagonal = diagonal_of(matrix);
+    for (std::size_t row = 0; row < diagonal.size(); ++row)
+        if (!(diagonal[row] > 0)) return singular_at(static_cast<int>(row), factors.size);
+
     openblas_set_num_threads(1); // its blocks are small, and more threads would change the rounding
     SparseMatrix ordered = reordered(matrix, order);
     const auto size = static_cast<std::size_t>(factors.size);
@@ -130,10 +165,12 @@ FactorOutcome SparseFactor::factorize(const SparseMatrix& matrix, std::span<cons
            &factors.statistics, &info);
     Destroy_CompCol_Permuted(&postordered);
     Destroy_SuperMatrix_Store(&input);
-    // Up to `size`, the factors were completed with a zero pivot and must be freed; beyond, there are none.
-    factors.factored = info <= factors.size;
-    if (info == 0) return {};
-    return {false, words_for(info, factors.size)};
+    if (info > factors.size)
+        return {false, "there is not enough memory to factorise the system of " +
+                           std::to_string(factors.size) + " samples"};
+    factors.factored = true; // from here on there are factors to free, even where a pivot was zero
+    if (const auto row = vanished_pivot(factors, diagonal)) return singular_at(*row, factors.size);
+    return {};
 }
 
 void SparseFactor::solve(std::span<double> values, std::size_t columns) {

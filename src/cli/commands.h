@@ -20,5 +20,8 @@ void add_info(CLI::App& app, Job& job);
 void add_diff(CLI::App& app, Job& job);
 void add_make(CLI::App& app, Job& job);
 void add_devices(CLI::App& app, Job& job);
+void add_bench(CLI::App& app, Job& job);
+void add_evaluate(CLI::App& app, Job& job);
+void add_later(CLI::App& app, Job& job);
 
 } // namespace knead

@@ -2,6 +2,8 @@
 
 #include "cli/commands.h"
 #include "cloud/point_cloud.h"
+#include "graph/neighbors.h"
+#include "graph/point_order.h"
 #include "io/cloud_file.h"
 
 #include <CLI/CLI.hpp>
@@ -21,7 +23,12 @@ struct Facts {
     std::size_t points = 0;
     Bounds bounds;
     std::size_t duplicates = 0;
+    std::size_t components = 0;        // of the graph of the nearest neighbours
+    std::size_t largest_component = 0; // in points
 };
+
+// As many as an edit takes, unless its session says otherwise.
+constexpr std::size_t neighbors = 6;
 
 std::uint64_t mixed(std::uint64_t value) {
     value ^= value >> 33U;
@@ -60,13 +67,29 @@ std::size_t count_duplicates(const PointCloud& cloud, Progress& progress) {
     return duplicates;
 }
 
+// The parts that the cloud falls into when an edit opens it.
+void count_components(const PointCloud& cloud, Progress& progress, Facts& facts) {
+    if (facts.bounds.finite_points == 0) return;
+    Workers workers;
+    const PointOrder order = order_points(cloud.positions, workers, progress);
+    std::vector<float> ordered(3 * order.points());
+    gather(order, cloud.positions, 3, ordered, workers);
+    const Graph graph =
+        neighbor_graph(vertex_positions(order, ordered, workers), neighbors, workers, progress);
+    const Components components = find_components(graph);
+    std::vector<std::size_t> points(components.size.size());
+    for (const Index vertex : order.vertex) ++points[components.component[vertex]];
+    facts.components = points.size();
+    facts.largest_component = *std::ranges::max_element(points);
+}
+
 Facts facts_of(const PointCloud& cloud, Progress& progress) {
     Facts facts;
     facts.kind = file_kind(cloud);
     facts.points = cloud.size();
     facts.bounds = bounds_of(cloud);
     facts.duplicates = count_duplicates(cloud, progress);
-    // A count of components comes here, into a field of Facts; the two functions below show it.
+    count_components(cloud, progress, facts);
     return facts;
 }
 
@@ -83,6 +106,8 @@ std::string json_of(const PointCloud& cloud, const Facts& facts) {
     json["bounds"]["max"] = vector(facts.bounds.highest);
     json["diagonal"] = facts.bounds.diagonal();
     json["duplicates"] = facts.duplicates;
+    json["components"] = facts.components;
+    json["largest_component"] = facts.largest_component;
     json["format"] = facts.kind.format;
     json["encoding"] = facts.kind.encoding;
     json["remarks"] = cloud.remarks;
@@ -100,6 +125,11 @@ void print(const PointCloud& cloud, const Facts& facts, std::ostream& out) {
     line("points") << facts.points << '\n';
     line("finite") << facts.bounds.finite_points << '\n';
     line("duplicates") << facts.duplicates << '\n';
+    line("components") << facts.components;
+    if (facts.components > 1)
+        out << ", the largest of " << facts.largest_component << " points ("
+            << 100 * facts.largest_component / facts.bounds.finite_points << " %)";
+    out << "  (" << neighbors << " neighbours)\n";
     if (facts.bounds.finite_points > 0) {
         line("lowest"), vector(facts.bounds.lowest);
         line("highest"), vector(facts.bounds.highest);
@@ -135,7 +165,7 @@ void add_info(CLI::App& app, Job& job) {
     };
     const auto options = std::make_shared<Options>();
     CLI::App* command =
-        app.add_subcommand("info", "What is in a cloud: points, attributes, bounds, duplicates");
+        app.add_subcommand("info", "What is in a cloud: points, attributes, bounds, duplicates, components");
     command->add_option("FILE", options->file, "The cloud, a PLY file")->required();
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options, &job] {

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <new>
 
 namespace {
@@ -51,10 +52,20 @@ int main(int argc, char** argv) {
     knead::add_diff(app, job);
     knead::add_make(app, job);
     knead::add_devices(app, job);
+    knead::add_bench(app, job);
+    knead::add_evaluate(app, job);
+    knead::add_later(app, job);
 
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
+        if (argc > 1 && std::filesystem::is_regular_file(argv[1])) {
+            std::fprintf(stderr,
+                         "knead: %s: the editor window is not in this version of knead yet; "
+                         "`knead info` looks at a cloud, `knead replay` carries out a session\n",
+                         argv[1]);
+            return exit_usage;
+        }
         return app.exit(error) == 0 ? 0 : exit_usage;
     }
     knead::Terminal terminal;

@@ -47,6 +47,7 @@ int make(const MakeArguments& arguments, Terminal& terminal) {
     options.noise = arguments.noise;
     options.outliers = arguments.outliers;
     options.gradient = arguments.gradient;
+    refuse_bad_target(arguments.out);
     Workers workers;
     const PointCloud cloud = make_shape(*shape, options, workers, terminal);
     write_cloud(arguments.out, cloud, {}, terminal);

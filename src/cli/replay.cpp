@@ -15,11 +15,18 @@ namespace knead {
 namespace {
 
 struct Arguments {
-    std::string session, cloud, out, samples, device;
+    std::string session, cloud, out, samples, device, picture, frames;
     std::vector<std::string> settings;
     unsigned threads = 0;
     bool record_checks = false, dry_run = false, json = false;
 };
+
+void refuse_pictures(const Arguments& arguments) {
+    const char* named = !arguments.picture.empty()  ? "--picture"
+                        : !arguments.frames.empty() ? "--frames"
+                                                    : nullptr;
+    if (named) throw Error(Trouble::usage, "", std::string(named) + " is not in this version of knead yet");
+}
 
 ReplayOptions options_from(const Arguments& arguments) {
     ReplayOptions options;
@@ -85,29 +92,39 @@ std::string counted(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-// What a replay did, in plain words.
-void tell(const ReplayReport& report, const std::string& session, Terminal& terminal) {
+// What a replay did, in plain words; stages that did not run are left out.
+void tell(const ReplayReport& report, const Arguments& arguments, Terminal& terminal) {
     const StageSeconds& stages = report.stages;
-    terminal.say("Replayed " + session + ": " + counted(report.points, "point", "points") + ", " +
+    terminal.say("Replayed " + arguments.session + ": " + counted(report.points, "point", "points") + ", " +
                  counted(report.samples, "sample", "samples") + ", " +
                  counted(report.frames, "frame", "frames") + " of dragging, " +
                  counted(report.iterations, "iteration", "iterations") + ", on " +
-                 counted(report.threads, "thread", "threads") + " and " + report.device + ".");
-    terminal.say("  reading the cloud            " + duration(report.read));
-    terminal.say("  ordering the points          " + duration(stages.order));
-    terminal.say("  finding neighbours           " + duration(stages.neighbors));
-    terminal.say("  choosing samples             " + duration(stages.sampling));
-    terminal.say("  measuring along the surface  " + duration(stages.geodesic));
-    terminal.say("  factorising both systems     " + duration(stages.factorize));
-    terminal.say("  preparing the device         " + duration(stages.device));
-    terminal.say("  one iteration                " + duration(report.solve));
-    terminal.say("  moving all points            " + duration(report.upsample));
-    terminal.say("  writing                      " + duration(report.write));
-    terminal.say("  in all                       " + duration(report.total));
+                 counted(report.threads, "thread", "threads") + "; points moved by " + report.device + ".");
+    const std::pair<const char*, double> lines[] = {
+        {"reading the cloud", report.read},
+        {"ordering the points", stages.order},
+        {"finding neighbours", stages.neighbors},
+        {"choosing samples", stages.sampling},
+        {"measuring along the surface", stages.geodesic},
+        {"factorising both systems", stages.factorize},
+        {"preparing the device", stages.device},
+        {"an iteration (median)", report.solve},
+        {"moving all points (median)", report.upsample},
+        {"writing", report.written.empty() ? 0 : report.write},
+        {"in all", report.total},
+    };
+    for (const auto& [what, seconds] : lines) {
+        if (seconds == 0) continue;
+        std::string line = std::string("  ") + what;
+        line.resize(31, ' ');
+        terminal.say(line + duration(seconds));
+    }
     for (const std::filesystem::path& path : report.written) terminal.say("Wrote " + path.string());
+    if (arguments.out.empty()) terminal.say("The shape was not saved; --out FILE saves it");
 }
 
 int run_replay(const Arguments& arguments, Terminal& terminal) {
+    refuse_pictures(arguments);
     const ReplayOptions options = options_from(arguments);
     const Session session = read_session(arguments.session);
     const ReplayReport report =
@@ -117,7 +134,7 @@ int run_replay(const Arguments& arguments, Terminal& terminal) {
         terminal.say(arguments.session + ": " + counted(session.lines.size() + 1, "line", "lines") +
                      " in order; nothing was computed or written");
     else if (!arguments.json)
-        tell(report, arguments.session, terminal);
+        tell(report, arguments, terminal);
     for (const CheckResult& check : report.checks)
         if (!check.held)
             terminal.say("knead: " + session.place(check.line) + ": check failed: " + check.words);
@@ -148,6 +165,8 @@ void add_replay(CLI::App& app, Job& job) {
                       "Write the session again, with a check after each edit and its cloud beside it");
     command->add_flag("--dry-run", arguments->dry_run, "Check the session without computing anything");
     command->add_flag("--json", arguments->json, "Print what was measured as JSON");
+    command->add_option("--picture", arguments->picture)->group(""); // refused by name, and not in the help
+    command->add_option("--frames", arguments->frames)->group("");
     command->callback([arguments, &job] {
         job = [arguments](Terminal& terminal) { return run_replay(*arguments, terminal); };
     });

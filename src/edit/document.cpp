@@ -15,17 +15,20 @@ namespace {
 // A sample that goes less far than this in an iteration, in units of the cloud's size, is at rest.
 constexpr double at_rest = 1e-8;
 
-// Beyond this many sizes of the cloud a point is no longer told from infinity by the floats that it is stored
-// in.
-constexpr double farthest_offset = 1e12;
+// How far a handle may send its points: so many diagonals of the cloud, and not beyond what floats can hold.
+constexpr double most_diagonals = 1e12;
+constexpr double farthest = 1e30;
 
 std::string quoted(const std::string& name) {
     return "\"" + name + "\"";
 }
 
-void refuse_absurd(const HandleMotion& motion, double size, std::size_t frame, const std::string& place) {
+void refuse_absurd(const HandleMotion& motion, double diagonal, std::size_t frame, const std::string& place) {
+    // Points that all lie in one place have no size to compare with.
+    const double reach = diagonal > 0 ? std::min(most_diagonals * diagonal, farthest) : farthest;
     const bool sane = motion.offset.allFinite() && motion.linear.allFinite() &&
-                      motion.offset.norm() < farthest_offset * size && motion.linear.norm() < farthest_offset;
+                      motion.offset.norm() < reach && motion.linear.norm() < most_diagonals &&
+                      motion.linear.norm() * diagonal < reach;
     if (!sane)
         throw Error(Trouble::input, place,
                     "\"frames\": frame " + std::to_string(frame) +
@@ -62,7 +65,7 @@ void Document::drag(const DragLine& line, const std::string& place, Progress& pr
     for (const HandlePose& pose : line.frames) {
         const Quatd& before = frames.empty() ? now_.motions[handle].rotation : frames.back().rotation;
         frames.push_back(motion_of(pose, line.pivot, cloud_.origin, before));
-        refuse_absurd(frames.back(), pipeline_.cloud_size(), frames.size() - 1, place);
+        refuse_absurd(frames.back(), bounds_.diagonal(), frames.size() - 1, place);
     }
 
     if (mode_ == Mode::rehearsal) {
@@ -72,13 +75,10 @@ void Document::drag(const DragLine& line, const std::string& place, Progress& pr
     }
     prepare(progress);
     SampleState state = now_.samples ? *now_.samples : pipeline_.rest_state();
-    bool starting = now_.samples == nullptr;
     for (std::size_t f = 0; f < frames.size(); ++f) {
         progress.step("following the handle", static_cast<double>(f) / static_cast<double>(frames.size()));
         next.motions[handle] = frames[f];
-        // Without iterations Equation (1) is all there is, so every frame starts from it.
-        if (starting || next.settings.iterations == 0) pipeline_.start_edit(next.motions, state);
-        starting = false;
+        pipeline_.follow_handles(next.motions, state);
         run_iterations(next.motions, state, next.settings.iterations, false, progress);
         upsample(next.motions, state);
         ++log_.frames;
@@ -234,6 +234,7 @@ std::size_t Document::run_iterations(const std::vector<HandleMotion>& motions, S
 }
 
 void Document::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {
+    posed_is_now_ = false; // the caller may still be cancelled, and then keeps the state that it had
     const Stopwatch clock;
     pipeline_.upsample(motions, state);
     log_.upsample.push_back(clock.seconds());

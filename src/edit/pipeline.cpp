@@ -122,14 +122,14 @@ void Pipeline::prepare_samples(Progress& progress) {
     seconds_.sampling += clock.lap();
 
     handle_flood_.reset();
-    lists_ = every_point_ ? FloodLists{}
-                          : flood(graph_, link_lengths_, samples_, influences_per_row, workers_, progress);
+    nearest_ = every_point_ ? std::vector<NearestSamples>{}
+                            : flood(graph_, link_lengths_, samples_, workers_, progress);
     seconds_.geodesic += clock.lap();
 }
 
 void Pipeline::prepare_handles(Progress& progress) {
     Stopwatch clock;
-    if (handle_flood_) revert(lists_, *handle_flood_);
+    if (handle_flood_) revert(nearest_, *handle_flood_);
     handle_flood_.reset();
     samples_.resize(base_samples_);
 
@@ -153,16 +153,18 @@ void Pipeline::prepare_handles(Progress& progress) {
     samples_.insert(samples_.end(), added.begin(), added.end());
     seconds_.sampling += clock.lap();
 
-    handle_flood_ = add_samples(lists_, graph_, link_lengths_, added, static_cast<Index>(base_samples_),
+    stale_.samples = true; // a flood that is cancelled leaves lists that nothing can revert
+    handle_flood_ = add_samples(nearest_, graph_, link_lengths_, added, static_cast<Index>(base_samples_),
                                 workers_, progress);
-    sample_graph_ = sample_graph(lists_, samples_, graph_, workers_);
+    stale_.samples = false;
+    sample_graph_ = sample_graph(nearest_, samples_, graph_, workers_);
     seconds_.geodesic += clock.lap();
 }
 
 void Pipeline::prepare_influences() {
     Stopwatch clock;
     rows_ = every_point_ ? own_rows(order_.vertices())
-                         : influence_rows(lists_, input_.settings.weights, workers_);
+                         : influence_rows(nearest_, input_.settings.weights, workers_);
 
     // A held point is moved by its handle alone, whatever samples are near, and a point of a stray part by
     // nothing.
@@ -219,8 +221,8 @@ std::span<const HandleMotion> Pipeline::all_motions(const std::vector<HandleMoti
     return handle_motions_;
 }
 
-void Pipeline::start_edit(const std::vector<HandleMotion>& motions, SampleState& state) {
-    knead::start_edit(system_, all_motions(motions), state, workers_);
+void Pipeline::follow_handles(const std::vector<HandleMotion>& motions, SampleState& state) {
+    knead::follow_handles(system_, all_motions(motions), state, workers_);
 }
 
 double Pipeline::iterate(const std::vector<HandleMotion>& motions, SampleState& state) {

@@ -64,8 +64,9 @@ public:
     // All samples at rest.
     SampleState rest_state() const { return knead::rest_state(system_); }
 
-    // Equation (1) alone, for the first frame of an edit. `motions`: one a handle.
-    void start_edit(const std::vector<HandleMotion>& motions, SampleState& state);
+    // The start of every frame: hands the handles' turns since the last one on to the samples. `motions`: one
+    // a handle.
+    void follow_handles(const std::vector<HandleMotion>& motions, SampleState& state);
 
     // One iteration; returns the longest way that a sample went.
     double iterate(const std::vector<HandleMotion>& motions, SampleState& state);
@@ -124,7 +125,7 @@ private:
     bool every_point_ = false;
     std::vector<Index> samples_;
     std::size_t base_samples_ = 0;
-    FloodLists lists_; // empty if every point is a sample
+    std::vector<NearestSamples> nearest_; // of each vertex; empty if every point is a sample
     std::optional<FloodPatch> handle_flood_;
 
     HandleLabels labels_;

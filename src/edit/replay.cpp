@@ -9,12 +9,19 @@
 #include "upsample/devices.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include <sys/resource.h>
 
 namespace knead {
 
 namespace {
+
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0;
@@ -29,9 +36,20 @@ std::uint64_t peak_memory() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+// A cloud that a line of the session names; an error says where.
+PointCloud read_named(const std::filesystem::path& path, const std::string& place, const std::string& key,
+                      Progress& progress) {
+    try {
+        return read_cloud(path, progress);
+    } catch (const Error& error) {
+        throw Error(error.trouble(), place, key + ": " + error.what());
+    }
+}
+
 PointCloud open_cloud(const Session& session, const ReplayOptions& options, Progress& progress) {
     const std::filesystem::path path = options.cloud ? *options.cloud : session.resolve(session.cloud);
-    PointCloud cloud = read_cloud(path, progress);
+    PointCloud cloud = options.cloud ? read_cloud(path, progress)
+                                     : read_named(path, session.place(1), "\"cloud\"", progress);
     if (session.points && *session.points != cloud.size())
         throw Error(Trouble::input, session.place(1),
                     "\"points\": the session was recorded on a cloud of " + std::to_string(*session.points) +
@@ -45,6 +63,22 @@ PointCloud open_cloud(const Session& session, const ReplayOptions& options, Prog
         throw Error(Trouble::input, path.string(),
                     "holds no point with finite coordinates, so there is nothing to edit");
     return cloud;
+}
+
+// What a `set` line changes where these overrides win. A key that the line does not have stays away: a line
+// that is allowed while handles are posed must not become one that is not.
+SettingsChange overridden(SettingsChange line, const SettingsChange& overrides) {
+    const auto yield = [](auto& own, const auto& over) {
+        if (own && over) own = over;
+    };
+    yield(line.neighbors, overrides.neighbors);
+    yield(line.samples, overrides.samples);
+    yield(line.iterations, overrides.iterations);
+    yield(line.stiffness, overrides.stiffness);
+    yield(line.poisson, overrides.poisson);
+    yield(line.weights, overrides.weights);
+    yield(line.strays, overrides.strays);
+    return line;
 }
 
 // A check that --record-checks puts in.
@@ -62,6 +96,8 @@ public:
         : session_(session), options_(options), progress_(progress), warn_(warn), workers_(options.threads) {}
 
     ReplayReport run() {
+        if (options_.out) refuse_bad_target(*options_.out);
+        find_check_files();
         Stopwatch clock;
         PointCloud cloud = open_cloud(session_, options_, progress_);
         report_.read = clock.lap();
@@ -84,6 +120,18 @@ public:
     }
 
 private:
+    // A missing file is told before the work, not after it.
+    void find_check_files() const {
+        for (const SessionLine& line : session_.lines) {
+            const auto* check = std::get_if<CheckLine>(&line.action);
+            if (!check || is_recorded_name(check->positions)) continue;
+            const std::filesystem::path path = session_.resolve(check->positions);
+            if (!std::filesystem::exists(path))
+                throw Error(Trouble::input, session_.place(line.number),
+                            "\"positions\": there is no file " + path.string());
+        }
+    }
+
     void carry_out(Document& document, const SessionLine& line) {
         const std::string place = session_.place(line.number);
         progress_.stop_if_cancelled();
@@ -114,7 +162,7 @@ private:
         document.commit(progress_);
     }
     void act(Document& document, const SetLine& line, std::size_t /*number*/, const std::string& place) {
-        document.change_settings(merged(line.change, options_.overrides), place);
+        document.change_settings(overridden(line.change, options_.overrides), place);
     }
     void act(Document& document, const DeleteLine& line, std::size_t /*number*/, const std::string& place) {
         document.remove(line, place);
@@ -135,13 +183,8 @@ private:
         CheckResult result;
         result.line = number;
         const std::filesystem::path path = session_.resolve(line.positions);
-        if (options_.rehearse) {
-            if (!std::filesystem::exists(path))
-                throw Error(Trouble::input, session_.place(number),
-                            "\"positions\": there is no file " + path.string());
-            return;
-        }
-        const PointCloud expected = read_cloud(path, progress_);
+        if (options_.rehearse) return;
+        const PointCloud expected = read_named(path, session_.place(number), "\"positions\"", progress_);
         if (expected.size() != document.cloud().size()) {
             result.words = path.string() + " has " + std::to_string(expected.size()) + " points, the cloud " +
                            std::to_string(document.cloud().size());
@@ -153,8 +196,8 @@ private:
             result.held = distances.incomparable == 0 && *result.distance <= line.tolerance;
             if (!result.held)
                 result.words = "point " + std::to_string(distances.largest_index) + " lies " +
-                               std::to_string(*result.distance) + " D from " + path.string() +
-                               ", allowed are " + std::to_string(line.tolerance) + " D";
+                               short_number(*result.distance) + " D from " + path.string() +
+                               ", allowed are " + short_number(line.tolerance) + " D";
         }
         report_.checks.push_back(std::move(result));
     }
@@ -219,10 +262,10 @@ private:
         const Pipeline::Strays strays = document.pipeline().strays();
         if (strays.parts == 0) return;
         const bool one = strays.parts == 1;
-        add_warning(std::to_string(strays.parts) + (one ? " part" : " parts") + " of the cloud (" +
-                    std::to_string(strays.points) + (strays.points == 1 ? " point" : " points") +
-                    ") hang together with no handle and " +
-                    (one ? "stays where it is" : "stay where they are"));
+        add_warning(
+            std::to_string(strays.parts) + (one ? " part" : " parts") + " of the cloud (" +
+            std::to_string(strays.points) + (strays.points == 1 ? " point) " : " points) ") +
+            (one ? "holds no handle and stays where it is" : "hold no handle and stay where they are"));
     }
 
     void add_warning(const std::string& words) {

@@ -157,6 +157,14 @@ std::string lower_case(std::string text) {
     return text;
 }
 
+const Format& format_for(const std::filesystem::path& path) {
+    const std::string extension = lower_case(path.extension().string());
+    for (const Format& format : formats)
+        if (extension == format.extension) return format;
+    throw Error(Trouble::output, path.string(),
+                "knead writes PLY so far; give the file a name that ends in .ply");
+}
+
 } // namespace
 
 PointCloud read_cloud(const std::filesystem::path& path, Progress& progress) {
@@ -173,13 +181,14 @@ PointCloud read_cloud(const std::filesystem::path& path, Progress& progress) {
     return cloud;
 }
 
+void refuse_bad_target(const std::filesystem::path& path) {
+    (void)format_for(path);
+    const FileInTheMaking probe(path);
+}
+
 void write_cloud(const std::filesystem::path& path, const PointCloud& cloud, const PosedShape& shape,
                  Progress& progress) {
-    const std::string extension = lower_case(path.extension().string());
-    for (const Format& format : formats)
-        if (extension == format.extension) return format.write(path, cloud, shape, progress);
-    throw Error(Trouble::output, path.string(),
-                "knead writes PLY so far; give the file a name that ends in .ply");
+    format_for(path).write(path, cloud, shape, progress);
 }
 
 FileKind file_kind(const PointCloud& cloud) {

@@ -31,6 +31,10 @@ struct PosedShape {
 void write_cloud(const std::filesystem::path& path, const PointCloud& cloud, const PosedShape& shape,
                  Progress& progress);
 
+// Throws what write_cloud() would for a target of the wrong extension or in a folder that cannot be written
+// to, so that one who computes for long can ask beforehand. Nothing is left behind.
+void refuse_bad_target(const std::filesystem::path& path);
+
 // The names of the format and the encoding that write_cloud() keeps: those of the file that the cloud was
 // read from ("ply", "ascii"), or of the new file that a cloud without an image becomes.
 struct FileKind {

@@ -1,0 +1,183 @@
+// The evaluation as text and as JSON.
+
+#include "bench/evaluation.h"
+#include "bench/text_table.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace knead {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// How far off a kept twist may be measured: slices are not infinitely thin.
+constexpr double twist_tolerance_degrees = 2;
+
+std::string asked_text(const std::optional<std::uint64_t>& asked) {
+    return asked ? count_text(*asked) : "every point";
+}
+
+std::string percent_text(double fraction) {
+    return digits_text(100 * fraction, 2);
+}
+
+std::string verdict_text(bool holds) {
+    return holds ? "pass" : "FAIL";
+}
+
+bool holds(const SampleQuality& count) {
+    return !count.bar || count.deviation.rms <= *count.bar;
+}
+
+bool twist_is_kept(const TwistResult& twist, double measured) {
+    return std::abs(measured - twist.asked) <= twist_tolerance_degrees;
+}
+
+std::string tasks_text(const std::vector<TaskQuality>& tasks) {
+    TextTable table{{"Distance from every point a sample, % of D, settled after one frame"},
+                    {"shape", "points", "asked", "samples", "rms %", "bar", "", "largest %",
+                     "handle error / D", "iterations"}};
+    for (const TaskQuality& task : tasks)
+        for (const SampleQuality& count : task.counts) {
+            const bool first = &count == &task.counts.front();
+            table.push_back(
+                {first ? task.name : "", first ? count_text(task.points) : "", asked_text(count.asked),
+                 count_text(count.samples), count.asked ? percent_text(count.deviation.rms) : unknown_text,
+                 count.bar ? percent_text(*count.bar) : "", count.bar ? verdict_text(holds(count)) : "",
+                 count.asked ? percent_text(count.deviation.largest) : unknown_text,
+                 power_text(count.handle_error),
+                 std::to_string(count.iterations) + (count.at_rest ? "" : ", not at rest")});
+        }
+    return format_table(table);
+}
+
+std::string convergence_text(const std::vector<TaskQuality>& tasks) {
+    TextTable table{{"Largest distance from the settled shape, % of D, after so many iterations from rest"},
+                    {"shape", "samples"}};
+    for (const TaskQuality& task : tasks)
+        for (const Convergence& convergence : task.convergence) {
+            if (table[1].size() == 2)
+                for (const auto& step : convergence.steps)
+                    table[1].push_back(std::to_string(step.iterations));
+            std::vector<std::string> line{&convergence == &task.convergence.front() ? task.name : "",
+                                          asked_text(convergence.asked)};
+            for (const auto& step : convergence.steps)
+                line.push_back(digits_text(100 * step.deviation.largest, 3));
+            table.push_back(std::move(line));
+        }
+    return format_table(table);
+}
+
+std::string clouds_text(const std::vector<CloudProperties>& clouds) {
+    TextTable table{{"Properties, with two handles at the ends and 1000 samples; strays stay where they are"},
+                    {"cloud", "points", "strays", "rigid / D", "", "in turns / D", "", "iterations",
+                     "moved by nothing", "", "handles / D", "same again", "1 and 2 threads"}};
+    for (const CloudProperties& cloud : clouds)
+        table.push_back({cloud.name, count_text(cloud.points), count_text(cloud.strays),
+                         power_text(cloud.rigid), verdict_text(cloud.rigid <= rigid_bar),
+                         power_text(cloud.rigid_in_turns), verdict_text(cloud.rigid_in_turns <= rigid_bar),
+                         std::to_string(cloud.iterations_in_turns), count_text(cloud.moved_by_nothing),
+                         verdict_text(cloud.moved_by_nothing == 0), power_text(cloud.handle_error),
+                         cloud.same_again ? "same" : "DIFFERENT",
+                         cloud.same_for_threads ? "same" : "DIFFERENT"});
+    return format_table(table);
+}
+
+std::string twist_text(const TwistResult& twist) {
+    const auto line = [&](const char* when, double measured, double uneven) {
+        return std::string("  ") + when + digits_text(measured, 1) + "° along it, " +
+               verdict_text(twist_is_kept(twist, measured)) + "; a slice at most " + digits_text(uneven, 1) +
+               "° from an even twist\n";
+    };
+    return "A bar of 1 : 10, " + count_text(twist.points) + " points, twisted by " +
+           digits_text(twist.asked, 0) + "°, 10° and 3 iterations a frame\n" +
+           line("at the last frame:    ", twist.measured, twist.uneven) +
+           line("100 iterations later: ", twist.settled, twist.settled_uneven);
+}
+
+Json json_of(const Deviation& deviation) {
+    return {{"rms", deviation.rms}, {"largest", deviation.largest}};
+}
+
+Json json_of(const std::optional<std::uint64_t>& asked) {
+    return asked ? Json(*asked) : Json("all");
+}
+
+Json json_of(const TaskQuality& task) {
+    Json json{{"name", task.name}, {"points", task.points}, {"diagonal", task.diagonal}};
+    for (const SampleQuality& count : task.counts)
+        json["samples"].push_back({{"asked", json_of(count.asked)},
+                                   {"samples", count.samples},
+                                   {"rms", count.deviation.rms},
+                                   {"largest", count.deviation.largest},
+                                   {"bar", count.bar ? Json(*count.bar) : Json()},
+                                   {"holds", count.bar ? Json(holds(count)) : Json()},
+                                   {"handle_error", count.handle_error},
+                                   {"iterations", count.iterations},
+                                   {"at_rest", count.at_rest}});
+    for (const Convergence& convergence : task.convergence) {
+        Json steps = Json::array();
+        for (const auto& step : convergence.steps) {
+            Json entry = json_of(step.deviation);
+            entry["iterations"] = step.iterations;
+            steps.push_back(std::move(entry));
+        }
+        json["convergence"].push_back({{"asked", json_of(convergence.asked)}, {"steps", std::move(steps)}});
+    }
+    return json;
+}
+
+Json json_of(const CloudProperties& cloud) {
+    return {{"name", cloud.name},
+            {"points", cloud.points},
+            {"stray_points", cloud.strays},
+            {"rigid", cloud.rigid},
+            {"rigid_in_turns", cloud.rigid_in_turns},
+            {"rigid_bar", rigid_bar},
+            {"iterations_in_turns", cloud.iterations_in_turns},
+            {"moved_by_nothing", cloud.moved_by_nothing},
+            {"handle_error", cloud.handle_error},
+            {"same_again", cloud.same_again},
+            {"same_for_threads", cloud.same_for_threads}};
+}
+
+} // namespace
+
+std::string evaluation_text(const Evaluation& evaluation) {
+    std::string text = "knead " + evaluation.machine.version + " (" + evaluation.machine.commit + ") on " +
+                       evaluation.device + "\n";
+    if (!evaluation.remark.empty()) text += evaluation.remark + "\n";
+    if (!evaluation.tasks.empty())
+        text += "\n" + tasks_text(evaluation.tasks) + "\n" + convergence_text(evaluation.tasks);
+    if (evaluation.twist) text += "\n" + twist_text(*evaluation.twist);
+    if (!evaluation.clouds.empty()) text += "\n" + clouds_text(evaluation.clouds);
+    return text;
+}
+
+std::string evaluation_json(const Evaluation& evaluation) {
+    Json json{{"version", evaluation.machine.version},
+              {"commit", evaluation.machine.commit},
+              {"device", evaluation.device},
+              {"survey", evaluation.has_survey},
+              {"warnings", evaluation.warnings},
+              {"tasks", Json::array()},
+              {"clouds", Json::array()},
+              {"twist", Json()}};
+    for (const TaskQuality& task : evaluation.tasks) json["tasks"].push_back(json_of(task));
+    for (const CloudProperties& cloud : evaluation.clouds) json["clouds"].push_back(json_of(cloud));
+    if (const auto& twist = evaluation.twist)
+        json["twist"] = {{"points", twist->points},
+                         {"asked_degrees", twist->asked},
+                         {"measured_degrees", twist->measured},
+                         {"uneven_degrees", twist->uneven},
+                         {"settled_degrees", twist->settled},
+                         {"settled_uneven_degrees", twist->settled_uneven},
+                         {"holds", twist_is_kept(*twist, twist->measured)},
+                         {"settled_holds", twist_is_kept(*twist, twist->settled)}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+} // namespace knead

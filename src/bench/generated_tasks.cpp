@@ -1,0 +1,70 @@
+// Likenesses of the survey's shapes, from knead's own generator.
+
+#include "base/require.h"
+#include "bench/made_cloud.h"
+#include "bench/survey.h"
+
+#include <functional>
+#include <numbers>
+
+namespace knead {
+
+namespace {
+
+Quatd turn(double degrees, const Vec3d& axis) {
+    return Quatd(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis));
+}
+
+void hold(DeformationTask& task, const std::function<bool(const Vec3d&)>& is_fixed,
+          const std::function<bool(const Vec3d&)>& is_handle) {
+    for (Index i = 0; i < task.cloud.size(); ++i) {
+        const Vec3d place = task.cloud.file_position(i);
+        if (is_fixed(place)) task.fixed.push_back(i);
+        if (is_handle(place)) task.handle.push_back(i);
+    }
+}
+
+// Bar and cylinder: five long around z, held by a tenth at either end.
+void hold_ends(DeformationTask& task) {
+    hold(
+        task, [](const Vec3d& p) { return p.z() <= -2; }, [](const Vec3d& p) { return p.z() >= 2; });
+}
+
+// The free part, 4 long, becomes an arc of its own length: the upper end is slid down onto the lower one and
+// turned around the arc's centre.
+void bend(DeformationTask& task, double degrees) {
+    constexpr double free_length = 4;
+    const double radius = free_length / (degrees * std::numbers::pi / 180);
+    task.pivot = {radius, 0, -free_length / 2};
+    task.pose.rotate = turn(degrees, Vec3d::UnitY());
+    task.pose.translate = task.pose.rotate * Vec3d(0, 0, -free_length);
+}
+
+} // namespace
+
+std::vector<std::string> generated_names() {
+    return {"made-bar", "made-cylinder", "made-plane"};
+}
+
+DeformationTask generated_task(std::string_view name, Workers& workers, Progress& progress) {
+    DeformationTask task;
+    task.name = name;
+    if (name == "made-bar") {
+        task.cloud = made_cloud(Shape::bar, 6000, workers, progress);
+        hold_ends(task);
+        task.pose.rotate = turn(135, Vec3d::UnitZ());
+    } else if (name == "made-cylinder") {
+        task.cloud = made_cloud(Shape::cylinder, 5000, workers, progress);
+        hold_ends(task);
+        bend(task, 120);
+    } else {
+        require(name == "made-plane", "the name of a generated task");
+        task.cloud = made_cloud(Shape::plane, 10'000, workers, progress);
+        hold(
+            task, [](const Vec3d& p) { return p.x() <= 0.1; }, [](const Vec3d& p) { return p.x() >= 0.9; });
+        task.pose.translate = {-0.3, 0, 0.55};
+    }
+    return task;
+}
+
+} // namespace knead

@@ -1,0 +1,23 @@
+#include "bench/upsampler_probe.h"
+
+namespace knead {
+
+void UpsamplerProbe::prepare(const UpsampleInput& input, std::size_t motions) {
+    input_ = input;
+    motions_.assign(motions, Motion{});
+    inner_->prepare(input, motions);
+}
+
+void UpsamplerProbe::run(std::span<const Motion> motions, std::span<float> positions,
+                         std::span<float> normals) {
+    motions_.assign(motions.begin(), motions.end());
+    inner_->run(motions, positions, normals);
+}
+
+std::size_t bytes_a_frame(const UpsampleInput& input) {
+    const std::size_t floats = 2 * (input.positions.size() + input.normals.size());
+    const std::size_t row_bytes = influences_per_row * (sizeof(Index) + sizeof(float));
+    return floats * sizeof(float) + input.row.size_bytes() + input.rows->size() * row_bytes;
+}
+
+} // namespace knead

@@ -1,0 +1,39 @@
+#pragma once
+// An upsampler that remembers what it was given, so that the same frames can be run again elsewhere.
+
+#include "upsample/upsample.h"
+
+#include <memory>
+#include <vector>
+
+namespace knead {
+
+class UpsamplerProbe final : public Upsampler {
+public:
+    explicit UpsamplerProbe(std::unique_ptr<Upsampler> inner) : inner_(std::move(inner)) {}
+
+    std::string device() const override { return inner_->device(); }
+    void prepare(const UpsampleInput& input, std::size_t motions) override;
+    void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override;
+    std::string take_warning() override { return inner_->take_warning(); }
+
+    // What it was prepared with last, good as long as the pipeline that did so.
+    const UpsampleInput& input() const { return input_; }
+
+    // The motions of the last frame.
+    const std::vector<Motion>& motions() const { return motions_; }
+
+    Upsampler& inner() { return *inner_; }
+
+private:
+    std::unique_ptr<Upsampler> inner_;
+    UpsampleInput input_;
+    std::vector<Motion> motions_;
+};
+
+// The fewest bytes that a frame moves: each point's rest position and number of its row in, its position out,
+// normals in and out where there are any, and the row of each distinct vertex in, a number and a weight for
+// each of its influences. The motions stay in cache.
+std::size_t bytes_a_frame(const UpsampleInput& input);
+
+} // namespace knead

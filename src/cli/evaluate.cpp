@@ -1,0 +1,55 @@
+// knead evaluate: how good the deformed shapes are, and whether what must hold does hold.
+
+#include "bench/evaluation.h"
+#include "cli/commands.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace knead {
+
+namespace {
+
+struct EvaluateArguments {
+    std::vector<std::string> shapes;
+    std::string scans, survey, device;
+    unsigned threads = 0;
+    bool json = false;
+};
+
+int run_evaluate(const EvaluateArguments& arguments, Terminal& terminal) {
+    const EvaluationOptions options{scan_folders(arguments.scans), survey_folders(arguments.survey),
+                                    arguments.shapes, arguments.device, arguments.threads};
+    const Evaluation evaluation = evaluate(options, terminal);
+    for (const std::string& words : evaluation.warnings) terminal.warn(words);
+    terminal.out << (arguments.json ? evaluation_json(evaluation) + "\n" : evaluation_text(evaluation));
+    return 0;
+}
+
+} // namespace
+
+void add_evaluate(CLI::App& app, Job& job) {
+    const auto arguments = std::make_shared<EvaluateArguments>();
+    CLI::App* command = app.add_subcommand("evaluate", "Measure how good the deformed shapes are");
+    command->add_option("--shape", arguments->shapes,
+                        "Only these: a survey shape, a generated one, a scan without .ply (default: all)");
+    command
+        ->add_option("--survey", arguments->survey,
+                     "The folder of the survey shapes (default: KNEAD_SURVEY, then ../shared/survey)")
+        ->check(CLI::ExistingDirectory);
+    command
+        ->add_option("--scans", arguments->scans,
+                     "The folder of the scans (default: KNEAD_SCANS, then ../shared/scans)")
+        ->check(CLI::ExistingDirectory);
+    command->add_option("--threads", arguments->threads, "How many threads to use (default: one a core)")
+        ->check(CLI::Range(1U, 1024U));
+    command->add_option("--device", arguments->device,
+                        "An OpenCL device by number or name, or \"reference\"");
+    command->add_flag("--json", arguments->json, "Print one JSON object");
+    command->callback([arguments, &job] {
+        job = [arguments](Terminal& terminal) { return run_evaluate(*arguments, terminal); };
+    });
+}
+
+} // namespace knead

@@ -1,0 +1,293 @@
+// Documents: what each act means, and what is refused.
+
+#include "edit/editing.h"
+
+namespace knead {
+namespace {
+
+using namespace test;
+
+Vec3d lifted(const Vec3d& p) {
+    return p + Vec3d(0.5, 0, 0.25);
+}
+bool is_top(const Vec3d& p) {
+    return p.z() >= 2;
+}
+
+// --- Who holds a point
+
+const std::string cap_that_stays =
+    R"({"op":"handle","name":"cap","role":"fixed","region":{"halfspace":{"point":[0,0,2.25],"normal":[0,0,1]}}})"
+    "\n";
+
+TEST(Document, GivesAPointToTheHandleThatWasDeclaredLast) {
+    Desk cap_last(bar());
+    cap_last.play(ends + cap_that_stays + drag(lift));
+    EXPECT_EQ(farthest(
+                  cap_last, [](const Vec3d& p) { return p.z() >= 2.25; }, stays),
+              0);
+    EXPECT_LT(farthest(
+                  cap_last, [](const Vec3d& p) { return p.z() >= 2 && p.z() < 2.25; }, lifted),
+              1e-6);
+
+    Desk cap_first(bar());
+    cap_first.play(foot + cap_that_stays + top + drag(lift));
+    EXPECT_LT(farthest(cap_first, is_top, lifted), 1e-6);
+}
+
+TEST(Document, ANameGivenAgainReplacesTheHandleAndDeclaresItLast) {
+    Desk desk(bar());
+    std::string cap_that_moves = top;
+    cap_that_moves.replace(cap_that_moves.find("[0,0,2]"), 7, "[0,0,2.25]");
+    desk.play(ends + cap_that_moves);
+    ASSERT_EQ(desk.document().handles().size(), 2U);
+    EXPECT_EQ(desk.document().handles()[1].name, "top");
+    desk.play(foot);
+    EXPECT_EQ(desk.document().handles()[1].name, "foot");
+    desk.play(drag(lift));
+    EXPECT_LT(farthest(
+                  desk, [](const Vec3d& p) { return p.z() >= 2.25; }, lifted),
+              1e-6);
+    EXPECT_GT(farthest(desk, is_top, lifted), 1e-3);
+}
+
+std::string region_of_interest(const std::string& name, double from, double to) {
+    return R"({"op":"handle","name":")" + name + R"(","role":"roi","region":{"box":{"min":[-9,-9,)" +
+           std::to_string(from) + R"(],"max":[9,9,)" + std::to_string(to) + "]}}}\n";
+}
+
+TEST(Document, RegionsOfInterestUniteAndWhatIsOutsideKeepsItsBytes) {
+    Desk desk(bar());
+    desk.play(top + region_of_interest("a", 0, 1) + region_of_interest("b", 0.9, 2.1) + drag(lift) +
+              settle(20));
+    EXPECT_LT(farthest(desk, is_top, lifted), 1e-6); // a handle beats the region, though outside and earlier
+    EXPECT_EQ(farthest(
+                  desk, [](const Vec3d& p) { return p.z() < 0; }, stays),
+              0);
+    EXPECT_GT(farthest(
+                  desk, [](const Vec3d& p) { return p.z() > 0 && p.z() < 0.9; }, stays),
+              0);
+    EXPECT_LT(desk.handle_error(), 1e-6);
+}
+
+TEST(Document, RefusesHandlesThatDoNotFitTheCloud) {
+    Desk desk(bar());
+    EXPECT_SAYS(refusal(desk, R"({"op":"handle","name":"a","role":"fixed","points":[[0,1500]]})"), "s:1: ");
+    EXPECT_SAYS(refusal(desk, R"({"op":"handle","name":"a","role":"fixed","points":[1500]})"), "1500");
+    EXPECT_SAYS(
+        refusal(
+            desk,
+            R"({"op":"handle","name":"a","role":"roi","region":{"sphere":{"center":[9,9,9],"radius":1}}})"),
+        "is empty");
+    EXPECT_TRUE(desk.document().handles().empty());
+    EXPECT_EQ(refusal(desk, R"({"op":"handle","name":"a","role":"fixed","points":[1499,[0,3],3,2]})"),
+              "accepted");
+    EXPECT_EQ(*desk.document().handles()[0].points, (std::vector<Index>{0, 1, 2, 3, 1499}));
+}
+
+TEST(Document, ResolvesARegionOnTheRestShapeOfItsLine) {
+    Desk desk(bar());
+    desk.play(ends + drag(R"({"translate":[0,0,3]})") + commit);
+    const std::string high = R"({"op":"handle","name":"high","role":"moving","region":)"
+                             R"({"halfspace":{"point":[0,0,4.9999],"normal":[0,0,1]}}})";
+    desk.play(high);
+    const std::size_t held = desk.document().handles()[2].points->size();
+    EXPECT_EQ(held, desk.document().handles()[1].points->size()); // just the top, which is there now
+    desk.play(undo + undo + undo + undo);                         // the handle, the commit, the drag, the top
+    EXPECT_SAYS(refusal(desk, high), "is empty");
+}
+
+// --- Refusals
+
+TEST(Document, RefusesToDragWhatIsNoMovingHandle) {
+    Desk desk(bar());
+    EXPECT_SAYS(refusal(desk, drag(lift)), "declare one first");
+    desk.play(ends + region_of_interest("around", -3, 3));
+    const std::string words = refusal(desk, drag(lift, "ear"));
+    EXPECT_SAYS(words, "s:1: \"handle\": there is no handle \"ear\" here");
+    for (const char* name : {"\"foot\"", "\"top\"", "\"around\""}) EXPECT_SAYS(words, name);
+    EXPECT_SAYS(refusal(desk, drag(lift, "foot")), "not a moving handle");
+    EXPECT_SAYS(refusal(desk, drag(lift, "around")), "not a moving handle");
+    EXPECT_FALSE(desk.document().is_posed());
+}
+
+TEST(Document, WhilePosedRefusesWhatNeedsACommit) {
+    Desk desk(bar());
+    desk.play(ends + drag(lift));
+    const std::vector<float> before = desk.shape();
+    const std::string commands[] = {foot,
+                                    R"({"op":"delete","handle":"foot"})",
+                                    set(R"("samples":100)"),
+                                    set(R"("neighbors":8)"),
+                                    set(R"("strays":"freeze")"),
+                                    set(R"("iterations":5,"samples":"all")")};
+    for (const std::string& line : commands) EXPECT_SAYS(refusal(desk, line), R"({"op":"commit"})");
+    EXPECT_TRUE(same_bits(desk.shape(), before));
+    EXPECT_EQ(desk.document().settings(), Settings{});
+    for (const std::string& line :
+         {set(R"("iterations":5)"), set(R"("stiffness":0.1)"), set(R"("weights":"paper")"),
+          std::string(R"({"op":"rename","handle":"top","to":"hat"})")})
+        EXPECT_EQ(refusal(desk, line), "accepted");
+    desk.play(commit);
+    for (const std::string& line : commands) EXPECT_EQ(refusal(desk, line), "accepted");
+}
+
+TEST(Document, RenamesAndDeletes) {
+    Desk desk(bar());
+    desk.play(ends + R"({"op":"rename","handle":"top","to":"hat"})");
+    EXPECT_SAYS(refusal(desk, drag(lift)), "no handle \"top\"");
+    desk.play(drag(lift, "hat"));
+    desk.play(R"({"op":"rename","handle":"hat","to":"hat"})");
+    EXPECT_SAYS(refusal(desk, R"({"op":"rename","handle":"hat","to":"foot"})"), "already");
+    EXPECT_SAYS(refusal(desk, R"({"op":"rename","handle":"top","to":"a"})"), "no handle");
+    EXPECT_SAYS(refusal(desk, R"({"op":"delete","handle":"top"})"), "no handle");
+    desk.play(commit + R"({"op":"delete","handle":"foot"})");
+    ASSERT_EQ(desk.document().handles().size(), 1U);
+    EXPECT_EQ(desk.document().handles()[0].name, "hat");
+}
+
+TEST(Document, RefusesPosesOfAbsurdSize) {
+    for (const char* frame : {R"({"translate":[1e300,0,0]})", R"({"scale":1e200})", R"({"scale":1e15})",
+                              R"({"translate":[0,1e14,0]})"}) {
+        Desk desk(bar());
+        desk.play(ends);
+        EXPECT_SAYS(refusal(desk, drag(std::string("{},") + frame)), "frame 1 (from 0)");
+        EXPECT_FALSE(desk.document().is_posed());
+    }
+    Desk desk(bar());
+    desk.play(ends + drag(R"({"translate":[0,0,1e6]})") + settle(5)); // far, but not absurd
+    EXPECT_TRUE(all_finite(desk.shape()));
+}
+
+// --- Poses
+
+TEST(Document, ASecondDragReplacesThePose) {
+    Desk desk(bar());
+    desk.play(ends + drag(turn('y', 80)) + drag(lift));
+    EXPECT_LT(farthest(desk, is_top, lifted), 1e-6);
+    EXPECT_EQ(farthest(
+                  desk, [](const Vec3d& p) { return p.z() <= -2; }, stays),
+              0);
+}
+
+TEST(Document, SeveralHandlesKeepTheirPosesThroughTheEdit) {
+    Desk desk(bar());
+    std::string moving_foot = foot;
+    moving_foot.replace(moving_foot.find("fixed"), 5, "moving");
+    desk.play(moving_foot + top + drag(lift, "foot") + drag(R"({"translate":[-0.25,0,0]})"));
+    EXPECT_LT(farthest(
+                  desk, [](const Vec3d& p) { return p.z() <= -2; }, lifted),
+              1e-6);
+    EXPECT_LT(farthest(desk, is_top, [](const Vec3d& p) { return Vec3d(p - Vec3d(0.25, 0, 0)); }), 1e-6);
+    EXPECT_LT(desk.handle_error(), 1e-6);
+}
+
+TEST(Document, NoMotionChangesNoBit) {
+    Desk desk(bar());
+    desk.play(ends + drag(R"({},{"rotate":[1,0,0,0]},{"rotate":[-2,0,0,0]},{"scale":1})") + settle(30));
+    EXPECT_TRUE(same_bits(desk.shape(), desk.document().cloud().positions));
+    EXPECT_TRUE(same_bits(desk.normals(), read_normals(desk.document().cloud())));
+    desk.play(commit + drag("{}"));
+    EXPECT_TRUE(same_bits(desk.shape(), desk.document().cloud().positions));
+}
+
+// A plane has zeros in its file, which the smallest rounding error would show in.
+TEST(Document, NoMotionLeavesZerosZero) {
+    Desk desk(made(Shape::plane, 900));
+    desk.play(
+        R"({"op":"handle","name":"a","role":"fixed","region":{"halfspace":{"point":[0.2,0,0],"normal":[-1,0,0]}}}
+{"op":"handle","name":"top","role":"moving","region":{"halfspace":{"point":[0.8,0,0],"normal":[1,0,0]}}}
+)" + drag("{},{}") +
+        settle(10));
+    EXPECT_TRUE(same_bits(desk.shape(), desk.document().cloud().positions));
+    EXPECT_TRUE(same_bits(desk.normals(), read_normals(desk.document().cloud())));
+}
+
+TEST(Document, OneMotionOfAllHandlesMovesEveryPointByIt) {
+    Desk desk(bar());
+    std::string moving_foot = foot;
+    moving_foot.replace(moving_foot.find("fixed"), 5, "moving");
+    const std::string motion = turn('y', 30, "[0.1,0,0]") + "," + turn('y', 70, "[1,-2,0.5]");
+    desk.play(moving_foot + top + drag(motion, "foot") + drag(motion) + settle(200));
+    const Eigen::AngleAxisd rotation(70 * std::numbers::pi / 180, Vec3d::UnitY());
+    const Vec3d origin = desk.document().cloud().origin;
+    const auto target = [&](const Vec3d& p) -> Vec3d {
+        const Vec3d pivot(0, 0, 2.5);
+        return pivot + rotation * (p + origin - pivot) + Vec3d(1, -2, 0.5) - origin;
+    };
+    EXPECT_LT(farthest(desk, every, target), 1e-5 * desk.diagonal());
+}
+
+TEST(Document, SettlesUntilNothingMoves) {
+    Desk desk(bar());
+    desk.play(ends + drag(turn('y', 90, "[1,0,0]")) + settle(5000));
+    const std::size_t iterations = desk.document().log().iteration.size();
+    EXPECT_LT(iterations, 4000U); // it stopped by itself
+    const std::vector<float> before = desk.shape();
+    desk.play(settle(50));
+    EXPECT_LT(farthest(desk, every,
+                       [&, i = std::size_t{0}](const Vec3d&) mutable -> Vec3d { return at(before, i++); }),
+              1e-5 * desk.diagonal());
+    EXPECT_LT(desk.handle_error(), 1e-5);
+}
+
+TEST(Document, SettlingWithNoPoseIsAnActThatChangesNothing) {
+    Desk desk(bar());
+    desk.play(ends + settle(10));
+    EXPECT_FALSE(desk.document().is_posed());
+    EXPECT_TRUE(same_bits(desk.shape(), desk.document().cloud().positions));
+    desk.play(undo);
+    EXPECT_EQ(desk.document().handles().size(), 2U);
+}
+
+TEST(Document, TurnsNormalsWithTheirHandle) {
+    Desk desk(bar());
+    desk.play(ends + drag(turn('y', 90)));
+    const std::vector<float> rest = read_normals(desk.document().cloud());
+    const std::vector<float> normals = desk.normals();
+    const Eigen::AngleAxisd rotation(std::numbers::pi / 2, Vec3d::UnitY());
+    for (std::size_t i = 0; i < desk.document().cloud().size(); ++i) {
+        EXPECT_NEAR(at(normals, i).norm(), 1, 1e-5);
+        if (!is_top(at(desk.document().cloud().positions, i))) continue;
+        EXPECT_LT((at(normals, i) - rotation * at(rest, i)).norm(), 1e-5);
+    }
+}
+
+TEST(Document, ScalesAHandleEvenlyAndAlongAxes) {
+    Desk desk(bar());
+    desk.play(ends + drag(R"({"scale":1.5})"));
+    const Vec3d pivot(0, 0, 2.5);
+    EXPECT_LT(farthest(desk, is_top, [&](const Vec3d& p) -> Vec3d { return pivot + 1.5 * (p - pivot); }),
+              1e-5);
+    // Along axes that are turned by 90° about x, the second axis is z.
+    desk.play(drag(R"({"scale":[1,2,1],"axes":[1,1,0,0],"translate":[0,0,1]})") + settle(50));
+    const auto stretched = [](const Vec3d& p) { return Vec3d(p.x(), p.y(), 2.5 + 2 * (p.z() - 2.5) + 1); };
+    EXPECT_LT(farthest(desk, is_top, stretched), 1e-5);
+    EXPECT_LT(desk.handle_error(), 1e-5);
+    EXPECT_TRUE(all_finite(desk.shape()));
+}
+
+// --- Commit
+
+TEST(Document, CommitKeepsTheShapeAndTheHandlesAndRunsNoStage) {
+    Desk desk(bar());
+    desk.play(ends + drag(lift) + settle(10));
+    const std::vector<float> before = desk.shape();
+    const StageSeconds seconds = desk.pipeline().seconds();
+    const std::size_t upsamplings = desk.document().log().upsample.size();
+    desk.play(commit);
+    EXPECT_TRUE(same_bits(desk.shape(), before));
+    EXPECT_EQ(desk.document().handles().size(), 2U);
+    EXPECT_FALSE(desk.document().is_posed());
+    EXPECT_EQ(desk.handle_error(), 0);
+    EXPECT_EQ(std::memcmp(&desk.pipeline().seconds(), &seconds, sizeof seconds), 0);
+    EXPECT_EQ(desk.document().log().upsample.size(), upsamplings);
+
+    desk.play(drag("{}")); // poses start anew from the shape that was committed
+    EXPECT_TRUE(same_bits(desk.shape(), before));
+    desk.play(drag(lift));
+    EXPECT_LT(farthest(desk, is_top, [](const Vec3d& p) { return lifted(lifted(p)); }), 1e-5);
+}
+
+} // namespace
+} // namespace knead

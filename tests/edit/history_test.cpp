@@ -1,0 +1,172 @@
+// Undo and redo bring back every bit, and a cancelled act leaves none behind.
+
+#include "edit/editing.h"
+
+namespace knead {
+namespace {
+
+using namespace test;
+
+const std::string bend = drag(turn('y', 30) + "," + turn('y', 60, "[0.3,0,0]"));
+const std::string twist = drag(turn('z', 40) + "," + turn('z', 80) + "," + turn('z', 120));
+
+std::vector<float> shape_after(const std::string& lines) {
+    Desk desk(bar());
+    desk.play(lines);
+    return desk.shape();
+}
+
+TEST(History, ADragAfterAnUndoneOneStartsFromTheSameWarmState) {
+    EXPECT_TRUE(same_bits(shape_after(ends + bend + twist + undo + twist), shape_after(ends + bend + twist)));
+    EXPECT_TRUE(same_bits(shape_after(ends + twist + undo + bend + twist), shape_after(ends + bend + twist)));
+    EXPECT_TRUE(
+        same_bits(shape_after(ends + bend + settle(9) + undo + twist), shape_after(ends + bend + twist)));
+}
+
+TEST(History, UndoBringsBackEveryShapeAndRedoRepeatsIt) {
+    const std::string acts[] = {ends,
+                                bend,
+                                set(R"("stiffness":0.05,"weights":"paper")"),
+                                settle(7),
+                                R"({"op":"rename","handle":"top","to":"hat"})",
+                                commit,
+                                set(R"("samples":200)"),
+                                drag(turn('x', 50), "hat"),
+                                commit,
+                                R"({"op":"delete","handle":"foot"})",
+                                drag(lift, "hat")};
+    Desk desk(bar());
+    std::vector<std::vector<float>> shapes;
+    for (const std::string& act : acts) {
+        desk.play(act);
+        shapes.push_back(desk.shape());
+    }
+    for (std::size_t i = shapes.size() - 1; i > 0; --i) {
+        desk.play(undo);
+        EXPECT_TRUE(same_bits(desk.shape(), shapes[i - 1])) << "undoing " << acts[i];
+    }
+    for (std::size_t i = 1; i < shapes.size(); ++i) {
+        desk.play(redo);
+        EXPECT_TRUE(same_bits(desk.shape(), shapes[i])) << "redoing " << acts[i];
+    }
+}
+
+TEST(History, AnUndoneCommitLeavesThePoseToGoOnFrom) {
+    EXPECT_TRUE(
+        same_bits(shape_after(ends + bend + commit + undo + twist), shape_after(ends + bend + twist)));
+    EXPECT_TRUE(same_bits(shape_after(ends + bend + commit + undo + redo + twist),
+                          shape_after(ends + bend + commit + twist)));
+    EXPECT_TRUE(same_bits(shape_after(ends + bend + commit + twist + undo + undo + undo + twist),
+                          shape_after(ends + twist)));
+}
+
+TEST(History, TakesBackHandlesSettingsAndNames) {
+    Desk desk(bar());
+    desk.play(ends + set(R"("samples":77)") + R"({"op":"rename","handle":"top","to":"hat"})" +
+              "\n"
+              R"({"op":"delete","handle":"foot"})");
+    desk.play(undo);
+    EXPECT_EQ(desk.document().handles().size(), 2U);
+    desk.play(undo);
+    EXPECT_EQ(desk.document().handles()[1].name, "top");
+    desk.play(undo);
+    EXPECT_EQ(desk.document().settings().samples, 1000U);
+    desk.play(undo + undo);
+    EXPECT_TRUE(desk.document().handles().empty());
+    EXPECT_SAYS(refusal(desk, undo), "s:1: there is nothing to undo");
+    desk.play(redo + redo + redo + redo + redo);
+    EXPECT_EQ(desk.document().handles().size(), 1U);
+    EXPECT_EQ(desk.document().settings().samples, 77U);
+    EXPECT_SAYS(refusal(desk, redo), "s:1: there is nothing to redo");
+}
+
+TEST(History, ANewActForgetsWhatWasUndone) {
+    Desk desk(bar());
+    desk.play(ends + bend + undo + twist);
+    EXPECT_SAYS(refusal(desk, redo), "nothing to redo");
+}
+
+TEST(History, ARefusedActIsNoPartOfIt) {
+    Desk desk(bar());
+    desk.play(ends + bend);
+    EXPECT_NE(refusal(desk, foot), "accepted");
+    EXPECT_NE(refusal(desk, drag(lift, "nobody")), "accepted");
+    desk.play(undo);
+    EXPECT_FALSE(desk.document().is_posed());
+    EXPECT_TRUE(same_bits(desk.shape(), desk.document().cloud().positions));
+}
+
+// Says stop at its n-th question.
+class StopsAt final : public Progress {
+public:
+    explicit StopsAt(int questions) : left_(questions) {}
+    void report(std::string_view /*stage*/, double /*fraction*/) override {}
+    bool cancelled() const override { return left_.fetch_sub(1) <= 0; }
+    bool was_reached() const { return left_ < 0; }
+
+private:
+    mutable std::atomic<int> left_;
+};
+
+DragLine as_line(const std::string& text) {
+    return std::get<DragLine>(
+        parse_session("{\"knead\":1,\"cloud\":{\"path\":\"a\"}}\n" + text, "s").lines.at(0).action);
+}
+
+// From the first question to the last, through every stage, the document must be as before; and what follows
+// must not see that anything was ever stopped.
+TEST(History, ACancelledDragLeavesTheDocumentAsItWas) {
+    const std::vector<float> bent = shape_after(ends + bend);
+    const std::vector<float> both = shape_after(ends + bend + twist);
+    Desk fresh(bar());
+    fresh.play(ends);
+    Desk posed(bar());
+    posed.play(ends + bend);
+    bool finished = false;
+    for (int questions = 0; !finished; ++questions) {
+        StopsAt stop(questions);
+        try {
+            fresh.document().drag(as_line(bend), "s:1", stop);
+            finished = true;
+        } catch (const Cancelled&) {
+            EXPECT_FALSE(fresh.document().is_posed());
+        }
+    }
+    EXPECT_TRUE(same_bits(fresh.shape(), bent));
+    finished = false;
+    for (int questions = 0; !finished; ++questions) {
+        StopsAt stop(questions);
+        try {
+            posed.document().drag(as_line(twist), "s:1", stop);
+            finished = true;
+        } catch (const Cancelled&) {
+            ASSERT_TRUE(same_bits(posed.shape(), bent)) << "stopped at question " << questions;
+        }
+    }
+    EXPECT_TRUE(same_bits(posed.shape(), both));
+}
+
+// The flood of a handle's samples, stopped half-way, must not stay in the lists.
+TEST(History, ACancelledPreparationOfOtherHandlesStartsAgain) {
+    const std::string ring = R"({"op":"handle","name":"ring","role":"fixed","region":)"
+                             R"({"box":{"min":[-9,-9,-0.2],"max":[9,9,0.2]}}})"
+                             "\n";
+    const std::vector<float> expected = shape_after(ends + bend + commit + ring + twist);
+    for (int questions = 0;; ++questions) {
+        Desk desk(bar());
+        desk.play(ends + bend + commit + ring);
+        StopsAt stop(questions);
+        bool finished = true;
+        try {
+            desk.document().drag(as_line(twist), "s:1", stop);
+        } catch (const Cancelled&) {
+            finished = false;
+            desk.play(twist);
+        }
+        ASSERT_TRUE(same_bits(desk.shape(), expected)) << "stopped at question " << questions;
+        if (finished) break;
+    }
+}
+
+} // namespace
+} // namespace knead

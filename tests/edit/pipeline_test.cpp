@@ -1,0 +1,248 @@
+// The pipeline: which stages run when, how many samples there are, and clouds and handles at the edge.
+
+#include "edit/editing.h"
+
+#include <set>
+
+namespace knead {
+namespace {
+
+using namespace test;
+
+std::string box_handle(const std::string& name, const std::string& role, const std::string& lowest,
+                       const std::string& highest) {
+    return R"({"op":"handle","name":")" + name + R"(","role":")" + role + R"(","region":{"box":{"min":)" +
+           lowest + R"(,"max":)" + highest + "}}}\n";
+}
+std::string point_handle(const std::string& name, const std::string& role, const std::string& points) {
+    return R"({"op":"handle","name":")" + name + R"(","role":")" + role + R"(","points":[)" + points + "]}\n";
+}
+
+// --- Stages are kept
+
+// Which stages took time between two readings.
+std::string stages_between(const StageSeconds& before, const StageSeconds& after) {
+    std::string names;
+    const auto note = [&](const char* name, double earlier, double later) {
+        if (later != earlier) names += std::string(names.empty() ? "" : " ") + name;
+    };
+    note("order", before.order, after.order);
+    note("neighbors", before.neighbors, after.neighbors);
+    note("sampling", before.sampling, after.sampling);
+    note("geodesic", before.geodesic, after.geodesic);
+    note("factorize", before.factorize, after.factorize);
+    note("device", before.device, after.device);
+    return names;
+}
+
+TEST(Pipeline, RunsOnlyTheStagesWhoseInputsChanged) {
+    Desk desk(bar());
+    const std::string frame = drag(turn('x', 20));
+    const auto run = [&](const std::string& lines) {
+        const StageSeconds before = desk.pipeline().seconds();
+        desk.play(lines);
+        return stages_between(before, desk.pipeline().seconds());
+    };
+    EXPECT_EQ(run(ends), "");
+    EXPECT_EQ(run(frame), "order neighbors sampling geodesic factorize device");
+    EXPECT_EQ(run(frame + settle(5)), "");
+    EXPECT_EQ(run(set(R"("iterations":5)") + frame), "");
+    EXPECT_EQ(run(set(R"("weights":"paper")") + frame), "geodesic device");
+    EXPECT_EQ(run(set(R"("stiffness":0.02)") + frame), "factorize");
+    EXPECT_EQ(run(R"({"op":"rename","handle":"foot","to":"sole"})"
+                  "\n" +
+                  frame),
+              "");
+    EXPECT_EQ(run(commit), "");
+    EXPECT_EQ(run(frame), "factorize device"); // another rest shape
+    EXPECT_EQ(run(commit + top + frame), "sampling geodesic factorize device");
+    EXPECT_EQ(run(commit + set(R"("samples":500)") + frame), "sampling geodesic factorize device");
+    EXPECT_EQ(run(commit + set(R"("neighbors":8)") + frame), "neighbors sampling geodesic factorize device");
+    EXPECT_EQ(run(undo + undo + redo), "");
+}
+
+// --- Samples
+
+class SampleCounts : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(SampleCounts, AreWhatWasAskedForToAFifthMore) {
+    for (const Shape shape : {Shape::bar, Shape::creature}) {
+        Settings settings;
+        settings.samples = GetParam();
+        Desk desk(made(shape, 6000), settings);
+        desk.play(box_handle("low", "fixed", "[-9,-9,-9]", "[9,9,0.2]") +
+                  box_handle("top", "moving", "[-9,-9,1.3]", "[9,9,9]") + drag(lift));
+        const auto& samples = desk.pipeline().samples();
+        EXPECT_GE(samples.size(), GetParam());
+        EXPECT_LE(static_cast<double>(samples.size()), 1.2 * static_cast<double>(GetParam()) + 1);
+        EXPECT_EQ(std::set<Index>(samples.begin(), samples.end()).size(), samples.size());
+        EXPECT_LT(desk.handle_error(), 1e-5);
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Pipeline, SampleCounts, testing::Values(50, 200, 1000, 3000));
+
+TEST(Pipeline, TakesEveryPointWhereAllOrMoreAreAsked) {
+    std::vector<std::vector<float>> shapes;
+    for (const std::optional<std::uint64_t> samples :
+         {std::optional<std::uint64_t>{}, std::optional<std::uint64_t>{800},
+          std::optional<std::uint64_t>{1U << 30}}) {
+        Settings settings;
+        settings.samples = samples;
+        Desk desk(bar(800), settings);
+        desk.play(ends + drag(turn('y', 60)) + settle(20));
+        EXPECT_EQ(desk.pipeline().samples().size(), 800U);
+        shapes.push_back(desk.shape());
+    }
+    EXPECT_TRUE(same_bits(shapes[0], shapes[1]));
+    EXPECT_TRUE(same_bits(shapes[0], shapes[2]));
+}
+
+TEST(Pipeline, ThinHandlesOwnSamples) {
+    Settings settings;
+    settings.samples = 50;
+    Desk desk(made(Shape::plane, 4000), settings);
+    desk.play(point_handle("pin", "fixed", "0") + point_handle("top", "moving", "3999") +
+              drag(R"({"translate":[0,0,0.25]})") + settle(50));
+    EXPECT_LT(desk.handle_error(), 1e-6);
+    const std::vector<float> shape = desk.shape();
+    EXPECT_EQ(at(shape, 0), at(desk.document().cloud().positions, 0));
+    EXPECT_TRUE(all_finite(shape));
+}
+
+TEST(Pipeline, AHandleMayHoldEverything) {
+    for (const bool every_point : {false, true}) {
+        Settings settings;
+        if (every_point) settings.samples = std::nullopt;
+        Desk desk(bar(), settings);
+        desk.play(R"({"op":"handle","name":"top","role":"moving","region":"all"})"
+                  "\n" +
+                  drag(lift) + settle(5));
+        EXPECT_LT(farthest(desk, every, [](const Vec3d& p) -> Vec3d { return p + Vec3d(0.5, 0, 0.25); }),
+                  1e-6);
+    }
+}
+
+TEST(Pipeline, ARegionOfInterestMayBeAllThatIsLeft) {
+    Desk desk(bar());
+    desk.play(top +
+              R"({"op":"handle","name":"around","role":"roi","points":[0]})"
+              "\n" +
+              drag(lift) + settle(5));
+    EXPECT_LT(desk.handle_error(), 1e-6);
+    EXPECT_EQ(farthest(
+                  desk, [](const Vec3d& p) { return p.z() < 0 && p.z() > -1; }, stays),
+              0);
+}
+
+// --- Parts, duplicates, strange points
+
+PointCloud joined(const PointCloud& a, const PointCloud& b, const Vec3f& shift) {
+    std::vector<float> positions;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (const double value : a.file_position(i)) positions.push_back(static_cast<float>(value));
+    for (std::size_t i = 0; i < b.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            positions.push_back(static_cast<float>(b.file_position(i)[axis]) + shift[axis]);
+    return make_cloud(positions);
+}
+
+TEST(Pipeline, PartsWithoutAHandleStayBitForBit) {
+    for (const char* samples : {"300", "\"all\""}) {
+        Desk desk(joined(bar(), made(Shape::sphere, 500), {20, 0, 0}));
+        desk.play(box_handle("foot", "fixed", "[-9,-9,-9]", "[9,9,-2]") +
+                  box_handle("top", "moving", "[-9,-9,2]", "[9,9,9]") +
+                  set(std::string(R"("samples":)") + samples) + drag(turn('y', 70)) + settle(10));
+        EXPECT_EQ(desk.pipeline().components().size.size(), 2U);
+        EXPECT_EQ(desk.pipeline().strays().parts, 1U);
+        EXPECT_EQ(desk.pipeline().strays().points, 500U);
+        const std::vector<float> shape = desk.shape();
+        const float* const rest = desk.document().cloud().positions.data();
+        EXPECT_EQ(std::memcmp(&shape[4500], rest + 4500, 1500 * sizeof(float)), 0);
+        EXPECT_GT(farthest(desk, every, stays), 0.5);
+    }
+}
+
+TEST(Pipeline, PointsThatAreNotFiniteAreLeftAlone) {
+    PointCloud clean = bar();
+    std::vector<float> positions = clean.positions;
+    positions[30] = std::numeric_limits<float>::quiet_NaN();
+    positions[301] = std::numeric_limits<float>::infinity();
+    Desk desk(make_cloud(positions));
+    desk.play(ends + point_handle("odd", "fixed", "10,100,0") + drag(lift) + settle(10));
+    const std::vector<float> shape = desk.shape();
+    for (const std::size_t i : {10U, 100U})
+        EXPECT_EQ(std::memcmp(&shape[3 * i], &desk.document().cloud().positions[3 * i], 12), 0);
+    std::size_t strange = 0;
+    for (const float value : shape) strange += !std::isfinite(value);
+    EXPECT_EQ(strange, 2U);
+    EXPECT_SAYS(refusal(desk, commit + point_handle("none", "fixed", "10,100")), "no point with finite");
+}
+
+TEST(Pipeline, DuplicatesMayBelongToDifferentHandles) {
+    const PointCloud once = bar(700);
+    Desk desk(joined(once, once, {0, 0, 0})); // point i + 700 lies on point i
+    desk.play(point_handle("low", "fixed", "[0,10]") + point_handle("top", "moving", "[700,710]") +
+              point_handle("far", "fixed", "[690,699]") + drag(lift) + settle(10));
+    const std::vector<float> shape = desk.shape();
+    const auto& rest = desk.document().cloud().positions;
+    for (std::size_t i = 0; i <= 10; ++i) {
+        EXPECT_EQ(at(shape, i), at(rest, i));
+        EXPECT_LT((at(shape, i + 700) - at(rest, i + 700) - Vec3d(0.5, 0, 0.25)).norm(), 1e-6);
+    }
+    for (std::size_t i = 20; i < 600; ++i)
+        EXPECT_EQ(at(shape, i), at(shape, i + 700)); // free ones stay together
+    EXPECT_TRUE(all_finite(shape));
+    EXPECT_LT(desk.handle_error(), 1e-6);
+}
+
+TEST(Pipeline, SmallAndFlatCloudsNeitherCrashNorTurnToNothing) {
+    std::vector<float> line, same, row_of_three{0, 0, 0, 1, 0, 0, 0, 1, 0};
+    for (int i = 0; i < 40; ++i) {
+        line.insert(line.end(), {0.25F * static_cast<float>(i), 0, 0});
+        same.insert(same.end(), {1, 2, 3});
+    }
+    const std::vector<std::vector<float>> clouds{{5, 5, 5}, {0, 0, 0, 1, 1, 1}, row_of_three, line, same};
+    for (const auto& positions : clouds)
+        for (const char* samples : {"1", "2", "10", "\"all\""}) {
+            const std::string last = std::to_string(positions.size() / 3 - 1);
+            Desk desk(make_cloud(positions));
+            desk.play(set(std::string(R"("samples":)") + samples) + point_handle("low", "fixed", "0") +
+                      point_handle("top", "moving", last) + drag("{}," + turn('z', 60, "[0.5,0.25,0]")) +
+                      settle(20) + drag(R"({"scale":2})") + commit + drag(lift) + undo);
+            EXPECT_TRUE(all_finite(desk.shape())) << positions.size() / 3 << " points, samples " << samples;
+            EXPECT_LT(desk.handle_error(), 1e-4);
+        }
+}
+
+TEST(Pipeline, CloudsOfAnySizeAndPlaceAreTheSame) {
+    Desk plain(bar());
+    plain.play(ends + drag(turn('y', 60, "[0.5,0,0]")) + settle(30));
+    const std::vector<float> shape = plain.shape();
+    for (const float size : {1e-12F, 1e12F}) {
+        std::vector<float> positions = plain.document().cloud().positions;
+        for (float& value : positions) value *= size;
+        Desk desk(make_cloud(positions));
+        std::string lines = point_handle("top", "moving", "0"), feet;
+        for (std::size_t h = 0; h < 2; ++h) {
+            std::string points;
+            for (const Index i : *plain.document().handles()[h].points)
+                points += (points.empty() ? "" : ",") + std::to_string(i);
+            lines += point_handle(h == 0 ? "foot" : "top", h == 0 ? "fixed" : "moving", points);
+        }
+        const double half = std::numbers::pi / 6;
+        char frame[300];
+        std::snprintf(
+            frame, sizeof frame,
+            R"({"op":"drag","handle":"top","pivot":[0,0,%.9g],"frames":[{"translate":[%.9g,0,0],"rotate":[%.9g,0,%.9g,0]}]})",
+            2.5 * static_cast<double>(size), 0.5 * static_cast<double>(size), std::cos(half), std::sin(half));
+        desk.play(lines + frame + "\n" + settle(30));
+        const std::vector<float> scaled = desk.shape();
+        double largest = 0;
+        for (std::size_t i = 0; i < shape.size() / 3; ++i)
+            largest = std::max(largest, (at(scaled, i) / static_cast<double>(size) - at(shape, i)).norm());
+        EXPECT_LT(largest, 1e-3 * plain.diagonal());
+    }
+}
+
+} // namespace
+} // namespace knead

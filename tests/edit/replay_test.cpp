@@ -1,0 +1,215 @@
+// Whole sessions: the same bytes every time and everywhere, and what a replay reports.
+
+#include "edit/editing.h"
+#include "edit/replay.h"
+#include "io/cloud_file.h"
+#include "support/scratch_folder.h"
+
+namespace knead {
+namespace {
+
+using namespace test;
+
+void write_bar(const std::filesystem::path& path, std::size_t points = 3000) {
+    SilentProgress progress;
+    write_cloud(path, bar(points), {}, progress);
+}
+
+// A session file over bar.ply in the folder.
+Session session_in(const ScratchFolder& folder, const std::string& lines) {
+    if (!std::filesystem::exists(folder / "bar.ply")) write_bar(folder / "bar.ply");
+    write_text(folder / "s.knead", "{\"knead\":1,\"cloud\":{\"path\":\"bar.ply\"}}\n" + lines);
+    return read_session(folder / "s.knead");
+}
+
+struct Told {
+    ReplayReport report;
+    std::vector<std::string> warnings;
+};
+Told told(const Session& session, const ReplayOptions& options = {}) {
+    SilentProgress progress;
+    Told result;
+    result.report = replay(session, options, progress,
+                           [&](const std::string& words) { result.warnings.push_back(words); });
+    return result;
+}
+
+const std::string wriggle = ends +
+                            drag(turn('y', 20) + "," + turn('y', 40) + "," + turn('y', 75, "[0.2,0.1,0]")) +
+                            settle(25) + commit + drag(turn('z', 30) + "," + turn('z', 60)) + settle(10);
+
+// --- Determinism
+
+TEST(Replay, GivesTheSameBytesForAnyThreadsAndEveryTime) {
+    const ScratchFolder folder;
+    const Session session = session_in(folder, wriggle);
+    for (const std::string device : {"reference", ""}) {
+        std::string first;
+        for (const unsigned threads : {1U, 2U, 3U, 2U}) {
+            ReplayOptions options;
+            options.out = folder / "out.ply";
+            options.device = device;
+            options.threads = threads;
+            told(session, options);
+            const std::string bytes = read_text(folder / "out.ply");
+            if (first.empty()) first = bytes;
+            EXPECT_EQ(bytes, first) << threads << " threads on \"" << device << '"';
+        }
+    }
+}
+
+TEST(Replay, EveryDeviceAgreesWithTheReference) {
+    Desk reference(bar());
+    reference.play(wriggle);
+    const std::vector<float> expected = reference.shape();
+    for (std::size_t device = 0; device < list_devices().size(); ++device) {
+        Desk desk(bar(), {}, 2, std::to_string(device));
+        desk.play(wriggle);
+        const std::vector<float> shape = desk.shape();
+        double largest = 0;
+        for (std::size_t i = 0; i < shape.size() / 3; ++i)
+            largest = std::max(largest, (at(shape, i) - at(expected, i)).norm());
+        // Some devices fuse multiplication and addition, which changes the last bits of a float.
+        EXPECT_LT(largest, 2e-6 * desk.diagonal());
+    }
+}
+
+// --- Turns
+
+// How far the cloud is turned about z between its lowest and highest slice, in degrees.
+double twist_of(const std::vector<float>& rest, const std::vector<float>& posed) {
+    constexpr int slices = 60;
+    std::vector<double> sine(slices), cosine(slices);
+    for (std::size_t i = 0; i < rest.size() / 3; ++i) {
+        const Vec3d p = at(rest, i), q = at(posed, i);
+        const int slice = std::clamp(static_cast<int>((p.z() + 4.5) / 9 * slices), 0, slices - 1);
+        sine[static_cast<std::size_t>(slice)] += p.x() * q.y() - p.y() * q.x();
+        cosine[static_cast<std::size_t>(slice)] += p.x() * q.x() + p.y() * q.y();
+    }
+    double total = 0, before = 0;
+    for (std::size_t slice = 0; slice < slices; ++slice) {
+        const double angle = std::atan2(sine[slice], cosine[slice]);
+        total += std::remainder(angle - before, 2 * std::numbers::pi);
+        before = angle;
+    }
+    return total * 180 / std::numbers::pi;
+}
+
+TEST(Replay, KeepsAllTurnsOfATwist) {
+    PointCloud cloud = bar(3000);
+    for (std::size_t i = 2; i < cloud.positions.size(); i += 3) cloud.positions[i] *= 2; // 1 : 10
+    Desk desk(make_cloud(cloud.positions));
+    std::string lines = ends;
+    for (const char* end : {"[0,0,2]", "[0,0,-2]"}) {
+        const std::string farther = end[5] == '2' ? "[0,0,4.5]" : "[0,0,-4.5]";
+        lines.replace(lines.find(end), std::strlen(end), farther);
+    }
+    const auto turned = [](int from, int to) {
+        std::string frames;
+        for (int degrees = from; degrees != to;) {
+            degrees += to > from ? 10 : -10;
+            frames += (frames.empty() ? "" : ",") + turn('z', degrees);
+        }
+        return drag(frames);
+    };
+    const auto twist = [&] { return twist_of(desk.document().cloud().positions, desk.shape()); };
+    // Settled for ever, a bar of this thickness keeps a turn and a half; twice around, it buckles in the end.
+    desk.play(lines + turned(0, 540) + settle(100));
+    EXPECT_NEAR(twist(), 540, 1);
+    desk.play(turned(540, 720));
+    EXPECT_NEAR(twist(), 720, 2);
+    EXPECT_LT(desk.handle_error(), 1e-5);
+    // Turning back undoes it: nothing of it is left in the rotations.
+    desk.play(turned(720, 0) + settle(200));
+    EXPECT_LT(farthest(desk, every, stays), 1e-3 * desk.diagonal());
+}
+
+// --- Reports
+
+TEST(Replay, ReportsWhatItDid) {
+    const ScratchFolder folder;
+    const Told result = told(session_in(folder, wriggle));
+    const ReplayReport& report = result.report;
+    EXPECT_EQ(report.points, 3000U);
+    EXPECT_EQ(report.components, 1U);
+    EXPECT_EQ(report.strays, 0U);
+    EXPECT_EQ(report.frames, 5U);
+    EXPECT_EQ(report.iterations, 5U * 3 + 25 + 10);
+    EXPECT_GE(report.samples, 1000U);
+    EXPECT_LT(report.handle_error, 1e-5);
+    EXPECT_NEAR(report.diagonal, std::sqrt(27), 0.05);
+    EXPECT_GT(report.solve, 0);
+    EXPECT_GT(report.upsample, 0);
+    EXPECT_GT(report.peak_memory, 1'000'000U);
+    EXPECT_TRUE(report.all_checks_held());
+    EXPECT_TRUE(result.warnings.empty());
+    const StageSeconds& stages = report.stages;
+    const double sum = report.read + stages.order + stages.neighbors + stages.sampling + stages.geodesic +
+                       stages.factorize + stages.device + report.write;
+    EXPECT_GE(report.total, sum);
+}
+
+TEST(Replay, WarnsOnceOfPartsWithoutAHandle) {
+    const ScratchFolder folder;
+    std::vector<float> positions = bar(1000).positions;
+    for (const float x : {50.0F, 51.0F, 52.0F, 53.0F, 54.0F, 55.0F, 56.0F, 57.0F})
+        positions.insert(positions.end(), {x, 0, 0});
+    SilentProgress progress;
+    write_cloud(folder / "bar.ply", make_cloud(positions), {}, progress);
+    const Told result = told(session_in(folder, ends + drag(lift) + drag(lift) + commit + drag(lift)));
+    EXPECT_EQ(result.report.components, 2U);
+    EXPECT_EQ(result.report.strays, 1U);
+    ASSERT_EQ(result.warnings.size(), 1U);
+    EXPECT_SAYS(result.warnings[0], "1 part of the cloud (8 points)");
+    EXPECT_EQ(result.report.warnings, result.warnings);
+}
+
+TEST(Replay, SettingsGivenFromOutsideWinOverHeaderAndLines) {
+    const ScratchFolder folder;
+    const Session session = session_in(folder, set(R"("samples":100)") + ends + drag(lift) +
+                                                   set(R"("iterations":7)") + drag(lift));
+    ReplayOptions options;
+    options.overrides = merged(parse_setting("samples=500"), parse_setting("iterations=2"));
+    const ReplayReport report = told(session, options).report;
+    EXPECT_GE(report.samples, 500U);
+    EXPECT_LE(report.samples, 600U);
+    EXPECT_EQ(report.iterations, 4U);
+}
+
+TEST(Replay, ARehearsalFindsMistakesAndComputesNothing) {
+    const ScratchFolder folder;
+    ReplayOptions options;
+    options.rehearse = true;
+    options.out = folder / "out.ply";
+    const ReplayReport report = told(session_in(folder, wriggle + undo + undo + redo), options).report;
+    EXPECT_EQ(report.iterations, 0U);
+    EXPECT_EQ(report.components, 0U);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.ply"));
+    const auto words = [&](const std::string& lines) -> std::string {
+        try {
+            told(session_in(folder, lines), options);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_SAYS(words(ends + drag(lift) + foot), "s.knead:5: ");
+    EXPECT_SAYS(words(ends + drag(lift, "ear")), "s.knead:4: \"handle\"");
+    EXPECT_SAYS(words(undo), "s.knead:2: there is nothing to undo");
+    EXPECT_SAYS(words(ends + R"({"op":"check","positions":"no.ply","tolerance":1})"),
+                "s.knead:4: \"positions\"");
+    EXPECT_EQ(words(ends + drag(lift) + commit + foot + drag(lift)), "accepted");
+}
+
+TEST(Replay, AnEditWithNoIterationsIsEquationOneAlone) {
+    const ScratchFolder folder;
+    ReplayOptions options;
+    options.overrides = parse_setting("iterations=0");
+    const ReplayReport report = told(session_in(folder, ends + drag(turn('y', 90))), options).report;
+    EXPECT_EQ(report.iterations, 0U);
+    EXPECT_EQ(report.solve, 0);
+    EXPECT_LT(report.handle_error, 1e-6);
+}
+
+} // namespace
+} // namespace knead

@@ -3,6 +3,8 @@
 #include "base/require.h"
 #include "graph/neighbors.h"
 
+#include <array>
+
 namespace knead {
 
 namespace {
@@ -98,7 +100,7 @@ void find_confidence(SampleSystem& system, double square_length) {
 
 } // namespace
 
-FactorOutcome build_system(SampleRest rest, SampleSystem& system) {
+FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& workers) {
     require(rest.weight.size() == rest.graph.neighbor.size(), "a weight a link");
     require(rest.position.size() == rest.graph.size() && rest.handle.size() == rest.graph.size(),
             "an entry a sample");
@@ -114,9 +116,14 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system) {
 
     const SparseMatrix matrix = laplacian(system);
     const std::vector<int> order = minimum_degree_order(matrix);
-    const FactorOutcome outcome = system.positions.factorize(matrix, order);
-    if (!outcome.solved) return outcome;
-    return system.rotations.factorize(rotation_matrix(system, matrix), order);
+    const SparseMatrix smoothing = rotation_matrix(system, matrix);
+    // Neither knows of the other; SuperLU keeps no state between its calls.
+    std::array<FactorOutcome, 2> outcomes;
+    workers.for_each(2, 1, [&](std::size_t which) {
+        outcomes[which] = which == 0 ? system.positions.factorize(matrix, order)
+                                     : system.rotations.factorize(smoothing, order);
+    });
+    return outcomes[0].solved ? outcomes[1] : outcomes[0];
 }
 
 SampleState rest_state(const SampleSystem& system) {

@@ -72,7 +72,7 @@ struct SampleSystem {
 
 // Prepares both systems: one ordering, two factorisations. Samples whose component holds no handle are left
 // out and stay at rest. On a bad outcome the system must not be iterated.
-FactorOutcome build_system(SampleRest rest, SampleSystem& system);
+FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& workers);
 
 // All samples at rest.
 SampleState rest_state(const SampleSystem& system);

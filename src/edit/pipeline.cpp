@@ -197,7 +197,7 @@ void Pipeline::prepare_systems() {
     rest.weight = isotropic_weights(rest.graph, rest.position, sample_graph_.contact, workers_);
     rest.cloud_size = cloud_size_;
     rest.stiffness = input_.settings.stiffness;
-    const FactorOutcome outcome = build_system(std::move(rest), system_);
+    const FactorOutcome outcome = build_system(std::move(rest), system_, workers_);
     seconds_.factorize += clock.lap();
     if (!outcome.solved)
         throw Error(Trouble::numeric, "",

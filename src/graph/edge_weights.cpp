@@ -8,7 +8,7 @@ namespace knead {
 
 namespace {
 
-constexpr int updates = 8;
+constexpr int updates = 4;
 
 // How far a weight may leave its vertex's mean: a link that stands alone in its direction would take all.
 constexpr double largest_weight = 8;

@@ -65,7 +65,7 @@ std::vector<Vector4d> frames_by_equation1(const SampleSystem& system, const std:
 TEST(Equation1, IsTheLaplacianOfTheRotations) {
     const test::Cloud cloud = test::cloud_of(test::shape_positions(Shape::bar, 150));
     SampleSystem system;
-    ASSERT_TRUE(build_system(test::rest_of(cloud, test::both_ends(-2, 2)), system).solved);
+    ASSERT_TRUE(test::built(test::rest_of(cloud, test::both_ends(-2, 2)), system).solved);
     Workers workers(2);
     std::vector<Quatd> frame = local_frames(cloud.graph, cloud.positions, workers);
     for (std::size_t v = 0; v < frame.size(); v += 3) frame[v].coeffs() *= -1; // no sign is better

@@ -34,7 +34,7 @@ TEST(Iterate, ChangesNothingWhereNothingMoves) {
     for (const Shape shape : {Shape::bar, Shape::creature, Shape::solid_bar}) {
         const test::Cloud cloud = test::cloud_of(test::shape_positions(shape, 1500));
         SampleSystem system;
-        ASSERT_TRUE(build_system(test::rest_of(cloud, test::both_ends(-0.5, 0.5)), system).solved);
+        ASSERT_TRUE(test::built(test::rest_of(cloud, test::both_ends(-0.5, 0.5)), system).solved);
         expect_at_rest(deformed(system, {{}, {}}, 5));
     }
 }
@@ -42,7 +42,7 @@ TEST(Iterate, ChangesNothingWhereNothingMoves) {
 TEST(Iterate, FollowsOneRigidMotionOfAllHandles) {
     const test::Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 2000));
     SampleSystem system;
-    ASSERT_TRUE(build_system(test::rest_of(cloud, test::both_ends(-0.5, 0.5)), system).solved);
+    ASSERT_TRUE(test::built(test::rest_of(cloud, test::both_ends(-0.5, 0.5)), system).solved);
     const HandleMotion motion =
         test::motion_about(Vec3d(1, -2, 0.5), 140 * degrees, Vec3d(1, 1, 0), Vec3d(10, 20, -5));
     const SampleState state = deformed(system, {motion, motion}, 10);
@@ -55,7 +55,7 @@ TEST(Iterate, FollowsOneRigidMotionOfAllHandles) {
 
 TEST(Iterate, PutsHandlesExactlyWhereTheyAre) {
     SampleSystem system;
-    ASSERT_TRUE(build_system(test::bar(800), system).solved);
+    ASSERT_TRUE(test::built(test::bar(800), system).solved);
     HandleMotion scaled = bend();
     scaled.linear = scaled.linear * Vec3d(1.5, 0.5, 2).asDiagonal();
     const std::vector<HandleMotion> handles{{}, scaled};
@@ -81,7 +81,7 @@ void expect_same_state(const SampleSystem& system, const SampleState& state,
 // Two frames of five iterations, the second with the handles turned further.
 void expect_as_reference(const SampleRest& rest, const HandleMotion& motion) {
     SampleSystem system;
-    ASSERT_TRUE(build_system(rest, system).solved);
+    ASSERT_TRUE(test::built(rest, system).solved);
     test::ReferenceIteration reference(rest);
     Workers workers(2);
     SampleState state = rest_state(system);
@@ -116,7 +116,7 @@ TEST(Iterate, IsTheIterationOfTheDesignUnderAScalingHandle) {
 
 TEST(Iterate, ReturnsTheLongestWay) {
     SampleSystem system;
-    ASSERT_TRUE(build_system(test::bar(800), system).solved);
+    ASSERT_TRUE(test::built(test::bar(800), system).solved);
     Workers workers(2);
     SampleState state = rest_state(system);
     const std::vector<HandleMotion> handles{{}, bend()};
@@ -134,7 +134,7 @@ TEST(Iterate, ReturnsTheLongestWay) {
 
 TEST(Iterate, ComesToRest) {
     SampleSystem system;
-    ASSERT_TRUE(build_system(test::bar(800), system).solved);
+    ASSERT_TRUE(test::built(test::bar(800), system).solved);
     Workers workers(2);
     const std::vector<HandleMotion> handles{{}, bend()};
     SampleState state = deformed(system, handles, 300);
@@ -148,7 +148,7 @@ TEST(Iterate, LeavesOutWhatNoHandleHolds) {
         return p.x() < 2 ? 0 : p.x() > 9 && p.x() < 15 ? 1 : no_index;
     };
     const SampleRest rest = test::rest_of(cloud, first_patch_only);
-    ASSERT_TRUE(build_system(rest, system).solved);
+    ASSERT_TRUE(test::built(rest, system).solved);
     const SampleState state = deformed(system, {{}, bend()}, 3);
     std::size_t left_out = 0;
     for (std::size_t s = 0; s < cloud.size(); ++s) {
@@ -167,7 +167,7 @@ TEST(BuildSystem, AcceptsNoHandleAndNothingButHandles) {
     for (const Index handle : {no_index, Index{0}}) {
         const test::Cloud cloud = test::cloud_of(test::shape_positions(Shape::sphere, 200));
         SampleSystem system;
-        ASSERT_TRUE(build_system(test::rest_of(cloud, [=](const Vec3d&) { return handle; }), system).solved);
+        ASSERT_TRUE(test::built(test::rest_of(cloud, [=](const Vec3d&) { return handle; }), system).solved);
         EXPECT_TRUE(system.free_sample.empty());
         const SampleState state = deformed(system, {bend()}, 2);
         EXPECT_EQ(state.displacement[0].isZero(0), handle == no_index);
@@ -180,7 +180,7 @@ TEST(BuildSystem, TellsOfNumbersThatAreNotFinite) {
     rest.handle.assign(rest.handle.size(), no_index);
     rest.handle[0] = 0;
     SampleSystem system;
-    const FactorOutcome outcome = build_system(std::move(rest), system);
+    const FactorOutcome outcome = test::built(std::move(rest), system);
     EXPECT_FALSE(outcome.solved);
     EXPECT_FALSE(outcome.words.empty());
 }
@@ -193,7 +193,7 @@ TEST(Iterate, IsFiniteWhereSamplesCoincide) {
     Workers workers(2);
     rest.weight = isotropic_weights(rest.graph, rest.position, graph.contact, workers);
     SampleSystem system;
-    ASSERT_TRUE(build_system(rest, system).solved);
+    ASSERT_TRUE(test::built(rest, system).solved);
     const SampleState state = deformed(system, {{}, bend()}, 5);
     for (std::size_t s = 0; s < state.rotation.size(); ++s) {
         ASSERT_TRUE(state.displacement[s].allFinite());
@@ -210,8 +210,8 @@ TEST(Iterate, DoesNotDependOnTheUnit) {
     large_bend.offset *= 1000;
     SampleSystem system;
     SampleSystem large_system;
-    ASSERT_TRUE(build_system(rest, system).solved);
-    ASSERT_TRUE(build_system(large, large_system).solved);
+    ASSERT_TRUE(test::built(rest, system).solved);
+    ASSERT_TRUE(test::built(large, large_system).solved);
     EXPECT_NEAR(large_system.smoothing, system.smoothing, 1e-12 * system.smoothing); // rounding
     const SampleState state = deformed(system, {{}, bend()}, 5);
     const SampleState large_state = deformed(large_system, {{}, large_bend}, 5);
@@ -223,7 +223,7 @@ TEST(Iterate, DoesNotDependOnTheUnit) {
 
 TEST(Iterate, IsTheSameForAnyNumberOfThreads) {
     SampleSystem system;
-    ASSERT_TRUE(build_system(test::bar(3000), system).solved);
+    ASSERT_TRUE(test::built(test::bar(3000), system).solved);
     const std::vector<HandleMotion> handles{{}, bend()};
     const SampleState one = deformed(system, handles, 4, 1);
     for (const unsigned threads : {2U, 5U}) {
@@ -240,8 +240,8 @@ TEST(Iterate, DependsLittleOnHowManySamplesThereAre) {
     // measured 0.2 to 1 % of D between such counts; β of the spacing would make 4 to 7 %.
     SampleSystem coarse;
     SampleSystem fine;
-    ASSERT_TRUE(build_system(test::bar(1000), coarse).solved);
-    ASSERT_TRUE(build_system(test::bar(4000), fine).solved);
+    ASSERT_TRUE(test::built(test::bar(1000), coarse).solved);
+    ASSERT_TRUE(test::built(test::bar(4000), fine).solved);
     const std::vector<HandleMotion> handles{{}, bend()};
     const SampleState coarse_state = deformed(coarse, handles, 200);
     const SampleState fine_state = deformed(fine, handles, 200);

@@ -58,4 +58,10 @@ inline Vec3d posed(const SampleSystem& system, const SampleState& state, std::si
     return system.rest.position[s] + state.displacement[s];
 }
 
+// build_system() with workers of its own.
+inline FactorOutcome built(SampleRest rest, SampleSystem& system) {
+    Workers workers(2);
+    return build_system(std::move(rest), system, workers);
+}
+
 } // namespace knead::test

@@ -44,7 +44,7 @@ double total_twist(const SampleSystem& system, const SampleState& state, double 
 // whole turn off if one was.
 void expect_all_turns(SampleRest rest, double low, double high, int frames = 72) {
     SampleSystem system;
-    ASSERT_TRUE(build_system(std::move(rest), system).solved);
+    ASSERT_TRUE(test::built(std::move(rest), system).solved);
     const SampleState state = twisted(system, frames);
     EXPECT_NEAR(total_twist(system, state, low, high, 40), 10 * frames, 1);
     // And they are spread along the whole of it: the middle is half-way.
@@ -89,7 +89,7 @@ TEST(Twist, OfAShortTubeKeepsATurnAndAHalf) {
 TEST(Twist, CanBeTurnedBack) {
     // 720° and back again, with a pause: what is left is what the iterations have not yet undone.
     SampleSystem system;
-    ASSERT_TRUE(build_system(test::rest_of(test::cloud_of(test::tube_positions(41, 16, 0.5, 8)),
+    ASSERT_TRUE(test::built(test::rest_of(test::cloud_of(test::tube_positions(41, 16, 0.5, 8)),
                                            test::both_ends(0.8, 7.2)),
                              system)
                     .solved);
@@ -110,7 +110,7 @@ TEST(Twist, OfAHandleThatJumpsTakesItsSignAsGiven) {
     // One place, two ways there: 200° about z, or 160° against it.
     const test::Cloud tube = test::cloud_of(test::tube_positions(61, 20, 0.5, 10));
     SampleSystem system;
-    ASSERT_TRUE(build_system(test::rest_of(tube, test::both_ends(0.8, 9.2)), system).solved);
+    ASSERT_TRUE(test::built(test::rest_of(tube, test::both_ends(0.8, 9.2)), system).solved);
     std::vector<HandleMotion> handles(2);
     handles[1] = test::motion_about(Vec3d::UnitZ(), 200 * degrees, Vec3d::Zero(), Vec3d::Zero());
     Workers workers(2);

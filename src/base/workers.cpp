@@ -17,7 +17,7 @@ namespace {
 
 // How often a waiting thread looks before it sleeps: some ten microseconds, the pause between the loops of
 // one stage. Waking a sleeper takes several times as long.
-constexpr int looks_before_sleep = 2000;
+constexpr int looks_before_sleep = 1000;
 
 template<typename Condition>
 bool comes_soon(Condition&& condition) {

@@ -18,7 +18,7 @@ namespace {
 // Of the samples asked for, this many more may be spent on the borders of handles.
 constexpr double handle_share = 0.2;
 
-constexpr int relaxing_rounds = 3;
+constexpr int relaxing_rounds = 2;
 
 Vec3d at(std::span<const float> positions, std::size_t i) {
     return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();

@@ -90,8 +90,8 @@ TEST(Twist, CanBeTurnedBack) {
     // 720° and back again, with a pause: what is left is what the iterations have not yet undone.
     SampleSystem system;
     ASSERT_TRUE(test::built(test::rest_of(test::cloud_of(test::tube_positions(41, 16, 0.5, 8)),
-                                           test::both_ends(0.8, 7.2)),
-                             system)
+                                          test::both_ends(0.8, 7.2)),
+                            system)
                     .solved);
     Workers workers(2);
     SampleState state = twisted(system, 72);

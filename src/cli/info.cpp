@@ -133,6 +133,7 @@ void print(const PointCloud& cloud, const Facts& facts, std::ostream& out) {
     if (facts.bounds.finite_points > 0) {
         line("lowest"), vector(facts.bounds.lowest);
         line("highest"), vector(facts.bounds.highest);
+        line("size"), vector(facts.bounds.highest - facts.bounds.lowest);
         line("diagonal") << facts.bounds.diagonal() << '\n';
     }
     std::size_t widest = 0;

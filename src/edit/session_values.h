@@ -82,10 +82,12 @@ std::string text_not_empty(const Value& value);
 // One of a few words.
 template<typename Choice, std::size_t n>
 Choice choice(const Value& value, const std::array<std::pair<std::string_view, Choice>, n>& choices) {
-    std::string allowed;
-    for (const auto& [word, meaning] : choices) {
+    std::string allowed; // "a", "b" or "c"
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto& [word, meaning] = choices[i];
         if (value.json->is_string() && value.json->get_ref<const std::string&>() == word) return meaning;
-        allowed += (allowed.empty() ? "\"" : " or \"") + std::string(word) + '"';
+        if (i > 0) allowed += i + 1 == n ? " or " : ", ";
+        allowed += '"' + std::string(word) + '"';
     }
     refuse_as(value, allowed);
 }

@@ -7,7 +7,9 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace knead {
 
@@ -15,10 +17,18 @@ namespace knead {
 // cure.
 PointCloud read_cloud(const std::filesystem::path& path, Progress& progress);
 
+// A column to save behind those of the cloud, as float32: one value a point, in the order of the file. A name
+// that the cloud has already gets a number.
+struct AddedColumn {
+    std::string name; // one word
+    std::span<const float> values;
+};
+
 // The shape to save, in the order of the file; the spans are only read during the call.
 struct PosedShape {
     std::span<const float> positions; // 3n, relative to cloud.origin, as cloud.positions; empty: as they were
     std::span<const float> normals;   // 3n, as read_normals() gives them; empty: as they were
+    std::vector<AddedColumn> added = {};
 };
 
 // Writes the cloud in a posed shape: same points, order, attributes, types and encoding. A coordinate is

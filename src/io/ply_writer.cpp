@@ -74,13 +74,70 @@ private:
     std::size_t copied_ = 0;
 };
 
+// The added columns under names that the cloud does not have.
+std::vector<AddedColumn> with_free_names(const PointCloud& cloud, std::vector<AddedColumn> added) {
+    for (std::size_t a = 0; a < added.size(); ++a) {
+        require(added[a].values.size() == cloud.size(), "an added column has a value a point");
+        const std::string name = added[a].name;
+        const auto is_taken = [&](const std::string& candidate) {
+            return find_attribute(cloud, candidate).has_value() ||
+                   std::any_of(added.begin(), added.begin() + static_cast<std::ptrdiff_t>(a),
+                               [&](const AddedColumn& other) { return other.name == candidate; });
+        };
+        for (unsigned number = 2; is_taken(added[a].name); ++number)
+            added[a].name = name + "_" + std::to_string(number);
+    }
+    return added;
+}
+
+// The place in a header behind the last property of its vertices, and how its lines end.
+struct HeaderPlace {
+    std::size_t at = 0;
+    std::string line_end;
+};
+HeaderPlace behind_the_properties(const PlyImage& image) {
+    const std::string_view text(reinterpret_cast<const char*>(image.bytes.data()), image.header.body);
+    HeaderPlace place;
+    const std::size_t first_end = text.find_first_of("\r\n");
+    place.line_end = text.substr(first_end, text.substr(first_end, 2) == "\r\n" ? 2 : 1);
+    std::size_t line = 1;
+    for (std::size_t begin = 0; begin < text.size(); ++line) {
+        const std::size_t end = std::min(text.find(place.line_end, begin), text.size());
+        std::string_view words = text.substr(begin, end - begin);
+        words.remove_prefix(std::min(words.find_first_not_of(" \t"), words.size()));
+        begin = std::min(end + place.line_end.size(), text.size());
+        if (line < image.vertices().line) continue;
+        if (line > image.vertices().line && (words.starts_with("element") || words.starts_with("end_header")))
+            break;
+        if (line == image.vertices().line || words.starts_with("property")) place.at = begin;
+    }
+    return place;
+}
+
 // What the functions below share: where the rows come from, where they go, and what changes.
 struct Patching {
     const PlyImage& image;
     std::vector<const PosedColumn*> posed; // one a vertex property; null where nothing changes
     std::string shown;
+    std::vector<AddedColumn> added;
     PatchedCopy copy;
 };
+
+void add_properties(Patching& patching) {
+    const HeaderPlace place = behind_the_properties(patching.image);
+    std::string lines;
+    for (const AddedColumn& column : patching.added)
+        lines += "property float " + column.name + place.line_end;
+    patching.copy.replace(place.at, 0, std::as_bytes(std::span(lines)));
+}
+
+void add_binary_values(Patching& patching, std::size_t point, std::size_t at, bool swap) {
+    for (const AddedColumn& column : patching.added) {
+        std::array<std::byte, 4> stored{};
+        copy_scalar(reinterpret_cast<const std::byte*>(&column.values[point]), 4, swap, stored.data());
+        patching.copy.replace(at, 0, stored);
+    }
+}
 
 void patch_binary(Patching& patching, const PosedColumn& column, std::size_t point, std::size_t at,
                   bool swap) {
@@ -111,6 +168,7 @@ void patch_binary_rows(Patching& patching) {
                 patch_binary(patching, *column, point, at, swap);
             at += size_of(property.type);
         }
+        add_binary_values(patching, point, at, swap);
     }
     require(at == patching.image.rows_end, "rows lie where they were read");
 }
@@ -138,6 +196,18 @@ void patch_word(Patching& patching, const PosedColumn& column, std::size_t point
                           std::as_bytes(std::span(buffer).first(length)));
 }
 
+void add_words(Patching& patching, std::size_t point, const TextCursor& text) {
+    std::string words;
+    for (const AddedColumn& column : patching.added) {
+        std::array<char, 64> buffer{};
+        const std::size_t length =
+            print_scalar(static_cast<double>(column.values[point]), ScalarType::float32, buffer);
+        (words += ' ').append(buffer.data(), length);
+    }
+    const char* const begin = reinterpret_cast<const char*>(patching.image.bytes.data());
+    patching.copy.replace(static_cast<std::size_t>(text.at - begin), 0, std::as_bytes(std::span(words)));
+}
+
 void patch_ascii_rows(Patching& patching, const PointCloud& cloud) {
     const PlyElement& vertices = patching.image.vertices();
     const char* const begin = reinterpret_cast<const char*>(patching.image.bytes.data());
@@ -150,12 +220,18 @@ void patch_ascii_rows(Patching& patching, const PointCloud& cloud) {
             std::uint64_t words = first.empty() ? 1 : 1 + first[point + 1] - first[point];
             for (; words > 0; --words) {
                 const bool found = find_word(text);
-                if (!found && p + 1 == vertices.properties.size() && words == 1) break;
+                if (!found && p + 1 == vertices.properties.size() && words == 1) {
+                    if (patching.added.empty()) break;
+                    throw Error(Trouble::output, patching.shown,
+                                "columns cannot be added, since point " + std::to_string(point) +
+                                    " has no word for its last list in the file that it came from");
+                }
                 require(found, "rows lie where they were read");
                 if (const PosedColumn* column = patching.posed[p]) patch_word(patching, *column, point, text);
                 text.at = word_end(text);
             }
         }
+        if (!patching.added.empty()) add_words(patching, point, text);
     }
 }
 
@@ -166,10 +242,11 @@ void write_patched(FileInTheMaking& file, const PlyImage& image, const PointClou
             "a cloud has the points and attributes of its image");
     BlockWriter out(file, image.bytes.size(), progress);
     const auto columns = posed_columns(cloud, shape);
-    Patching patching{image, {}, shown, PatchedCopy(image.bytes, out)};
+    Patching patching{image, {}, shown, with_free_names(cloud, shape.added), PatchedCopy(image.bytes, out)};
     patching.posed.resize(cloud.attributes.size(), nullptr);
     for (const PosedColumn& column : columns) patching.posed[column.column] = &column;
-    if (!columns.empty()) {
+    if (!patching.added.empty()) add_properties(patching);
+    if (!columns.empty() || !patching.added.empty()) {
         if (image.header.encoding == PlyEncoding::ascii)
             patch_ascii_rows(patching, cloud);
         else
@@ -179,7 +256,7 @@ void write_patched(FileInTheMaking& file, const PlyImage& image, const PointClou
     out.finish();
 }
 
-std::string new_header(const PointCloud& cloud) {
+std::string new_header(const PointCloud& cloud, const std::vector<AddedColumn>& added) {
     std::string header =
         "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(cloud.size()) + "\n";
     for (const Attribute& attribute : cloud.attributes) {
@@ -189,6 +266,7 @@ std::string new_header(const PointCloud& cloud) {
         if (attribute.is_list()) header.append("list ").append(ply_name_of(attribute.count_type)) += ' ';
         header.append(ply_name_of(attribute.type)).append(" ").append(attribute.name) += '\n';
     }
+    for (const AddedColumn& column : added) header += "property float " + column.name + '\n';
     return header + "end_header\n";
 }
 
@@ -221,8 +299,9 @@ void append_list(BlockWriter& out, const Attribute& list, std::size_t point, con
 
 void write_new(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
                const std::string& shown, Progress& progress) {
-    const std::string header = new_header(cloud);
-    std::size_t total = header.size();
+    const std::vector<AddedColumn> added = with_free_names(cloud, shape.added);
+    const std::string header = new_header(cloud, added);
+    std::size_t total = header.size() + 4 * added.size() * cloud.size();
     for (const Attribute& attribute : cloud.attributes)
         total += attribute.values.size() +
                  (attribute.is_list() ? cloud.size() * size_of(attribute.count_type) : 0);
@@ -248,6 +327,8 @@ void write_new(FileInTheMaking& file, const PointCloud& cloud, const PosedShape&
             }
             append_scalars(out, from, 1, size);
         }
+        for (const AddedColumn& column : added)
+            append_scalars(out, reinterpret_cast<const std::byte*>(&column.values[point]), 1, 4);
     }
     out.finish();
 }

@@ -250,8 +250,8 @@ TEST(SessionRefuses, DeepNesting) {
 TEST(SessionRefuses, UnknownOpsAndKeys) {
     EXPECT_SAYS(
         refusal(R"({"op":"explode"})"),
-        "\"op\" must be \"handle\" or \"drag\" or \"settle\" or \"check\" or \"commit\" or \"set\" or "
-        "\"delete\" or \"rename\" or \"undo\" or \"redo\", not \"explode\"");
+        "\"op\" must be \"handle\", \"drag\", \"settle\", \"check\", \"commit\", \"set\", "
+        "\"delete\", \"rename\", \"undo\" or \"redo\", not \"explode\"");
     EXPECT_SAYS(refusal(R"({"op":3})"), "\"op\" must be");
     EXPECT_SAYS(refusal("{}"), "the line has no \"op\"");
     EXPECT_SAYS(refusal(R"({"op":"commit","all":true})"),
@@ -302,7 +302,7 @@ TEST(SessionRefuses, BrokenHandles) {
     EXPECT_SAYS(refusal(R"({"op":"handle","role":"moving","points":[1]})"), "has no \"name\"");
     EXPECT_SAYS(refusal(R"({"op":"handle","name":"a","points":[1]})"), "has no \"role\"");
     EXPECT_SAYS(refusal(R"({"op":"handle","name":"a","role":"pinned","points":[1]})"),
-                "\"role\" must be \"fixed\" or \"moving\" or \"roi\", not \"pinned\"");
+                "\"role\" must be \"fixed\", \"moving\" or \"roi\", not \"pinned\"");
 }
 
 TEST(SessionRefuses, BrokenDrags) {
@@ -355,7 +355,7 @@ TEST(SessionRefuses, SettingsOutOfRange) {
     EXPECT_SAYS(refusal(R"({"op":"set","poisson":0.5})"), "\"poisson\" must be between -1 and 0.5");
     EXPECT_SAYS(refusal(R"({"op":"set","weights":"flat"})"), "\"weights\" must be \"smooth\" or \"paper\"");
     EXPECT_SAYS(refusal(R"({"op":"set","strays":"lose"})"),
-                "\"strays\" must be \"freeze\" or \"carry\" or \"bridge\"");
+                "\"strays\" must be \"freeze\", \"carry\" or \"bridge\"");
 }
 
 TEST(SessionRefuses, WhatThisVersionDoesNotHaveYet) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -151,6 +153,37 @@ TEST(PlyWriter, writes_a_cloud_without_a_file_as_a_new_one) {
     const PointCloud moved = read_bytes(written(cloud, {posed, normals}));
     EXPECT_EQ(moved.file_position(2), Vec3d(4, 5, 8));
     EXPECT_EQ(read_normals(moved), normals);
+}
+
+TEST(PlyWriter, adds_columns_behind_those_of_every_kind_of_file) {
+    const std::vector<float> far{0, 0.5F, 1, -2, 1e-20F};
+    const std::vector<float> red{5, 4, 3, 2, 1}; // a name that is taken
+    for (const SampleKind& kind : all_sample_kinds()) {
+        SCOPED_TRACE(name_of(kind));
+        const PointCloud cloud = read_bytes(sample(kind));
+        const PosedShape shape{{}, {}, {{"far", far}, {"red", red}}};
+        const PointCloud back = read_bytes(written(cloud, shape));
+        ASSERT_EQ(back.attributes.size(), cloud.attributes.size() + 2);
+        EXPECT_EQ(back.positions, cloud.positions);
+        for (std::size_t a = 0; a < cloud.attributes.size(); ++a) {
+            EXPECT_EQ(back.attributes[a].name, cloud.attributes[a].name);
+            EXPECT_EQ(back.attributes[a].values, cloud.attributes[a].values);
+        }
+        const Attribute& added = back.attributes[cloud.attributes.size()];
+        EXPECT_EQ(added.name, "far");
+        EXPECT_EQ(added.type, ScalarType::float32);
+        EXPECT_EQ(std::memcmp(added.values.data(), far.data(), 4 * far.size()), 0);
+        EXPECT_EQ(back.attributes.back().name, "red_2");
+        EXPECT_EQ(std::memcmp(back.attributes.back().values.data(), red.data(), 4 * red.size()), 0);
+    }
+}
+
+TEST(PlyWriter, adds_columns_to_a_cloud_without_a_file) {
+    const std::vector<float> positions{0, 0, 0, 1, 2, 3};
+    const std::vector<float> far{7, 8};
+    const PointCloud back = read_bytes(written(make_cloud(positions), {{}, {}, {{"far", far}}}));
+    ASSERT_EQ(back.attributes.size(), 4U);
+    EXPECT_EQ(std::memcmp(back.attributes[3].values.data(), far.data(), 8), 0);
 }
 
 TEST(PlyWriter, writes_a_cloud_of_no_points) {

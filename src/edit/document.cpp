@@ -37,6 +37,12 @@ void refuse_absurd(const HandleMotion& motion, double diagonal, std::size_t fram
 
 } // namespace
 
+bool needs_commit(const SessionAction& act) {
+    if (const auto* set = std::get_if<SetLine>(&act))
+        return set->change.neighbors || set->change.samples || set->change.strays;
+    return std::holds_alternative<HandleLine>(act) || std::holds_alternative<DeleteLine>(act);
+}
+
 Document::Document(PointCloud cloud, const Settings& settings, Workers& workers, Upsampler& upsampler,
                    Mode mode)
     : mode_(mode), cloud_(std::move(cloud)), bounds_(bounds_of(cloud_)),
@@ -55,57 +61,121 @@ void Document::declare(const HandleLine& line, const std::string& place) {
 }
 
 void Document::drag(const DragLine& line, const std::string& place, Progress& progress) {
-    const Index handle = find_handle(line.handle, place);
-    if (now_.handles[handle].role != HandleRole::moving)
-        throw Error(Trouble::input, place,
-                    "\"handle\": " + quoted(line.handle) +
-                        " is not a moving handle; declare it with \"role\":\"moving\"");
-    State next = now_;
-    std::vector<HandleMotion> frames;
-    for (const HandlePose& pose : line.frames) {
-        const Quatd& before = frames.empty() ? now_.motions[handle].rotation : frames.back().rotation;
-        frames.push_back(motion_of(pose, line.pivot, cloud_.origin, before));
-        refuse_absurd(frames.back(), bounds_.diagonal(), frames.size() - 1, place);
+    const Index handle = movable_handle(line.handle, place);
+    HandleMotion motion = now_.motions[handle];
+    for (std::size_t f = 0; f < line.frames.size(); ++f) {
+        motion = motion_of(line.frames[f], line.pivot, cloud_.origin, motion.rotation);
+        refuse_absurd(motion, bounds_.diagonal(), f, place);
     }
-
     if (mode_ == Mode::rehearsal) {
-        next.motions[handle] = frames.back();
+        State next = now_;
+        next.motions[handle] = motion;
         next.samples = std::make_shared<const SampleState>();
         return take(std::move(next));
     }
-    prepare(progress);
-    SampleState state = now_.samples ? *now_.samples : pipeline_.rest_state();
-    for (std::size_t f = 0; f < frames.size(); ++f) {
-        progress.step("following the handle", static_cast<double>(f) / static_cast<double>(frames.size()));
-        next.motions[handle] = frames[f];
-        pipeline_.follow_handles(next.motions, state);
-        run_iterations(next.motions, state, next.settings.iterations, false, progress);
-        upsample(next.motions, state);
-        ++log_.frames;
+    try {
+        begin_drag(line.handle, line.pivot, place, progress);
+        const auto frames = static_cast<double>(line.frames.size());
+        for (std::size_t f = 0; f < line.frames.size(); ++f) {
+            progress.step("following the handle", static_cast<double>(f) / frames);
+            drag_frame(line.frames[f], place, progress);
+            if (on_frame) on_frame();
+        }
+    } catch (...) {
+        abandon();
+        throw;
     }
-    next.samples = std::make_shared<const SampleState>(std::move(state));
-    take(std::move(next));
-    posed_is_now_ = true;
+    end_drag();
 }
 
 void Document::settle(const SettleLine& line, Progress& progress) {
-    State next = now_;
-    if (now_.samples && mode_ == Mode::real) {
-        prepare(progress);
-        SampleState state = *now_.samples;
-        run_iterations(now_.motions, state, line.iterations, true, progress);
-        upsample(now_.motions, state);
-        next.samples = std::make_shared<const SampleState>(std::move(state));
+    if (!now_.samples || mode_ == Mode::rehearsal) return take(State(now_));
+    try {
+        begin_settling(progress);
+        settle_some(line.iterations, progress);
+    } catch (...) {
+        abandon();
+        throw;
     }
-    take(std::move(next));
-    posed_is_now_ = now_.samples != nullptr;
+    end_settling();
+}
+
+void Document::begin_drag(const std::string& handle, const Vec3d& pivot, const std::string& place,
+                          Progress& progress) {
+    require(!under_way_ && mode_ == Mode::real, "a drag begins when nothing else goes on");
+    const Index index = movable_handle(handle, place);
+    prepare(progress);
+    under_way_.emplace(UnderWay{now_, now_.samples ? *now_.samples : pipeline_.rest_state(), index, pivot});
+}
+
+double Document::drag_frame(const HandlePose& pose, const std::string& place, Progress& progress) {
+    require(under_way_ && under_way_->handle != no_index, "a frame of a drag follows its begin");
+    UnderWay& drag = *under_way_;
+    HandleMotion& motion = drag.next.motions[drag.handle];
+    const HandleMotion next = motion_of(pose, drag.pivot, cloud_.origin, motion.rotation);
+    refuse_absurd(next, bounds_.diagonal(), drag.frames, place);
+    motion = next;
+    pipeline_.follow_handles(drag.next.motions, drag.samples);
+    double way = 0;
+    for (unsigned i = 0; i < drag.next.settings.iterations; ++i) {
+        progress.stop_if_cancelled();
+        way = iterate_once(drag);
+    }
+    upsample(drag.next.motions, drag.samples);
+    ++drag.frames;
+    ++log_.frames;
+    return way;
+}
+
+void Document::end_drag() {
+    require(under_way_ && under_way_->handle != no_index, "a drag that ends was begun");
+    UnderWay drag = std::move(*under_way_);
+    under_way_.reset();
+    if (drag.frames == 0) return;
+    drag.next.samples = std::make_shared<const SampleState>(std::move(drag.samples));
+    take(std::move(drag.next));
+    posed_is_now_ = true;
+}
+
+void Document::begin_settling(Progress& progress) {
+    require(!under_way_ && now_.samples && mode_ == Mode::real, "only what is posed can settle");
+    prepare(progress);
+    under_way_.emplace(UnderWay{now_, *now_.samples});
+}
+
+bool Document::settle_some(unsigned iterations, Progress& progress) {
+    require(under_way_ && under_way_->handle == no_index, "settling goes on after its begin");
+    UnderWay& settling = *under_way_;
+    bool rests = false;
+    for (unsigned i = 0; i < iterations && !rests; ++i) {
+        progress.stop_if_cancelled();
+        rests = iterate_once(settling) <= at_rest;
+        ++settling.iterations;
+    }
+    upsample(settling.next.motions, settling.samples);
+    return rests;
+}
+
+SettleLine Document::end_settling() {
+    require(under_way_ && under_way_->handle == no_index, "a settling that ends was begun");
+    UnderWay settling = std::move(*under_way_);
+    under_way_.reset();
+    settling.next.samples = std::make_shared<const SampleState>(std::move(settling.samples));
+    take(std::move(settling.next));
+    posed_is_now_ = true;
+    return {settling.iterations};
+}
+
+void Document::abandon() noexcept {
+    if (!under_way_) return;
+    under_way_.reset();
+    posed_is_now_ = false;
 }
 
 void Document::commit(Progress& progress) {
     State next = now_;
     if (now_.samples)
-        next.rest =
-            std::make_shared<const RestShape>(mode_ == Mode::real ? shape_now(progress) : RestShape{});
+        next.rest = std::make_shared<const RestShape>(mode_ == Mode::real ? shape(progress) : RestShape{});
     next.samples = nullptr;
     next.motions.assign(next.handles.size(), HandleMotion{});
     take(std::move(next));
@@ -158,26 +228,26 @@ void Document::redo(const std::string& place) {
 std::vector<float> Document::positions(Progress& progress) {
     std::vector<float> result = cloud_.positions;
     if (mode_ == Mode::rehearsal || (!now_.rest && !now_.samples)) return result;
-    const RestShape& shape = shape_now(progress);
+    const RestShape& now = shape(progress);
     const PointOrder& order = pipeline_.order();
     for (std::size_t i = 0; i < order.points(); ++i)
-        std::copy_n(shape.positions.data() + 3 * i, 3, result.data() + 3 * std::size_t{order.file_index[i]});
+        std::copy_n(now.positions.data() + 3 * i, 3, result.data() + 3 * std::size_t{order.file_index[i]});
     return result;
 }
 
 std::vector<float> Document::normals(Progress& progress) {
     std::vector<float> result = read_normals(cloud_);
     if (mode_ == Mode::rehearsal || result.empty() || (!now_.rest && !now_.samples)) return result;
-    const RestShape& shape = shape_now(progress);
+    const RestShape& now = shape(progress);
     const PointOrder& order = pipeline_.order();
     for (std::size_t i = 0; i < order.points(); ++i)
-        std::copy_n(shape.normals.data() + 3 * i, 3, result.data() + 3 * std::size_t{order.file_index[i]});
+        std::copy_n(now.normals.data() + 3 * i, 3, result.data() + 3 * std::size_t{order.file_index[i]});
     return result;
 }
 
 double Document::handle_error(Progress& progress) {
     if (mode_ == Mode::rehearsal || !now_.samples) return 0;
-    const RestShape& posed = shape_now(progress);
+    const RestShape& posed = shape(progress);
     const RestShape& rest = now_.rest ? *now_.rest : pipeline_.opened();
     double largest = 0;
     for (std::size_t i = 0; i < pipeline_.order().points(); ++i) {
@@ -204,11 +274,27 @@ Index Document::find_handle(const std::string& name, const std::string& place) c
     throw Error(Trouble::input, place, words);
 }
 
+Index Document::movable_handle(const std::string& name, const std::string& place) const {
+    const Index handle = find_handle(name, place);
+    if (now_.handles[handle].role != HandleRole::moving)
+        throw Error(Trouble::input, place,
+                    "\"handle\": " + quoted(name) +
+                        " is not a moving handle; declare it with \"role\":\"moving\"");
+    return handle;
+}
+
 void Document::refuse_while_posed(const std::string& what, const std::string& place) const {
-    if (now_.samples)
-        throw Error(
-            Trouble::input, place,
-            what + " cannot change while handles are posed; put a {\"op\":\"commit\"} line before this one");
+    if (!now_.samples) return;
+    const auto is_posed = [](const HandleMotion& motion) {
+        return motion.linear != Mat3d::Identity() || motion.offset != Vec3d::Zero();
+    };
+    const auto posed = std::ranges::find_if(now_.motions, is_posed);
+    const std::string who =
+        posed == now_.motions.end()
+            ? std::string("handles are posed")
+            : quoted(now_.handles[static_cast<std::size_t>(posed - now_.motions.begin())].name) + " is posed";
+    throw Error(Trouble::input, place,
+                what + " cannot change while " + who + "; put a {\"op\":\"commit\"} line before this one");
 }
 
 void Document::take(State next) {
@@ -217,20 +303,24 @@ void Document::take(State next) {
     posed_is_now_ = false;
 }
 
+void Document::prepare_ahead(Progress& progress) {
+    if (mode_ == Mode::rehearsal) return;
+    if (now_.handles.empty())
+        pipeline_.prepare_ahead(now_.settings, progress);
+    else
+        prepare(progress);
+}
+
 void Document::prepare(Progress& progress) {
     pipeline_.prepare({now_.settings, now_.handles, now_.rest}, progress);
 }
 
-std::size_t Document::run_iterations(const std::vector<HandleMotion>& motions, SampleState& state,
-                                     std::size_t count, bool until_at_rest, Progress& progress) {
-    for (std::size_t done = 0; done < count; ++done) {
-        progress.stop_if_cancelled();
-        const Stopwatch clock;
-        const double way = pipeline_.iterate(motions, state);
-        log_.iteration.push_back(clock.seconds());
-        if (until_at_rest && way <= at_rest * pipeline_.cloud_size()) return done + 1;
-    }
-    return count;
+// Returns the longest way that a sample went, over the cloud's size.
+double Document::iterate_once(UnderWay& act) {
+    const Stopwatch clock;
+    const double way = pipeline_.iterate(act.next.motions, act.samples);
+    log_.iteration.push_back(clock.seconds());
+    return pipeline_.cloud_size() > 0 ? way / pipeline_.cloud_size() : way;
 }
 
 void Document::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {
@@ -242,7 +332,8 @@ void Document::upsample(const std::vector<HandleMotion>& motions, const SampleSt
 
 // The posed shape, or the rest shape where nothing is posed. After an undo it is computed again from the
 // samples.
-const RestShape& Document::shape_now(Progress& progress) {
+const RestShape& Document::shape(Progress& progress) {
+    if (!now_.rest && !now_.samples) pipeline_.prepare_order(progress);
     if (!now_.samples) return now_.rest ? *now_.rest : pipeline_.opened();
     if (!posed_is_now_) {
         prepare(progress);

@@ -6,7 +6,9 @@
 
 #include "edit/pipeline.h"
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,9 @@ struct FrameLog {
     std::vector<double> upsample;  // one entry a frame
     std::size_t frames = 0;        // of drags
 };
+
+// Whether the document refuses this act while handles are posed: a commit has to come before it.
+bool needs_commit(const SessionAction& act);
 
 class Document {
 public:
@@ -40,6 +45,14 @@ public:
     // Whether handles were dragged since the last commit.
     bool is_posed() const { return now_.samples != nullptr; }
 
+    // Called after every frame of drag(), when the points of that frame are pipeline().posed(): for pictures
+    // of a sequence. May be empty.
+    std::function<void()> on_frame;
+
+    // Runs the stages that need no handles, and all of them where there are some, so that the first drag
+    // begins at once.
+    void prepare_ahead(Progress& progress);
+
     // --- The acts; `place` names the line in errors ---
 
     void declare(const HandleLine& line, const std::string& place);
@@ -52,7 +65,33 @@ public:
     void undo(const std::string& place);
     void redo(const std::string& place);
 
+    // --- A drag or a settling that is looked at while it goes on ---
+    //
+    // begin, any number of frames, end: the document is then exactly as after drag() or settle() of those
+    // frames. Until the end nothing of it is history, and no other act may come in between.
+
+    void begin_drag(const std::string& handle, const Vec3d& pivot, const std::string& place,
+                    Progress& progress);
+    // One frame: the handle's whole pose in this edit. Returns the longest way that a sample went in the last
+    // iteration, over the cloud's size. An absurd pose is refused, and the drag stays as it was.
+    double drag_frame(const HandlePose& pose, const std::string& place, Progress& progress);
+    void end_drag();
+
+    void begin_settling(Progress& progress);
+    // Up to so many iterations more, and one upsampling. Returns whether the samples have come to rest.
+    bool settle_some(unsigned iterations, Progress& progress);
+    SettleLine end_settling(); // the line that does the same
+
+    // Forgets what was begun; nothing happens where nothing was.
+    void abandon() noexcept;
+
     // --- The shape now ---
+
+    // In the order of computation (pipeline().order()), good until the next act.
+    const RestShape& shape(Progress& progress);
+    // Of each handle in this edit, as it was at the last finished act.
+    const std::vector<HandleMotion>& motions() const { return now_.motions; }
+    std::size_t undoable() const { return past_.size(); } // how many acts undo() can take back
 
     // 3n floats in the order of the file, relative to cloud().origin; and normals, empty without.
     std::vector<float> positions(Progress& progress);
@@ -73,14 +112,23 @@ private:
         std::shared_ptr<const SampleState> samples; // null: nothing was dragged in this edit
     };
 
+    // What begin_drag() and begin_settling() began.
+    struct UnderWay {
+        State next;
+        SampleState samples;
+        Index handle = no_index; // no_index: settling
+        Vec3d pivot = Vec3d::Zero();
+        std::size_t frames = 0;
+        unsigned iterations = 0; // of settling
+    };
+
     Index find_handle(const std::string& name, const std::string& place) const;
     void refuse_while_posed(const std::string& what, const std::string& place) const;
     void take(State next); // makes it the present one, and the present one the last in history
     void prepare(Progress& progress);
-    std::size_t run_iterations(const std::vector<HandleMotion>& motions, SampleState& state,
-                               std::size_t count, bool until_at_rest, Progress& progress);
+    Index movable_handle(const std::string& name, const std::string& place) const;
+    double iterate_once(UnderWay& act);
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
-    const RestShape& shape_now(Progress& progress);
     std::vector<Index> resolve(const HandleLine& line, const std::string& place);
 
     Mode mode_;
@@ -89,6 +137,7 @@ private:
     Pipeline pipeline_;
     State now_;
     std::vector<State> past_, future_;
+    std::optional<UnderWay> under_way_;
     bool posed_is_now_ = false; // whether the pipeline's posed points are those of now_
     FrameLog log_;
 };

@@ -3,11 +3,17 @@
 #include "base/error.h"
 #include "graph/point_order.h"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+
 #include <algorithm>
 
 namespace knead {
 
 namespace {
+
+// Scales that differ from one by less are rounding.
+constexpr double unit_scale = 1e-12;
 
 struct Contains {
     Vec3d p;
@@ -90,6 +96,49 @@ HandleMotion motion_of(const HandlePose& pose, const Vec3d& pivot, const Vec3d& 
     const Vec3d center = pivot - origin;
     motion.offset = center - motion.linear * center + pose.translate;
     return motion;
+}
+
+HandlePose pose_of(const HandleMotion& motion, const Vec3d& pivot, const Vec3d& origin) {
+    // linear = R S; what is written must give the very rotation back, whose turns are counted.
+    const Mat3d rotation = motion.rotation.toRotationMatrix();
+    const Mat3d stretch = rotation.transpose() * motion.linear;
+    const Eigen::SelfAdjointEigenSolver<Mat3d> split(0.5 * (stretch + stretch.transpose()));
+    if (!(split.eigenvalues().minCoeff() > 0))
+        throw Error(Trouble::usage, "", "a handle cannot be mirrored or flattened");
+    HandlePose pose;
+    pose.rotate = motion.rotation;
+    const Vec3d scale = split.eigenvalues();
+    if ((scale - Vec3d::Ones()).cwiseAbs().maxCoeff() > unit_scale) {
+        pose.scale = scale;
+        Mat3d axes = split.eigenvectors();
+        if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
+        if (scale.maxCoeff() - scale.minCoeff() > unit_scale) pose.axes = Quatd(axes);
+    }
+    const Vec3d center = pivot - origin;
+    pose.translate = motion.offset - center + motion.linear * center;
+    return pose;
+}
+
+HandleMotion followed_by(const HandleMotion& motion, const Transform& change) {
+    const auto vector = [](const glm::dvec3& v) { return Vec3d(v.x, v.y, v.z); };
+    const Quatd turn(Eigen::AngleAxisd(change.angle, vector(change.axis)));
+    const Mat3d axes = Quatd(change.axes.w, change.axes.x, change.axes.y, change.axes.z).toRotationMatrix();
+    const Mat3d map = turn.toRotationMatrix() * axes * vector(change.scale).asDiagonal() * axes.transpose();
+    const Vec3d pivot = vector(change.pivot);
+
+    HandleMotion result;
+    result.linear = map * motion.linear;
+    result.offset = map * (motion.offset - pivot) + pivot + vector(change.shift);
+    if (change.scale == glm::dvec3(1.0)) {
+        result.rotation = (turn * motion.rotation).normalized();
+        return result;
+    }
+    // The rotation in the polar decomposition; that of unequal scales is no longer the product of the turns.
+    const Eigen::JacobiSVD<Mat3d> svd(result.linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    result.rotation = Quatd(Mat3d(svd.matrixU() * svd.matrixV().transpose())).normalized();
+    const Quatd expected = turn * motion.rotation;
+    if (result.rotation.dot(expected) < 0) result.rotation.coeffs() = -result.rotation.coeffs();
+    return result;
 }
 
 HandleLabels label_points(const std::vector<Handle>& handles, const PointOrder& order,

@@ -4,6 +4,7 @@
 #include "cloud/point_cloud.h"
 #include "deform/sample_system.h"
 #include "edit/session.h"
+#include "view/transform.h"
 
 #include <functional>
 #include <memory>
@@ -33,6 +34,14 @@ std::vector<Index> resolve_points(const HandleLine& line, const PointCloud& clou
 // turn, the one of the hemisphere of `before` (the frame before; the identity at first), which keeps turns
 // beyond 360°; at exactly 90° between them, as written.
 HandleMotion motion_of(const HandlePose& pose, const Vec3d& pivot, const Vec3d& origin, const Quatd& before);
+
+// The pose about `pivot` that motion_of() turns into this motion again (up to rounding): the way back, for
+// poses that were put together from several drags. Throws Error (usage) if the motion mirrors or flattens,
+// which no pose does.
+HandlePose pose_of(const HandleMotion& motion, const Vec3d& pivot, const Vec3d& origin);
+
+// `change` after `motion`. The rotation continues that of `motion`.
+HandleMotion followed_by(const HandleMotion& motion, const Transform& change);
 
 // Who holds each ordered point (or vertex): a number in `handles`, `outside` for what lies outside the region
 // of interest, no_index for free ones. A point in several handles belongs to the one declared last; handles

@@ -45,29 +45,17 @@ Pipeline::Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampl
     : cloud_(cloud), workers_(workers), upsampler_(upsampler), cloud_size_(knead::cloud_size(cloud)) {}
 
 void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
-    const Settings& now = input.settings;
-    const Settings& before = input_.settings;
-    stale_.points |= now.neighbors != before.neighbors;
-    stale_.samples |= now.samples != before.samples;
+    note_changes(input.settings);
     stale_.handles |= !hold_the_same(input.handles, input_.handles);
-    stale_.influences |= now.weights != before.weights;
-    stale_.systems |= now.stiffness != before.stiffness || input.rest != input_.rest;
+    stale_.systems |= input.rest != input_.rest;
     stale_.upsampler |= input.rest != input_.rest;
     input_ = input;
 
     // Each stage makes those that use it stale, and is done once it returned.
-    if (stale_.points) {
-        prepare_points(progress);
-        stale_.samples = true;
-        stale_.points = false;
-    }
-    if (stale_.samples) {
-        prepare_samples(progress);
-        stale_.handles = true;
-        stale_.samples = false;
-    }
+    prepare_stages_without_handles(progress);
     if (stale_.handles) {
         prepare_handles(progress);
+        ++samples_version_;
         stale_.influences = stale_.systems = true;
         stale_.handles = false;
     }
@@ -86,23 +74,57 @@ void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
     }
 }
 
-void Pipeline::prepare_points(Progress& progress) {
-    Stopwatch clock;
-    if (opened_.positions.empty()) {
-        order_ = order_points(cloud_.positions, workers_, progress);
-        require(order_.points() > 0, "a pipeline needs a finite point");
-        opened_.positions.resize(3 * order_.points());
-        gather(order_, cloud_.positions, 3, opened_.positions, workers_);
-        const std::vector<float> normals = read_normals(cloud_);
-        opened_.normals.resize(normals.empty() ? 0 : 3 * order_.points());
-        if (!normals.empty()) gather(order_, normals, 3, opened_.normals, workers_);
-        vertex_positions_ = vertex_positions(order_, opened_.positions, workers_);
-        seconds_.order += clock.lap();
+void Pipeline::prepare_ahead(const Settings& settings, Progress& progress) {
+    note_changes(settings);
+    prepare_stages_without_handles(progress);
+}
+
+void Pipeline::note_changes(const Settings& settings) {
+    const Settings& before = input_.settings;
+    stale_.points |= settings.neighbors != before.neighbors;
+    stale_.samples |= settings.samples != before.samples;
+    stale_.influences |= settings.weights != before.weights;
+    stale_.systems |= settings.stiffness != before.stiffness;
+    input_.settings = settings;
+}
+
+void Pipeline::prepare_stages_without_handles(Progress& progress) {
+    if (stale_.points) {
+        prepare_points(progress);
+        stale_.samples = true;
+        stale_.points = false;
     }
-    graph_ = neighbor_graph(vertex_positions_, input_.settings.neighbors, workers_, progress);
-    components_ = find_components(graph_);
-    link_lengths_ = link_lengths(graph_, vertex_positions_, workers_);
-    seconds_.neighbors += clock.lap();
+    if (stale_.samples) {
+        prepare_samples(progress);
+        stale_.handles = true;
+        stale_.samples = false;
+    }
+}
+
+void Pipeline::prepare_order(Progress& progress) {
+    if (!opened_.positions.empty()) return;
+    const Stopwatch clock;
+    order_ = order_points(cloud_.positions, workers_, progress);
+    require(order_.points() > 0, "a pipeline needs a finite point");
+    RestShape opened;
+    opened.positions.resize(3 * order_.points());
+    gather(order_, cloud_.positions, 3, opened.positions, workers_);
+    const std::vector<float> normals = read_normals(cloud_);
+    opened.normals.resize(normals.empty() ? 0 : 3 * order_.points());
+    if (!normals.empty()) gather(order_, normals, 3, opened.normals, workers_);
+    vertex_positions_ = vertex_positions(order_, opened.positions, workers_);
+    opened_ = std::move(opened);
+    seconds_.order += clock.seconds();
+}
+
+void Pipeline::prepare_points(Progress& progress) {
+    prepare_order(progress);
+    const Stopwatch clock;
+    graph_ = std::make_shared<const Graph>(
+        neighbor_graph(vertex_positions_, input_.settings.neighbors, workers_, progress));
+    components_ = std::make_shared<const Components>(find_components(*graph_));
+    link_lengths_ = link_lengths(*graph_, vertex_positions_, workers_);
+    seconds_.neighbors += clock.seconds();
 }
 
 void Pipeline::prepare_samples(Progress& progress) {
@@ -115,7 +137,7 @@ void Pipeline::prepare_samples(Progress& progress) {
     if (!every_point_) {
         const auto chosen =
             octree_samples(order_.code, vertex_positions_, samples_, *input_.settings.samples);
-        samples_ = relaxed(shuffled(chosen), graph_, link_lengths_, vertex_positions_, relaxing_rounds,
+        samples_ = relaxed(shuffled(chosen), *graph_, link_lengths_, vertex_positions_, relaxing_rounds,
                            workers_, progress);
     }
     base_samples_ = samples_.size();
@@ -123,7 +145,7 @@ void Pipeline::prepare_samples(Progress& progress) {
 
     handle_flood_.reset();
     nearest_ = every_point_ ? std::vector<NearestSamples>{}
-                            : flood(graph_, link_lengths_, samples_, workers_, progress);
+                            : flood(*graph_, link_lengths_, samples_, workers_, progress);
     seconds_.geodesic += clock.lap();
 }
 
@@ -134,30 +156,30 @@ void Pipeline::prepare_handles(Progress& progress) {
     samples_.resize(base_samples_);
 
     labels_ = label_points(input_.handles, order_, cloud_.size());
-    held_component_.assign(components_.size.size(), false);
+    held_component_.assign(components_->size.size(), false);
     for (std::size_t v = 0; v < order_.vertices(); ++v)
-        if (labels_.vertex[v] != no_index) held_component_[components_.component[v]] = true;
+        if (labels_.vertex[v] != no_index) held_component_[components_->component[v]] = true;
     strays_ = {};
     strays_.parts = static_cast<std::size_t>(std::ranges::count(held_component_, false));
     for (const Index vertex : order_.vertex)
-        if (!held_component_[components_.component[vertex]]) ++strays_.points;
+        if (!held_component_[components_->component[vertex]]) ++strays_.points;
 
     if (every_point_) {
-        sample_graph_ = sample_graph_of_all(graph_);
+        sample_graph_ = sample_graph_of_all(*graph_);
         seconds_.sampling += clock.lap();
         return;
     }
-    const VertexShape shape{order_.code, vertex_positions_, graph_, components_};
+    const VertexShape shape{order_.code, vertex_positions_, *graph_, *components_};
     const auto budget = static_cast<std::size_t>(handle_share * static_cast<double>(base_samples_));
     const std::vector<Index> added = shuffled(handle_samples(shape, labels_.vertex, samples_, budget));
     samples_.insert(samples_.end(), added.begin(), added.end());
     seconds_.sampling += clock.lap();
 
     stale_.samples = true; // a flood that is cancelled leaves lists that nothing can revert
-    handle_flood_ = add_samples(nearest_, graph_, link_lengths_, added, static_cast<Index>(base_samples_),
+    handle_flood_ = add_samples(nearest_, *graph_, link_lengths_, added, static_cast<Index>(base_samples_),
                                 workers_, progress);
     stale_.samples = false;
-    sample_graph_ = sample_graph(nearest_, samples_, graph_, workers_);
+    sample_graph_ = knead::sample_graph(nearest_, samples_, *graph_, workers_);
     seconds_.geodesic += clock.lap();
 }
 
@@ -176,7 +198,7 @@ void Pipeline::prepare_influences() {
     row_of_point_.resize(order_.points());
     workers_.for_each(order_.points(), 1 << 14, [&](std::size_t i) {
         const Index vertex = order_.vertex[i];
-        const bool held = held_component_[components_.component[vertex]];
+        const bool held = held_component_[components_->component[vertex]];
         const Index label = held ? labels_.point[i] : outside;
         row_of_point_[i] = label == no_index ? vertex : row_of_label[label];
     });
@@ -242,6 +264,14 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
     });
     for (std::size_t h = 0; h < motions.size(); ++h) motions_[samples + h] = motion_of_handle(motions[h]);
     upsampler_.run(motions_, posed_.positions, posed_.normals);
+}
+
+std::string words_about(const Pipeline::Strays& strays) {
+    if (strays.parts == 0) return {};
+    const bool one = strays.parts == 1;
+    return std::to_string(strays.parts) + (one ? " part" : " parts") + " of the cloud (" +
+           std::to_string(strays.points) + (strays.points == 1 ? " point) " : " points) ") +
+           (one ? "holds no handle and stays where it is" : "hold no handle and stay where they are");
 }
 
 } // namespace knead

@@ -59,6 +59,12 @@ public:
     // factorised, and Cancelled; then the next call starts the unfinished stages again.
     void prepare(const PipelineInput& input, Progress& progress);
 
+    // Only the stages that need no handles: graph, samples, flood.
+    void prepare_ahead(const Settings& settings, Progress& progress);
+
+    // Only the first stage: order() and opened() stand from here on, for good.
+    void prepare_order(Progress& progress);
+
     // --- After prepare() ---
 
     // All samples at rest.
@@ -76,9 +82,16 @@ public:
     const RestShape& posed() const { return posed_; }
 
     const PointOrder& order() const { return order_; }
-    const Graph& graph() const { return graph_; }
-    const Components& components() const { return components_; }
+    const Graph& graph() const { return *graph_; }
+    const Components& components() const { return *components_; }
+    // The same for whoever looks on from another thread, where they outlive a change of settings; null
+    // before.
+    std::shared_ptr<const Graph> shared_graph() const { return graph_; }
+    std::shared_ptr<const Components> shared_components() const { return components_; }
     const std::vector<Index>& samples() const { return samples_; } // the vertex of each
+    const SampleGraph& sample_graph() const { return sample_graph_; }
+    // Counts how often samples() and sample_graph() changed together; 0: never yet.
+    std::uint64_t samples_version() const { return samples_version_; }
     const HandleLabels& labels() const { return labels_; }
     const RestShape& opened() const { return opened_; } // the shape in the file
     double cloud_size() const { return cloud_size_; }
@@ -93,6 +106,8 @@ public:
     const StageSeconds& seconds() const { return seconds_; }
 
 private:
+    void note_changes(const Settings& settings);
+    void prepare_stages_without_handles(Progress& progress);
     void prepare_points(Progress& progress);
     void prepare_samples(Progress& progress);
     void prepare_handles(Progress& progress);
@@ -118,8 +133,8 @@ private:
     PointOrder order_;
     RestShape opened_;
     std::vector<float> vertex_positions_; // as opened
-    Graph graph_;
-    Components components_;
+    std::shared_ptr<const Graph> graph_;  // of the vertices
+    std::shared_ptr<const Components> components_;
     std::vector<std::uint8_t> link_lengths_;
 
     bool every_point_ = false;
@@ -132,6 +147,7 @@ private:
     Strays strays_;
     std::vector<bool> held_component_;
     SampleGraph sample_graph_;
+    std::uint64_t samples_version_ = 0;
 
     InfluenceRows rows_;
     std::vector<Index> row_of_point_;
@@ -141,5 +157,8 @@ private:
     std::vector<Motion> motions_;
     RestShape posed_;
 };
+
+// What the user should hear about parts that hold no handle; empty when there are none.
+std::string words_about(const Pipeline::Strays& strays);
 
 } // namespace knead

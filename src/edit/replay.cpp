@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "base/whole_file.h"
+#include "edit/session_cloud.h"
 #include "io/cloud_file.h"
 #include "io/compare.h"
-#include "io/digest.h"
 #include "upsample/devices.h"
 
 #include <algorithm>
@@ -34,35 +34,6 @@ std::uint64_t peak_memory() {
     struct rusage usage {};
     ::getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
-
-// A cloud that a line of the session names; an error says where.
-PointCloud read_named(const std::filesystem::path& path, const std::string& place, const std::string& key,
-                      Progress& progress) {
-    try {
-        return read_cloud(path, progress);
-    } catch (const Error& error) {
-        throw Error(error.trouble(), place, key + ": " + error.what());
-    }
-}
-
-PointCloud open_cloud(const Session& session, const ReplayOptions& options, Progress& progress) {
-    const std::filesystem::path path = options.cloud ? *options.cloud : session.resolve(session.cloud);
-    PointCloud cloud = options.cloud ? read_cloud(path, progress)
-                                     : read_named(path, session.place(1), "\"cloud\"", progress);
-    if (session.points && *session.points != cloud.size())
-        throw Error(Trouble::input, session.place(1),
-                    "\"points\": the session was recorded on a cloud of " + std::to_string(*session.points) +
-                        " points, but " + path.string() + " has " + std::to_string(cloud.size()));
-    if (session.sha256 && !options.cloud && *session.sha256 != sha256_of_file(path))
-        throw Error(Trouble::input, session.place(1),
-                    "\"sha256\": " + path.string() +
-                        " is not the file that the session was recorded on; give it with --cloud to use it "
-                        "all the same");
-    if (bounds_of(cloud).finite_points == 0)
-        throw Error(Trouble::input, path.string(),
-                    "holds no point with finite coordinates, so there is nothing to edit");
-    return cloud;
 }
 
 // What a `set` line changes where these overrides win. A key that the line does not have stays away: a line
@@ -99,7 +70,7 @@ public:
         if (options_.out) refuse_bad_target(*options_.out);
         find_check_files();
         Stopwatch clock;
-        PointCloud cloud = open_cloud(session_, options_, progress_);
+        PointCloud cloud = read_session_cloud(session_, options_.cloud, progress_);
         report_.read = clock.lap();
         UpsamplerChoice choice = make_upsampler(options_.device, workers_, options_.threads);
         const double device_seconds = clock.lap();
@@ -109,8 +80,12 @@ public:
 
         Document document(std::move(cloud), changed(session_.settings, options_.overrides), workers_,
                           *upsampler_, options_.rehearse ? Document::Mode::rehearsal : Document::Mode::real);
+        if (options_.after_frame && !options_.rehearse)
+            document.on_frame = [&] { options_.after_frame(document, document.pipeline().posed()); };
         for (const SessionLine& line : session_.lines) carry_out(document, line);
         finish_edit(document, session_.lines.empty() ? 1 : session_.lines.back().number);
+        if (options_.after_last && !options_.rehearse)
+            options_.after_last(document, document.shape(progress_));
 
         clock.lap();
         if (!options_.rehearse) write_results(document);
@@ -152,6 +127,7 @@ private:
              const std::string& /*place*/) {
         document.settle(line, progress_);
         checked_ = false;
+        if (document.on_frame) document.on_frame();
     }
     void act(Document& document, const CheckLine& line, std::size_t number, const std::string& /*place*/) {
         if (!is_recorded_name(line.positions)) check(document, line, number);
@@ -184,7 +160,8 @@ private:
         result.line = number;
         const std::filesystem::path path = session_.resolve(line.positions);
         if (options_.rehearse) return;
-        const PointCloud expected = read_named(path, session_.place(number), "\"positions\"", progress_);
+        const PointCloud expected =
+            read_named_cloud(path, session_.place(number), "\"positions\"", progress_);
         if (expected.size() != document.cloud().size()) {
             result.words = path.string() + " has " + std::to_string(expected.size()) + " points, the cloud " +
                            std::to_string(document.cloud().size());
@@ -259,13 +236,8 @@ private:
     }
 
     void warn_of_strays(const Document& document) {
-        const Pipeline::Strays strays = document.pipeline().strays();
-        if (strays.parts == 0) return;
-        const bool one = strays.parts == 1;
-        add_warning(
-            std::to_string(strays.parts) + (one ? " part" : " parts") + " of the cloud (" +
-            std::to_string(strays.points) + (strays.points == 1 ? " point) " : " points) ") +
-            (one ? "holds no handle and stays where it is" : "hold no handle and stay where they are"));
+        const std::string words = words_about(document.pipeline().strays());
+        if (!words.empty()) add_warning(words);
     }
 
     void add_warning(const std::string& words) {
@@ -278,7 +250,7 @@ private:
         const Pipeline& pipeline = document.pipeline();
         const FrameLog& log = document.log();
         report_.points = document.cloud().size();
-        report_.components = pipeline.components().size.size();
+        report_.components = pipeline.shared_components() ? pipeline.components().size.size() : 0;
         report_.strays = pipeline.strays().parts;
         report_.samples = pipeline.samples().size();
         report_.frames = log.frames;

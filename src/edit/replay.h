@@ -12,6 +12,10 @@
 
 namespace knead {
 
+// Looks at a shape on the way. `shape` is in the order of computation, document.pipeline().order(), and good
+// until it returns.
+using ShapeSeen = std::function<void(const Document& document, const RestShape& shape)>;
+
 struct ReplayOptions {
     std::optional<std::filesystem::path> cloud; // instead of the session's, relative to the working folder
     std::optional<std::filesystem::path> out;   // where the last shape is written
@@ -21,6 +25,10 @@ struct ReplayOptions {
     bool record_checks =
         false;             // writes the session again with a check after each edit, and the clouds beside it
     bool rehearse = false; // checks everything that can be checked without computing a shape
+
+    // For pictures; either may be empty, and none is called in a rehearsal.
+    ShapeSeen after_frame; // after every frame of a drag and every settling
+    ShapeSeen after_last;  // after the last line, before anything is written
 };
 
 struct CheckResult {

@@ -1,0 +1,113 @@
+#pragma once
+// Everything that the editor can be told to do. Tools, menus, keys and panels only make commands; apply() in
+// edit/editor.h carries them out. A Command is plain data.
+
+#include "edit/session.h"
+#include "view/screen_region.h"
+#include "view/transform.h"
+
+#include <filesystem>
+#include <string>
+#include <variant>
+
+namespace knead {
+
+enum class SelectMode { replace, add, remove };
+
+// --- Choosing points ---
+
+struct SelectRegion {
+    ScreenRegion region;
+    SelectMode mode = SelectMode::replace;
+    bool through = false; // also what lies behind the visible surface
+};
+struct SelectPointUnder { // a click
+    glm::dvec2 pixel{0.0};
+    SelectMode mode = SelectMode::replace;
+};
+enum class SelectionStep { all, none, invert, grow, shrink, connected };
+struct ChangeSelection {
+    SelectionStep step = SelectionStep::none;
+};
+struct SelectHandlePoints {
+    std::string handle;
+    SelectMode mode = SelectMode::replace;
+};
+enum class HideStep { hide_selected, hide_unselected, show_all };
+struct ChangeHidden {
+    HideStep step = HideStep::show_all;
+};
+
+// --- Handles ---
+
+struct MakeHandle { // of the selection; an empty name: the next free one
+    HandleRole role = HandleRole::moving;
+    std::string name;
+};
+struct ChooseHandle {
+    std::string handle; // empty: none
+};
+struct RenameHandle {
+    std::string handle, to;
+};
+struct ChangeRole {
+    std::string handle;
+    HandleRole role = HandleRole::moving;
+};
+struct DeleteHandle {
+    std::string handle;
+};
+struct ResetPose {
+    std::string handle;
+};
+struct MirrorHandle { // the points on the other side of the cloud, and the pose mirrored; a new handle
+    std::string handle;
+    int axis = 1; // the normal of the plane through the middle of the cloud: 0 x, 1 y, 2 z
+};
+
+// --- Poses ---
+
+struct BeginDrag { // of the chosen handle
+    glm::dvec3 pivot{0.0};
+};
+struct DragTo {
+    Transform transform; // on top of the pose at BeginDrag
+};
+struct EndDrag {};
+struct CancelDrag {}; // the pose at BeginDrag again
+struct SetPivot {     // of the gizmo; nothing: the handle's middle
+    std::optional<glm::dvec3> pivot;
+};
+
+// --- The document ---
+
+struct ChangeSettings {
+    SettingsChange change;
+};
+struct CommitPose {};
+struct UndoStep {};
+struct RedoStep {};
+
+// --- The camera ---
+
+struct MoveCamera {
+    Camera camera;
+};
+enum class FrameWhat { selection, everything };
+struct FrameView {
+    FrameWhat what = FrameWhat::everything;
+};
+struct LookAtSide {
+    Side side = Side::front;
+};
+struct SetPivotUnder { // a double click: the point under the cursor becomes the camera's pivot
+    glm::dvec2 pixel{0.0};
+};
+
+using Command =
+    std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
+                 MakeHandle, ChooseHandle, RenameHandle, ChangeRole, DeleteHandle, ResetPose, MirrorHandle,
+                 BeginDrag, DragTo, EndDrag, CancelDrag, SetPivot, ChangeSettings, CommitPose, UndoStep,
+                 RedoStep, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
+
+} // namespace knead

@@ -1,0 +1,329 @@
+#include "edit/editor.h"
+
+#include "edit/editor_steps.h"
+#include "view/framing.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace knead {
+
+glm::dvec3 to_glm(const Vec3d& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+Vec3d to_eigen(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+void say(Editor& editor, Notice::Kind kind, std::string words) {
+    editor.notices.push_back({kind, std::move(words)});
+}
+
+bool needs_document(Editor& editor) {
+    if (editor.document) return true;
+    say(editor, Notice::Kind::information, "Open a cloud first: Ctrl+O, or drop a file on the window.");
+    return false;
+}
+
+// --- Opening ---------------------------------------------------------------------------------------------
+
+void open(Editor& editor, OpenRequest request) {
+    editor.opening_request = request;
+    editor.opening = std::make_unique<LiveDocument>(std::move(request));
+}
+
+void cancel_opening(Editor& editor) {
+    if (editor.opening) editor.opening->cancel_opening();
+}
+
+namespace {
+
+// What was opened takes the place of what was there.
+void take_over(Editor& editor) {
+    editor.live = std::move(editor.opening);
+    editor.opened = editor.live->opened();
+    editor.document = editor.live->view();
+    editor.frame = {};
+    editor.live->take_frame(editor.frame);
+    editor.drag.reset();
+    editor.chosen.clear();
+    editor.pivot.reset();
+    editor.tools.drag.reset();
+    editor.tools.doing = Tools::Doing::nothing;
+
+    editor.ordered.assign(editor.opened.cloud->size(), no_index);
+    const std::vector<Index>& file_index = editor.opened.order->file_index;
+    for (Index i = 0; i < file_index.size(); ++i) editor.ordered[file_index[i]] = i;
+    editor.marks.assign(file_index.size(), 0);
+    editor.past.assign(editor.document->undoable_steps, EditorStep{1, nullptr, nullptr});
+    editor.future.assign(editor.document->redoable_steps, EditorStep{1, nullptr, nullptr});
+    mark_handles(editor);
+    editor.camera = first_view(bulk_box(editor.frame.positions), editor.viewport);
+    editor.changes = {};
+}
+
+bool refresh_opening(Editor& editor) {
+    if (!editor.opening) return false;
+    const LiveDocument::Status status = editor.opening->status();
+    if (status.stage == LiveDocument::Stage::opening) return false;
+    for (Notice& notice : editor.opening->take_notices()) editor.notices.push_back(std::move(notice));
+    if (status.stage == LiveDocument::Stage::open)
+        take_over(editor);
+    else
+        editor.opening.reset();
+    return true;
+}
+
+// A step that the document refused is no step: it leaves the history, and the selection comes back.
+void forget_refused(Editor& editor) {
+    for (const StepNumber step : editor.live->take_refused()) {
+        const auto found = std::ranges::find(editor.past, step, &EditorStep::document);
+        if (found == editor.past.end() || step == 0) continue;
+        if (found->before) restore_selection(editor, *found->before);
+        editor.past.erase(found);
+        if (editor.drag && editor.drag->step == step) editor.drag.reset();
+        if (std::exchange(editor.chosen_is_new, false)) editor.chosen.clear();
+    }
+}
+
+bool refresh_view(Editor& editor) {
+    auto view = editor.live->view();
+    if (view == editor.document) return false;
+    const bool other_handles = !hold_the_same(view->handles, editor.document->handles);
+    editor.document = std::move(view);
+    if (other_handles) mark_handles(editor);
+    if (chosen_handle(editor)) editor.chosen_is_new = false;
+    if (!editor.chosen_is_new && !chosen_handle(editor)) editor.chosen.clear();
+    if (editor.drag && editor.drag->ended && editor.document->last_step >= editor.drag->step)
+        editor.drag.reset();
+    return true;
+}
+
+} // namespace
+
+bool refresh(Editor& editor) {
+    bool changed = refresh_opening(editor);
+    if (editor.opening) editor.status = editor.opening->status();
+    if (!editor.live) return changed;
+    if (!editor.opening) editor.status = editor.live->status();
+    forget_refused(editor);
+    changed |= refresh_view(editor);
+    editor.saved = editor.live->saved();
+    if (editor.live->take_frame(editor.frame)) {
+        editor.changes.positions = true;
+        changed = true;
+    }
+    if (changed && !editor.drag)
+        if (const Handle* handle = chosen_handle(editor)) editor.handle_middle = middle_of(editor, *handle);
+    for (Notice& notice : editor.live->take_notices()) {
+        editor.notices.push_back(std::move(notice));
+        changed = true;
+    }
+    return changed;
+}
+
+// --- Steps -----------------------------------------------------------------------------------------------
+
+std::shared_ptr<const std::vector<std::uint8_t>> snapshot(const Editor& editor) {
+    return std::make_shared<const std::vector<std::uint8_t>>(editor.marks);
+}
+
+void add_step(Editor& editor, StepNumber document, std::shared_ptr<const std::vector<std::uint8_t>> before) {
+    editor.future.clear();
+    const auto after = before ? snapshot(editor) : nullptr;
+    editor.past.push_back({document, std::move(before), after});
+}
+
+void restore_selection(Editor& editor, const std::vector<std::uint8_t>& from) {
+    for (std::size_t i = 0; i < editor.marks.size(); ++i)
+        editor.marks[i] =
+            static_cast<std::uint8_t>((editor.marks[i] & mark_handle) | (from[i] & marks_of_selection));
+    marks_changed(editor);
+}
+
+void marks_changed(Editor& editor) {
+    const MarkCounts counts = count_marks(editor.marks);
+    editor.selected = counts.selected;
+    editor.hidden = counts.hidden;
+    editor.changes.marks = true;
+}
+
+namespace {
+
+// --- Selecting -------------------------------------------------------------------------------------------
+
+// Changes the marks as one step of undo; no step where nothing changed.
+template<typename Change>
+void change_marks(Editor& editor, Change&& change) {
+    auto before = snapshot(editor);
+    std::forward<Change>(change)();
+    if (*before == editor.marks) return;
+    marks_changed(editor);
+    add_step(editor, 0, std::move(before));
+}
+
+// The hidden bits as bytes of their own; empty where nothing is hidden.
+std::vector<std::uint8_t> hidden_points(const Editor& editor) {
+    std::vector<std::uint8_t> hidden;
+    if (editor.hidden == 0) return hidden;
+    hidden.resize(editor.marks.size());
+    std::ranges::transform(editor.marks, hidden.begin(),
+                           [](std::uint8_t mark) { return (mark & mark_hidden) ? 1 : 0; });
+    return hidden;
+}
+
+constexpr double click_radius = 8; // pixels
+
+void carry_out(Editor& editor, const SelectRegion& command) {
+    if (!needs_document(editor)) return;
+    std::vector<std::uint8_t> inside(editor.marks.size());
+    const std::vector<std::uint8_t> hidden = hidden_points(editor);
+    points_in_region(editor.camera, editor.viewport, editor.frame.positions, hidden, command.region, inside,
+                     editor.workers);
+    if (!command.through) {
+        const VisibleSurface surface = visible_surface(editor.camera, editor.viewport, editor.frame.positions,
+                                                       hidden, editor.opened.spacing, editor.workers);
+        keep_visible(editor.camera, editor.viewport, editor.frame.positions, surface, inside, editor.workers);
+    }
+    change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });
+}
+
+// A click chooses the handle that it hits; elsewhere it selects the one point, or nothing.
+void carry_out(Editor& editor, const SelectPointUnder& command) {
+    if (!editor.document) return;
+    const Index hit = point_under(editor.camera, editor.viewport, editor.frame.positions,
+                                  hidden_points(editor), command.pixel, click_radius, editor.workers);
+    if (hit != no_index && command.mode == SelectMode::replace && (editor.marks[hit] & mark_handle)) {
+        const std::size_t handle = (editor.marks[hit] & mark_handle) - 1U;
+        if (handle < editor.document->handles.size())
+            return carry_out(editor, ChooseHandle{editor.document->handles[handle].name});
+    }
+    std::vector<std::uint8_t> inside(editor.marks.size());
+    if (hit != no_index) inside[hit] = 1;
+    change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });
+}
+
+void carry_out(Editor& editor, const ChangeSelection& command) {
+    if (!needs_document(editor)) return;
+    const bool needs_graph = command.step == SelectionStep::grow || command.step == SelectionStep::shrink ||
+                             command.step == SelectionStep::connected;
+    if (needs_graph && !editor.document->graph)
+        return say(editor, Notice::Kind::information,
+                   "The neighbours of the points are still being found; try again in a moment.");
+    const PointOrder& order = *editor.opened.order;
+    change_marks(editor, [&] {
+        switch (command.step) {
+        case SelectionStep::all:
+            return select_all(editor.marks, editor.workers);
+        case SelectionStep::none:
+            return select_none(editor.marks, editor.workers);
+        case SelectionStep::invert:
+            return invert_selection(editor.marks, editor.workers);
+        case SelectionStep::grow:
+            return grow_selection(editor.marks, order, *editor.document->graph, editor.workers);
+        case SelectionStep::shrink:
+            return shrink_selection(editor.marks, order, *editor.document->graph, editor.workers);
+        case SelectionStep::connected:
+            return select_connected(editor.marks, order, *editor.document->components, editor.workers);
+        }
+    });
+}
+
+void carry_out(Editor& editor, const ChangeHidden& command) {
+    if (!needs_document(editor)) return;
+    change_marks(editor, [&] {
+        if (command.step == HideStep::show_all) return show_all(editor.marks, editor.workers);
+        hide(editor.marks, command.step == HideStep::hide_selected, editor.workers);
+    });
+}
+
+// --- The document ----------------------------------------------------------------------------------------
+
+void carry_out(Editor& editor, const ChangeSettings& command) {
+    if (!needs_document(editor)) return;
+    const StepNumber step = ++editor.last_step;
+    editor.live->post(step, {SetLine{command.change}});
+    add_step(editor, step, nullptr);
+}
+
+void carry_out(Editor& editor, const CommitPose& /*command*/) {
+    if (!needs_document(editor) || editor.drag) return;
+    if (!editor.document->posed)
+        return say(editor, Notice::Kind::information, "Nothing is posed, so there is nothing to commit.");
+    const StepNumber step = ++editor.last_step;
+    editor.live->post(step, {CommitLine{}});
+    add_step(editor, step, nullptr);
+}
+
+void carry_out(Editor& editor, const UndoStep& /*command*/) {
+    if (!can_undo(editor)) return;
+    EditorStep step = std::move(editor.past.back());
+    editor.past.pop_back();
+    if (step.before) restore_selection(editor, *step.before);
+    if (step.document) editor.live->undo();
+    editor.drag.reset();
+    editor.future.push_back(std::move(step));
+}
+
+void carry_out(Editor& editor, const RedoStep& /*command*/) {
+    if (!can_redo(editor)) return;
+    EditorStep step = std::move(editor.future.back());
+    editor.future.pop_back();
+    if (step.document) editor.live->redo();
+    if (step.after) restore_selection(editor, *step.after);
+    editor.past.push_back(std::move(step));
+}
+
+// --- The camera ------------------------------------------------------------------------------------------
+
+void carry_out(Editor& editor, const MoveCamera& command) {
+    editor.camera = command.camera;
+}
+
+void carry_out(Editor& editor, const FrameView& command) {
+    if (!editor.document) return;
+    std::optional<Box3> box;
+    if (command.what == FrameWhat::selection) box = box_of_selection(editor);
+    frame(editor.camera, box ? *box : bulk_box(editor.frame.positions), editor.viewport);
+}
+
+void carry_out(Editor& editor, const LookAtSide& command) {
+    look_at_side(editor.camera, command.side);
+}
+
+void carry_out(Editor& editor, const SetPivotUnder& command) {
+    if (!editor.document) return;
+    const Index hit = point_under(editor.camera, editor.viewport, editor.frame.positions,
+                                  hidden_points(editor), command.pixel, click_radius, editor.workers);
+    if (hit == no_index) return;
+    const float* p = editor.frame.positions.data() + 3 * std::size_t{hit};
+    set_pivot(editor.camera, {p[0], p[1], p[2]});
+}
+
+} // namespace
+
+void apply(Editor& editor, const Command& command) {
+    std::visit([&](const auto& c) { carry_out(editor, c); }, command);
+}
+
+bool handle_input(Editor& editor, const Input& input) {
+    ToolContext context;
+    context.camera = editor.camera;
+    context.viewport = editor.viewport;
+    context.gizmo = gizmo_of(editor);
+    if (context.gizmo && editor.drag) context.local_axes = editor.drag->local_axes;
+    if (context.gizmo && !editor.drag)
+        for (std::size_t h = 0; h < editor.document->handles.size(); ++h)
+            if (editor.document->handles[h].name == editor.chosen) {
+                const Quatd& turn = editor.document->motions[h].rotation;
+                context.local_axes = glm::dquat(turn.w(), turn.x(), turn.y(), turn.z());
+            }
+    std::vector<Command> commands;
+    const bool used = handle_input(editor.tools, context, input, commands);
+    for (const Command& command : commands) apply(editor, command);
+    return used;
+}
+
+} // namespace knead

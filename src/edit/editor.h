@@ -1,0 +1,115 @@
+#pragma once
+// The editor without its window: what is open, what is selected, how it is looked at, and what every command
+// does to that.
+//
+// One way round a frame: Input → tools → Commands → apply(editor, command) → refresh(editor) takes in what
+// the live document has newly made → `changes` says what a renderer has to upload. Nothing here waits.
+
+#include "base/workers.h"
+#include "edit/command.h"
+#include "edit/live_document.h"
+#include "edit/selecting.h"
+#include "edit/tools.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace knead {
+
+// What happened since a renderer last looked; it clears what it has dealt with.
+struct EditorChanges {
+    bool cloud = true;     // another cloud: everything
+    bool positions = true; // editor.frame
+    bool marks = true;
+};
+
+// One step of undo: a change of selection and hiding, a step of the document, or both.
+struct EditorStep {
+    StepNumber document = 0;                                 // 0: none
+    std::shared_ptr<const std::vector<std::uint8_t>> before; // marks, of a step that changed them; else null
+    std::shared_ptr<const std::vector<std::uint8_t>> after;
+};
+
+// The drag that goes on, or that ended and that the document has not answered yet.
+struct EditorDrag {
+    StepNumber step = 0;
+    glm::dvec3 middle{0.0};            // of the gizmo when it began
+    glm::dquat local_axes{1, 0, 0, 0}; // of the handle then
+    Transform transform;               // so far
+    bool ended = false;
+};
+
+struct Editor {
+    explicit Editor(unsigned threads = 0) : workers(threads) {}
+
+    Workers workers; // of the window's thread; the live document has its own
+
+    // --- What is open ---
+    std::unique_ptr<LiveDocument> live;    // null: nothing
+    std::unique_ptr<LiveDocument> opening; // takes the place of `live` once it is open
+    OpenRequest opening_request;
+    OpenedCloud opened;
+    std::shared_ptr<const DocumentView> document; // null: nothing is open
+    PosedFrame frame;                             // the points as they are now
+    LiveDocument::Status status;                  // of `live`, or of `opening` while there is one
+    LiveDocument::Saved saved;
+    std::vector<Index> ordered; // of each point of the file: its place in the order; no_index: left out
+
+    // --- Choosing ---
+    std::vector<std::uint8_t> marks; // of each point
+    std::size_t selected = 0;        // points
+    std::size_t hidden = 0;
+    std::string chosen;              // the handle with the gizmo; empty: none
+    bool chosen_is_new = false;      // the document has not made it yet
+    std::optional<glm::dvec3> pivot; // of the gizmo, where the user moved it
+    bool local_axes = false;         // the gizmo's
+
+    // --- Looking ---
+    Camera camera;
+    Viewport viewport;
+    Tools tools;
+
+    std::optional<EditorDrag> drag;
+    glm::dvec3 handle_middle{0.0}; // of the chosen handle's points as they are now
+
+    // --- Going back ---
+    std::vector<EditorStep> past, future;
+    StepNumber last_step = 0;
+
+    std::vector<Notice> notices; // for the user, oldest first; the window takes them
+    EditorChanges changes;
+};
+
+// Starts opening a cloud or a session beside what is open.
+void open(Editor& editor, OpenRequest request);
+void cancel_opening(Editor& editor);
+
+// Carries out a command. What cannot be done is said in editor.notices, with what to do about it.
+void apply(Editor& editor, const Command& command);
+
+// Takes in what the live document has made since; call it once a frame. Returns whether anything changed.
+bool refresh(Editor& editor);
+
+// Feeds one input of the hand to the tools and applies what they say. Returns whether it was used.
+bool handle_input(Editor& editor, const Input& input);
+
+// --- What follows from the state ---
+
+Box3 box_of(const Editor& editor); // of all points as they are now, relative to the cloud's origin
+std::optional<Box3> box_of_selection(const Editor& editor); // nothing when nothing is selected
+const Handle* chosen_handle(const Editor& editor);          // null: none
+std::optional<Gizmo> gizmo_of(const Editor& editor);        // of the chosen moving handle, where it is now
+bool has_unsaved_session(const Editor& editor); // acts that neither a session nor a cloud on disk has
+std::string free_name(const Editor& editor, HandleRole role); // for the next handle: "handle 2"
+bool can_undo(const Editor& editor);
+bool can_redo(const Editor& editor);
+// What to do next, in a sentence, for the line at the bottom; empty when the artist is well under way.
+std::string next_step(const Editor& editor);
+// The displacement of every point from the opened shape, in the cloud's units, ordered.
+std::vector<float> displacements(Editor& editor);
+// The mean ratio of the lengths of a point's links now to those when opened; empty until the graph is built.
+std::vector<float> local_stretch(Editor& editor);
+
+} // namespace knead

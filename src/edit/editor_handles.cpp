@@ -1,0 +1,346 @@
+// What the editor does to handles: making, changing, mirroring and dragging them.
+
+#include "edit/editor_steps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+namespace knead {
+
+namespace {
+
+// A drag that was not made by hand turns by no more than this from frame to frame.
+constexpr double turn_of_a_frame = 0.35;
+
+std::string_view word_for(HandleRole role) {
+    switch (role) {
+    case HandleRole::fixed:
+        return "fixed";
+    case HandleRole::region_of_interest:
+        return "region";
+    case HandleRole::moving:
+        break;
+    }
+    return "handle";
+}
+
+std::optional<std::size_t> number_of(const Editor& editor, const std::string& name) {
+    if (!editor.document) return std::nullopt;
+    const auto& handles = editor.document->handles;
+    const auto found = std::ranges::find(handles, name, &Handle::name);
+    if (found == handles.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - handles.begin());
+}
+
+// Posts lines as one step.
+StepNumber post(Editor& editor, std::vector<SessionAction> lines,
+                std::shared_ptr<const std::vector<std::uint8_t>> marks_before = nullptr) {
+    const StepNumber step = ++editor.last_step;
+    editor.live->post(step, std::move(lines));
+    add_step(editor, step, std::move(marks_before));
+    return step;
+}
+
+std::vector<IndexRange> ranges_of(const std::vector<Index>& points) {
+    std::vector<IndexRange> ranges;
+    for (const Index i : points)
+        if (!ranges.empty() && ranges.back().last + 1 == i)
+            ranges.back().last = i;
+        else
+            ranges.push_back({i, i});
+    return ranges;
+}
+
+} // namespace
+
+std::string free_name(const Editor& editor, HandleRole role) {
+    for (unsigned number = 1;; ++number) {
+        std::string name = std::string(word_for(role)) + " " + std::to_string(number);
+        if (!number_of(editor, name)) return name;
+    }
+}
+
+// The selection becomes the handle, and the handle's tint takes its place on the screen.
+void carry_out(Editor& editor, const MakeHandle& command) {
+    if (!needs_document(editor)) return;
+    if (editor.selected == 0)
+        return say(editor, Notice::Kind::information,
+                   "Select the points of the handle first: draw a lasso round them.");
+    HandleLine line;
+    line.name = command.name.empty() ? free_name(editor, command.role) : command.name;
+    line.role = command.role;
+    line.points = selected_ranges(editor.marks, *editor.opened.order, editor.opened.cloud->size());
+    auto before = snapshot(editor);
+    select_none(editor.marks, editor.workers);
+    marks_changed(editor);
+    if (command.role == HandleRole::moving) {
+        editor.chosen = line.name;
+        editor.chosen_is_new = true;
+        editor.pivot.reset();
+    }
+    post(editor, {std::move(line)}, std::move(before));
+}
+
+void carry_out(Editor& editor, const ChooseHandle& command) {
+    editor.chosen = command.handle;
+    editor.pivot.reset();
+    if (const Handle* handle = chosen_handle(editor)) editor.handle_middle = middle_of(editor, *handle);
+}
+
+void carry_out(Editor& editor, const RenameHandle& command) {
+    if (!number_of(editor, command.handle) || command.to.empty() || command.to == command.handle) return;
+    if (number_of(editor, command.to))
+        return say(editor, Notice::Kind::error, "There is a handle \"" + command.to + "\" already.");
+    post(editor, {RenameLine{command.handle, command.to}});
+    if (editor.chosen == command.handle) {
+        editor.chosen = command.to;
+        editor.chosen_is_new = true;
+    }
+}
+
+void carry_out(Editor& editor, const ChangeRole& command) {
+    const auto number = number_of(editor, command.handle);
+    if (!number) return;
+    const Handle& handle = editor.document->handles[*number];
+    if (handle.role == command.role) return;
+    HandleLine line;
+    line.name = handle.name;
+    line.role = command.role;
+    line.points = ranges_of(*handle.points);
+    post(editor, {std::move(line)});
+}
+
+void carry_out(Editor& editor, const DeleteHandle& command) {
+    if (number_of(editor, command.handle)) post(editor, {DeleteLine{command.handle}});
+}
+
+void carry_out(Editor& editor, const SelectHandlePoints& command) {
+    const auto number = number_of(editor, command.handle);
+    if (!number) return;
+    std::vector<std::uint8_t> inside(editor.marks.size(), 0);
+    for (const Index i : *editor.document->handles[*number].points)
+        if (editor.ordered[i] != no_index) inside[editor.ordered[i]] = 1;
+    auto before = snapshot(editor);
+    select(editor.marks, inside, command.mode, editor.workers);
+    marks_changed(editor);
+    add_step(editor, 0, std::move(before));
+}
+
+// --- Poses that are not dragged ----------------------------------------------------------------------------
+
+namespace {
+
+// A drag from rest to a motion in even steps, about the middle of the handle.
+DragLine drag_towards(const std::string& handle, const HandleMotion& motion, const Vec3d& middle,
+                      const Vec3d& origin) {
+    const Vec3d to = motion.linear * middle + motion.offset;
+    const Eigen::AngleAxisd turn(motion.rotation);
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(turn.angle()) / turn_of_a_frame)));
+    const HandlePose last = pose_of(motion, middle + origin, origin);
+    DragLine line{handle, middle + origin, {}};
+    for (int k = 1; k <= steps; ++k) {
+        const double t = static_cast<double>(k) / steps;
+        HandlePose pose = last;
+        pose.translate = t * (to - middle);
+        pose.rotate = Quatd(Eigen::AngleAxisd(t * turn.angle(), turn.axis()));
+        pose.scale = Vec3d::Ones() + t * (last.scale - Vec3d::Ones());
+        line.frames.push_back(pose);
+    }
+    line.frames.back() = last;
+    return line;
+}
+
+// The motion seen in a mirror: p → F M(F p), with F the reflection across a plane x_axis = at.
+HandleMotion mirrored(const HandleMotion& motion, int axis, double at) {
+    Mat3d flip = Mat3d::Identity();
+    flip(axis, axis) = -1;
+    Vec3d shift = Vec3d::Zero();
+    shift[axis] = 2 * at;
+    HandleMotion result;
+    result.linear = flip * motion.linear * flip;
+    result.offset = flip * (motion.linear * shift + motion.offset) + shift;
+    Vec3d turn = -(flip * motion.rotation.vec()); // an axial vector
+    result.rotation = Quatd(motion.rotation.w(), turn.x(), turn.y(), turn.z());
+    return result;
+}
+
+using Cell = std::array<int, 3>;
+struct CellHash {
+    std::size_t operator()(const Cell& cell) const {
+        std::size_t hash = 0;
+        for (const int c : cell) hash = hash * 0x9e3779b97f4a7c15U + static_cast<std::size_t>(c + 0x40000000);
+        return hash;
+    }
+};
+
+// Points of the shape as opened in cells of the size `reach`, with whether they belong to a handle.
+struct PointGrid {
+    struct Entry {
+        Vec3d place;
+        bool in_handle = false;
+    };
+    double reach = 1;
+    std::unordered_map<Cell, std::vector<Entry>, CellHash> cells;
+
+    Cell cell_of(const Vec3d& p) const {
+        const auto along = [&](int axis) { return static_cast<int>(std::floor(p[axis] / reach)); };
+        return {along(0), along(1), along(2)};
+    }
+    // Whether the nearest point, if there is one within reach, belongs to the handle.
+    bool nearest_is_in_handle(const Vec3d& p) const {
+        const Cell cell = cell_of(p);
+        double nearest = reach * reach;
+        bool in_handle = false;
+        for (int k = 0; k < 27; ++k) {
+            const auto found =
+                cells.find({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1});
+            if (found == cells.end()) continue;
+            for (const Entry& entry : found->second) {
+                const double distance = (entry.place - p).squaredNorm();
+                if (distance >= nearest) continue;
+                nearest = distance;
+                in_handle = entry.in_handle;
+            }
+        }
+        return in_handle;
+    }
+};
+
+// The file's points whose mirror image lies nearest to a point of the handle, in the shape as opened; nothing
+// farther off than `reach` counts.
+std::vector<Index> points_across(const Editor& editor, const Handle& handle, int axis, double at,
+                                 double reach) {
+    const std::vector<float>& rest = editor.opened.opened->positions;
+    const auto place = [&](Index i) {
+        return Vec3d(
+            Eigen::Map<const Vec3f>(rest.data() + 3 * std::size_t{editor.ordered[i]}).cast<double>());
+    };
+    std::vector<bool> in_handle(editor.ordered.size(), false);
+    Eigen::AlignedBox3d box;
+    for (const Index i : *handle.points) {
+        if (editor.ordered[i] == no_index) continue;
+        in_handle[i] = true;
+        box.extend(place(i));
+    }
+    box.min().array() -= 2 * reach;
+    box.max().array() += 2 * reach;
+
+    PointGrid grid{reach, {}};
+    for (Index i = 0; i < editor.ordered.size(); ++i)
+        if (editor.ordered[i] != no_index && box.contains(place(i)))
+            grid.cells[grid.cell_of(place(i))].push_back({place(i), in_handle[i]});
+    std::vector<Index> points;
+    for (Index i = 0; i < editor.ordered.size(); ++i) {
+        if (editor.ordered[i] == no_index) continue;
+        Vec3d p = place(i);
+        p[axis] = 2 * at - p[axis];
+        if (box.contains(p) && grid.nearest_is_in_handle(p)) points.push_back(i);
+    }
+    return points;
+}
+
+Vec3d rest_middle(const Editor& editor, const std::vector<Index>& points) {
+    Vec3d sum = Vec3d::Zero();
+    std::size_t count = 0;
+    for (const Index i : points) {
+        if (editor.ordered[i] == no_index) continue;
+        sum += Eigen::Map<const Vec3f>(editor.opened.opened->positions.data() +
+                                       3 * std::size_t{editor.ordered[i]})
+                   .cast<double>();
+        ++count;
+    }
+    return count > 0 ? Vec3d(sum / static_cast<double>(count)) : sum;
+}
+
+} // namespace
+
+void carry_out(Editor& editor, const ResetPose& command) {
+    const auto number = number_of(editor, command.handle);
+    if (!number || editor.document->handles[*number].role != HandleRole::moving) return;
+    if (!editor.document->posed) return;
+    const HandleMotion& now = editor.document->motions[*number];
+    const Vec3d middle = rest_middle(editor, *editor.document->handles[*number].points);
+    const Vec3d& origin = editor.opened.cloud->origin;
+    DragLine back = drag_towards(command.handle, now, middle, origin);
+    std::ranges::reverse(back.frames);
+    back.frames.erase(back.frames.begin());
+    back.frames.emplace_back();
+    post(editor, {std::move(back)});
+}
+
+void carry_out(Editor& editor, const MirrorHandle& command) {
+    const auto number = number_of(editor, command.handle);
+    if (!number) return;
+    const Handle& handle = editor.document->handles[*number];
+    const Vec3d middle = 0.5 * (editor.opened.bounds.lowest + editor.opened.bounds.highest);
+    const double at = middle[command.axis] - editor.opened.cloud->origin[command.axis];
+    const std::vector<Index> points =
+        points_across(editor, handle, command.axis, at, 3 * editor.opened.spacing);
+    if (points.empty())
+        return say(editor, Notice::Kind::error,
+                   "There is nothing across the middle of the cloud where \"" + handle.name +
+                       "\" would be mirrored to.");
+    HandleLine line;
+    line.name = handle.name + " mirrored";
+    line.role = handle.role;
+    line.points = ranges_of(points);
+    std::vector<SessionAction> lines{line};
+    if (editor.document->posed && handle.role == HandleRole::moving) {
+        const HandleMotion motion = mirrored(editor.document->motions[*number], command.axis, at);
+        lines.emplace_back(
+            drag_towards(line.name, motion, rest_middle(editor, points), editor.opened.cloud->origin));
+    }
+    editor.chosen = line.name;
+    editor.chosen_is_new = true;
+    post(editor, std::move(lines));
+}
+
+// --- Dragging
+// ------------------------------------------------------------------------------------------------
+
+void carry_out(Editor& editor, const BeginDrag& command) {
+    const auto number = number_of(editor, editor.chosen);
+    if (!number || editor.document->handles[*number].role != HandleRole::moving) return;
+    const std::optional<Gizmo> gizmo = gizmo_of(editor);
+    const Quatd& turn = editor.document->motions[*number].rotation;
+    EditorDrag drag;
+    drag.step = ++editor.last_step;
+    drag.middle = gizmo ? gizmo->center : command.pivot;
+    drag.local_axes = glm::dquat(turn.w(), turn.x(), turn.y(), turn.z());
+    if (editor.drag) // the last one is not answered yet
+        drag.local_axes = glm::angleAxis(editor.drag->transform.angle, editor.drag->transform.axis) *
+                          editor.drag->local_axes;
+    editor.drag = drag;
+    editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin);
+    add_step(editor, drag.step, nullptr);
+}
+
+void carry_out(Editor& editor, const DragTo& command) {
+    if (!editor.drag || editor.drag->ended) return;
+    editor.drag->transform = command.transform;
+    editor.live->drag_to(command.transform);
+}
+
+void carry_out(Editor& editor, const EndDrag& /*command*/) {
+    if (!editor.drag || editor.drag->ended) return;
+    editor.drag->ended = true;
+    editor.handle_middle = transformed(editor.drag->transform, editor.drag->middle);
+    if (editor.pivot) editor.pivot = editor.handle_middle;
+    editor.live->end_drag();
+}
+
+void carry_out(Editor& editor, const CancelDrag& /*command*/) {
+    if (!editor.drag || editor.drag->ended) return;
+    const StepNumber step = editor.drag->step;
+    editor.drag.reset();
+    std::erase_if(editor.past, [&](const EditorStep& past) { return past.document == step; });
+    editor.live->cancel_drag();
+}
+
+void carry_out(Editor& editor, const SetPivot& command) {
+    editor.pivot = command.pivot;
+}
+
+} // namespace knead

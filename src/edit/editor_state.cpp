@@ -1,0 +1,146 @@
+// What follows from the editor's state.
+
+#include "edit/editor_steps.h"
+#include "edit/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace knead {
+
+namespace {
+
+// Of a handle's points, so many are enough to know their middle.
+constexpr std::size_t enough_for_middle = 5000;
+
+Box3 nowhere() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {glm::dvec3(infinity), glm::dvec3(-infinity)};
+}
+
+void extend(Box3& box, const float* p) {
+    const glm::dvec3 point(p[0], p[1], p[2]);
+    box.lowest = glm::min(box.lowest, point);
+    box.highest = glm::max(box.highest, point);
+}
+
+} // namespace
+
+const Handle* chosen_handle(const Editor& editor) {
+    if (!editor.document || editor.chosen.empty()) return nullptr;
+    const auto& handles = editor.document->handles;
+    const auto found = std::ranges::find(handles, editor.chosen, &Handle::name);
+    return found == handles.end() ? nullptr : &*found;
+}
+
+void mark_handles(Editor& editor) {
+    for (std::uint8_t& mark : editor.marks) mark = static_cast<std::uint8_t>(mark & marks_of_selection);
+    const auto& handles = editor.document->handles;
+    for (const bool region_pass : {true, false})
+        for (std::size_t h = 0; h < handles.size(); ++h) {
+            if ((handles[h].role == HandleRole::region_of_interest) != region_pass) continue;
+            const auto number = handle_mark(h);
+            for (const Index i : *handles[h].points)
+                if (editor.ordered[i] != no_index) {
+                    std::uint8_t& mark = editor.marks[editor.ordered[i]];
+                    mark = static_cast<std::uint8_t>((mark & marks_of_selection) | number);
+                }
+        }
+    marks_changed(editor);
+}
+
+glm::dvec3 middle_of(const Editor& editor, const Handle& handle) {
+    const std::vector<Index>& points = *handle.points;
+    const std::size_t stride = std::max<std::size_t>(1, points.size() / enough_for_middle);
+    glm::dvec3 sum(0.0);
+    double count = 0;
+    for (std::size_t k = 0; k < points.size(); k += stride) {
+        const Index i = editor.ordered[points[k]];
+        if (i == no_index) continue;
+        const float* p = editor.frame.positions.data() + 3 * std::size_t{i};
+        sum += glm::dvec3(p[0], p[1], p[2]);
+        ++count;
+    }
+    return count > 0 ? sum / count : sum;
+}
+
+std::optional<Gizmo> gizmo_of(const Editor& editor) {
+    const Handle* handle = chosen_handle(editor);
+    if (!handle || handle->role != HandleRole::moving) return std::nullopt;
+    Gizmo gizmo;
+    gizmo.local = editor.local_axes;
+    const auto number = static_cast<std::size_t>(handle - editor.document->handles.data());
+    const Quatd& turn = editor.document->motions[number].rotation;
+    glm::dquat axes(turn.w(), turn.x(), turn.y(), turn.z());
+    gizmo.center = editor.pivot ? *editor.pivot : editor.handle_middle;
+    if (editor.drag) {
+        const Transform& transform = editor.drag->transform;
+        gizmo.center = transformed(transform, editor.drag->middle);
+        axes = glm::angleAxis(transform.angle, transform.axis) * editor.drag->local_axes;
+    }
+    if (editor.local_axes) gizmo.axes = axes;
+    return gizmo;
+}
+
+Box3 box_of(const Editor& editor) {
+    Box3 box = nowhere();
+    const std::vector<float>& positions = editor.frame.positions;
+    for (std::size_t i = 0; i < positions.size(); i += 3) extend(box, positions.data() + i);
+    return positions.empty() ? Box3{} : box;
+}
+
+std::optional<Box3> box_of_selection(const Editor& editor) {
+    if (editor.selected == 0) return std::nullopt;
+    Box3 box = nowhere();
+    for (std::size_t i = 0; i < editor.marks.size(); ++i)
+        if (editor.marks[i] & mark_selected) extend(box, editor.frame.positions.data() + 3 * i);
+    return box;
+}
+
+bool has_unsaved_session(const Editor& editor) {
+    if (!editor.document) return false;
+    return editor.document->acts > std::max(editor.saved.session_acts, editor.saved.cloud_acts);
+}
+
+bool can_undo(const Editor& editor) {
+    const bool dragging = editor.drag && !editor.drag->ended;
+    return editor.document && !dragging && !editor.past.empty();
+}
+
+bool can_redo(const Editor& editor) {
+    const bool dragging = editor.drag && !editor.drag->ended;
+    return editor.document && !dragging && !editor.future.empty();
+}
+
+std::string next_step(const Editor& editor) {
+    if (!editor.document) return {};
+    const auto& handles = editor.document->handles;
+    const auto has = [&](HandleRole role) {
+        return std::ranges::any_of(handles, [&](const Handle& handle) { return handle.role == role; });
+    };
+    const bool moving = has(HandleRole::moving);
+    const bool held = has(HandleRole::fixed) || has(HandleRole::region_of_interest);
+    if (editor.selected > 0 && !moving)
+        return "Press H to make the selection a handle that moves, or Shift+H one that stays where it is.";
+    if (editor.selected > 0 && !held)
+        return "Press Shift+H to keep the selection where it is, or H to make it move.";
+    if (!moving) return "Draw a lasso round the part that should move.";
+    if (!held) return "Nothing holds the rest yet: draw a lasso round what should stay, and press Shift+H.";
+    if (!chosen_handle(editor) || chosen_handle(editor)->role != HandleRole::moving)
+        return "Click a moving handle to choose it.";
+    if (!editor.document->posed) return "Drag the gizmo, or press G to move, R to turn, S to scale.";
+    return "Enter keeps the pose as the new shape.";
+}
+
+std::vector<float> displacements(Editor& editor) {
+    return displacements(editor.opened.opened->positions, editor.frame.positions, editor.workers);
+}
+
+std::vector<float> local_stretch(Editor& editor) {
+    if (!editor.document || !editor.document->graph) return {};
+    return local_stretch(*editor.opened.order, *editor.document->graph, editor.opened.opened->positions,
+                         editor.frame.positions, editor.workers);
+}
+
+} // namespace knead

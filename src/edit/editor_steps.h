@@ -1,0 +1,50 @@
+#pragma once
+// What the files of the editor share: steps of undo, words for the user, and the acts on handles. Private to
+// this room.
+
+#include "edit/editor.h"
+
+namespace knead {
+
+glm::dvec3 to_glm(const Vec3d& v);
+Vec3d to_eigen(const glm::dvec3& v);
+
+void say(Editor& editor, Notice::Kind kind, std::string words);
+
+// A copy of the marks, to go back to.
+std::shared_ptr<const std::vector<std::uint8_t>> snapshot(const Editor& editor);
+
+// Puts a step on the history; what could be redone is forgotten. `before`: the marks before it, if it changed
+// them.
+void add_step(Editor& editor, StepNumber document, std::shared_ptr<const std::vector<std::uint8_t>> before);
+
+// Selection and hiding as in `from`; the bits of the handles stay.
+void restore_selection(Editor& editor, const std::vector<std::uint8_t>& from);
+
+// Counts again what is selected and tells the renderer.
+void marks_changed(Editor& editor);
+
+// The bits that say which handle a point belongs to, from the document's handles.
+void mark_handles(Editor& editor);
+
+// Where the middle of a handle's points is now.
+glm::dvec3 middle_of(const Editor& editor, const Handle& handle);
+
+// Whether a document is open; tells the user if not.
+bool needs_document(Editor& editor);
+
+void carry_out(Editor& editor, const MakeHandle& command);
+void carry_out(Editor& editor, const ChooseHandle& command);
+void carry_out(Editor& editor, const RenameHandle& command);
+void carry_out(Editor& editor, const ChangeRole& command);
+void carry_out(Editor& editor, const DeleteHandle& command);
+void carry_out(Editor& editor, const ResetPose& command);
+void carry_out(Editor& editor, const MirrorHandle& command);
+void carry_out(Editor& editor, const SelectHandlePoints& command);
+void carry_out(Editor& editor, const BeginDrag& command);
+void carry_out(Editor& editor, const DragTo& command);
+void carry_out(Editor& editor, const EndDrag& command);
+void carry_out(Editor& editor, const CancelDrag& command);
+void carry_out(Editor& editor, const SetPivot& command);
+
+} // namespace knead

@@ -1,0 +1,150 @@
+#include "edit/journal.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace knead {
+
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, Trouble trouble, const std::string& doing) {
+    throw Error(trouble, file.string(), "cannot " + doing + " the recording: " + std::strerror(errno));
+}
+
+bool lock(int descriptor) {
+    return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+}
+
+void write_all(int descriptor, std::string_view text, const std::filesystem::path& file) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(descriptor, text.data(), text.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(file, Trouble::output, "write");
+        text.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+std::string read_all(int descriptor) {
+    std::string text;
+    char buffer[65536];
+    for (ssize_t got = 0; (got = ::read(descriptor, buffer, sizeof buffer)) > 0;)
+        text.append(buffer, static_cast<std::size_t>(got));
+    return text;
+}
+
+// A name that no other journal has: the time, then the process, then a count.
+std::filesystem::path fresh_name(const std::filesystem::path& folder, unsigned attempt) {
+    char stamp[32];
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    ::localtime_r(&now, &local);
+    std::strftime(stamp, sizeof stamp, "%Y-%m-%d-%H%M%S", &local);
+    return folder /
+           (std::string(stamp) + "-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".knead");
+}
+
+// What a journal holds, if it is one, nobody has it open, and it can be read.
+std::optional<LostWork> look_at(const std::filesystem::path& file) {
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+    if (descriptor < 0) return std::nullopt;
+    std::optional<LostWork> found;
+    if (lock(descriptor)) {
+        const std::string text = read_all(descriptor);
+        const std::string whole = text.substr(0, text.rfind('\n') + 1);
+        try {
+            const Session session = parse_session(whole, file);
+            if (session.lines.empty())
+                ::unlink(file.c_str());
+            else
+                found = LostWork{file, session.resolve(session.cloud), session.lines.size(),
+                                 std::filesystem::last_write_time(file)};
+        } catch (const std::exception&) {
+            // Not a journal of this version: it stays where it is.
+        }
+    }
+    ::close(descriptor);
+    return found;
+}
+
+} // namespace
+
+std::filesystem::path default_journal_folder() {
+    const char* state = std::getenv("XDG_STATE_HOME");
+    if (state && state[0] == '/') return std::filesystem::path(state) / "knead";
+    const char* home = std::getenv("HOME");
+    if (home && home[0] == '/') return std::filesystem::path(home) / ".local/state/knead";
+    return {};
+}
+
+Journal Journal::create(const std::filesystem::path& folder, const std::string& header) {
+    std::error_code trouble;
+    std::filesystem::create_directories(folder, trouble);
+    for (unsigned attempt = 0;; ++attempt) {
+        const std::filesystem::path file = fresh_name(folder, attempt);
+        const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0600);
+        if (descriptor < 0 && errno == EEXIST && attempt < 1000) continue;
+        if (descriptor < 0) fail(file, Trouble::output, "begin");
+        Journal journal(file, descriptor);
+        lock(descriptor);
+        journal.append(header);
+        return journal;
+    }
+}
+
+Journal Journal::take_over(const std::filesystem::path& file) {
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_APPEND | O_CLOEXEC);
+    if (descriptor < 0) fail(file, Trouble::input, "open");
+    Journal journal(file, descriptor);
+    if (!lock(descriptor))
+        throw Error(Trouble::input, file.string(), "another knead is working on this recording");
+    const std::string text = read_all(descriptor);
+    const auto whole = static_cast<off_t>(text.rfind('\n') + 1);
+    if (::ftruncate(descriptor, whole) != 0) fail(file, Trouble::output, "mend");
+    return journal;
+}
+
+Journal::~Journal() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Journal::Journal(Journal&& other) noexcept
+    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+Journal& Journal::operator=(Journal&& other) noexcept {
+    std::swap(file_, other.file_);
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+}
+
+void Journal::append(std::string_view line) {
+    write_all(descriptor_, std::string(line) + "\n", file_);
+    if (::fdatasync(descriptor_) != 0) fail(file_, Trouble::output, "sync");
+}
+
+void Journal::discard() {
+    ::unlink(file_.c_str());
+}
+
+std::vector<LostWork> find_lost_work(const std::filesystem::path& folder) {
+    std::vector<LostWork> found;
+    std::error_code trouble;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, trouble)) {
+        if (entry.path().extension() != ".knead") continue;
+        if (auto lost = look_at(entry.path())) found.push_back(std::move(*lost));
+    }
+    std::ranges::sort(found, std::greater{}, &LostWork::when);
+    return found;
+}
+
+} // namespace knead

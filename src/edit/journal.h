@@ -1,0 +1,55 @@
+#pragma once
+// The recording that is always on: a session file in the user's state folder that grows line by line, so that
+// a crash loses at most the act that was going on.
+
+#include "edit/session.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace knead {
+
+// $XDG_STATE_HOME/knead, or ~/.local/state/knead; empty when neither is known.
+std::filesystem::path default_journal_folder();
+
+// An open journal; owns the file and a lock on it that ends with the process.
+class Journal {
+public:
+    // A new one in `folder`, which is made where it is missing. Throws Error (output).
+    static Journal create(const std::filesystem::path& folder, const std::string& header);
+    // One that a crash left: whatever stands behind its last whole line is cut off. Throws Error (input) when
+    // it is gone or another process has it.
+    static Journal take_over(const std::filesystem::path& file);
+
+    ~Journal();
+    Journal(Journal&& other) noexcept;
+    Journal& operator=(Journal&& other) noexcept;
+
+    const std::filesystem::path& file() const { return file_; }
+
+    // Appends a line and syncs it. Throws Error (output) when the disk is full or fails.
+    void append(std::string_view line);
+    // Removes the file: what it holds is kept elsewhere, or not wanted.
+    void discard();
+
+private:
+    Journal(std::filesystem::path file, int descriptor) : file_(std::move(file)), descriptor_(descriptor) {}
+    std::filesystem::path file_;
+    int descriptor_ = -1;
+};
+
+// A journal that a crash left behind.
+struct LostWork {
+    std::filesystem::path journal;
+    std::filesystem::path cloud;
+    std::size_t acts = 0;
+    std::filesystem::file_time_type when;
+};
+// Journals of `folder` that hold an act and that no running knead has open, newest first. Empty ones are
+// removed on the way. Never throws.
+std::vector<LostWork> find_lost_work(const std::filesystem::path& folder);
+
+} // namespace knead

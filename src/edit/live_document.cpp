@@ -1,0 +1,117 @@
+#include "edit/live_document.h"
+
+#include "edit/live_shared.h"
+
+#include <utility>
+
+namespace knead {
+
+LiveDocument::LiveDocument(OpenRequest request) : shared_(std::make_unique<Locked<LiveShared>>()) {
+    thread_ = std::make_unique<Background>(
+        [request = std::move(request), &shared = *shared_] { run_live_document(request, shared); });
+}
+
+LiveDocument::~LiveDocument() {
+    shared_->change([](LiveShared& shared) { shared.stop = true; });
+    thread_.reset();
+}
+
+LiveDocument::Status LiveDocument::status() const {
+    return shared_->with([](const LiveShared& shared) {
+        Status status = shared.status;
+        status.busy |= !shared.inbox.empty();
+        return status;
+    });
+}
+
+void LiveDocument::cancel_opening() {
+    shared_->change([](LiveShared& shared) {
+        if (shared.status.stage == Stage::opening) shared.stop = true;
+    });
+}
+
+OpenedCloud LiveDocument::opened() const {
+    return shared_->with([](const LiveShared& shared) { return shared.opened; });
+}
+
+namespace {
+
+void put(Locked<LiveShared>& shared, LiveTask task) {
+    shared.change([&](LiveShared& s) { s.inbox.push_back(std::move(task)); });
+}
+
+} // namespace
+
+void LiveDocument::post(StepNumber step, std::vector<SessionAction> lines) {
+    put(*shared_, task::Lines{step, std::move(lines)});
+}
+
+void LiveDocument::begin_drag(StepNumber step, std::string handle, Vec3d pivot) {
+    put(*shared_, task::BeginDrag{step, std::move(handle), pivot});
+}
+
+void LiveDocument::drag_to(const Transform& transform) {
+    shared_->change([&](LiveShared& shared) {
+        shared.wanted = WantedPose{transform, std::chrono::steady_clock::now()};
+    });
+}
+
+// The last pose goes with the task, so that a drag begun right afterwards does not take its place.
+void LiveDocument::end_drag() {
+    shared_->change([](LiveShared& shared) {
+        shared.inbox.emplace_back(task::EndDrag{std::exchange(shared.wanted, std::nullopt)});
+    });
+}
+
+void LiveDocument::cancel_drag() {
+    shared_->change([](LiveShared& shared) {
+        shared.wanted.reset();
+        shared.inbox.emplace_back(task::CancelDrag{});
+    });
+}
+
+void LiveDocument::undo() {
+    put(*shared_, task::Undo{});
+}
+
+void LiveDocument::redo() {
+    put(*shared_, task::Redo{});
+}
+
+void LiveDocument::save_cloud(std::filesystem::path target, SaveColumns columns) {
+    put(*shared_, task::SaveCloud{std::move(target), columns});
+}
+
+void LiveDocument::save_session(std::filesystem::path target) {
+    put(*shared_, task::SaveSession{std::move(target)});
+}
+
+std::shared_ptr<const DocumentView> LiveDocument::view() const {
+    return shared_->with([](const LiveShared& shared) { return shared.view; });
+}
+
+bool LiveDocument::take_frame(PosedFrame& frame) {
+    return shared_->with([&](LiveShared& shared) {
+        if (shared.frame.version <= frame.version) return false;
+        std::swap(shared.frame, frame);
+        return true;
+    });
+}
+
+std::vector<Notice> LiveDocument::take_notices() {
+    return shared_->with([](LiveShared& shared) { return std::exchange(shared.notices, {}); });
+}
+
+std::vector<StepNumber> LiveDocument::take_refused() {
+    return shared_->with([](LiveShared& shared) { return std::exchange(shared.refused, {}); });
+}
+
+LiveDocument::Saved LiveDocument::saved() const {
+    return shared_->with([](const LiveShared& shared) { return shared.saved; });
+}
+
+void LiveDocument::discard_journal() {
+    shared_->change([](LiveShared& shared) { shared.keep_journal = false; });
+}
+
+} // namespace knead

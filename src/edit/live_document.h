@@ -1,0 +1,164 @@
+#pragma once
+// A document that is edited while it is looked at: it lives on a thread of its own, so that the window never
+// waits for it.
+//
+// The window posts acts and takes back, whenever it likes, what is newest: a view of the document, the posed
+// points, words for the user. Of the poses of a drag only the newest counts; the ones that were computed are
+// the frames of the session's `drag` line, so that a replay of the recording makes the same shape to the bit.
+// While a pose rests the shape goes on converging: in a drag by repeated frames, afterwards by a `settle`
+// line.
+//
+// Every finished act goes to the journal, if there is one, before anybody sees its result.
+
+#include "base/background.h"
+#include "base/locked.h"
+#include "edit/command.h"
+#include "edit/document.h"
+#include "edit/journal.h"
+#include "edit/session.h"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace knead {
+
+// A number that the caller gives an act, to be told of its fate.
+using StepNumber = std::uint64_t;
+
+// The document as it is between two acts. Shared and never changed.
+struct DocumentView {
+    Settings settings;
+    std::vector<Handle> handles;
+    std::vector<HandleMotion> motions; // of each handle, in this edit, about the cloud's origin
+    bool posed = false;
+    std::size_t acts = 0;     // that were recorded so far: what was saved is what had as many
+    StepNumber last_step = 0; // the newest that was carried out
+    std::size_t undoable_steps = 0, redoable_steps = 0;
+    std::size_t samples = 0; // 0: not chosen yet
+    Pipeline::Strays strays;
+    std::shared_ptr<const Graph> graph;                        // of the vertices; null until it was built
+    std::shared_ptr<const Components> components;              // and what hangs together in it; null as long
+    std::shared_ptr<const std::vector<Index>> sample_vertices; // where the samples are; null before a drag
+    std::shared_ptr<const Graph> sample_graph;                 // between them; null before a drag
+    std::string device;
+    std::filesystem::path session; // where it was saved last, or opened from; empty: never
+};
+
+// The posed points, in the order of computation.
+struct PosedFrame {
+    std::vector<float> positions;                   // 3n, relative to the cloud's origin
+    std::vector<float> normals;                     // 3n, or empty
+    std::uint64_t version = 0;                      // counts the frames; 0: nothing here
+    std::chrono::steady_clock::time_point pose_set; // when the hand set the pose that this frame shows
+    bool shows_pose = false; // whether it is of a drag at all (not of an undo, a commit ...)
+    double solve = 0;        // seconds of its iterations
+    double upsample = 0;     // seconds
+};
+
+// What the user should hear.
+struct Notice {
+    enum class Kind { information, warning, error } kind = Kind::information;
+    std::string words;
+};
+
+// Everything that stays of the opened cloud; views into the live document, valid as long as it lives.
+struct OpenedCloud {
+    std::filesystem::path file;
+    const PointCloud* cloud = nullptr;
+    const PointOrder* order = nullptr;
+    const RestShape* opened = nullptr;
+    Bounds bounds;      // in the file's coordinates
+    double spacing = 0; // the usual distance between neighbouring points
+    double read_seconds = 0;
+};
+
+// What is saved with a cloud beside its own attributes.
+struct SaveColumns {
+    bool displacement = false; // "displacement", of each point from where it was opened
+    bool stretch = false;      // "stretch", see edit/measures.h
+};
+
+struct OpenRequest {
+    std::filesystem::path file;                   // a cloud or a session
+    std::filesystem::path journal_folder;         // empty: no journal
+    std::optional<std::filesystem::path> restore; // a journal to take over instead: `file` is not looked at
+    std::string device;                           // as make_upsampler() takes it
+    unsigned threads = 0;
+    SettingsChange settings;
+};
+
+struct LiveShared; // what both threads see (edit/live_shared.h)
+
+class LiveDocument {
+public:
+    // Starts opening at once and returns.
+    explicit LiveDocument(OpenRequest request);
+    // Stops what is going on, and waits for it.
+    ~LiveDocument();
+    LiveDocument(const LiveDocument&) = delete;
+    LiveDocument& operator=(const LiveDocument&) = delete;
+
+    // --- How opening goes ---
+
+    enum class Stage { opening, open, failed };
+    struct Status {
+        Stage stage = Stage::opening;
+        std::string doing;    // what a long stage does now; empty when nothing long goes on
+        double fraction = 0;  // of it
+        bool busy = false;    // whether the thread has anything to do, converging included
+        bool solving = false; // whether it is converging or following the hand
+    };
+    Status status() const;
+    void cancel_opening();
+    OpenedCloud opened() const; // after Stage::open
+
+    // --- Acts; all return at once, and are carried out in the order in which they were posted ---
+
+    // Carries out session lines as one step of undo. Where a line may not stand while handles are posed, a
+    // commit is put before it. A refused step is told by take_refused(), and leaves no trace.
+    void post(StepNumber step, std::vector<SessionAction> lines);
+
+    // A drag of a moving handle: frames go on until end_drag(), the newest pose first. `pivot` is in the
+    // file's coordinates.
+    void begin_drag(StepNumber step, std::string handle, Vec3d pivot);
+    void drag_to(const Transform& transform); // on top of the handle's pose at begin_drag()
+    void end_drag();
+    void cancel_drag(); // as if it had not begun; its step counts as refused without words
+
+    void undo(); // the last step that was not refused
+    void redo();
+
+    // Writes the shape as it is now / the session so far. Success and failure come as notices.
+    void save_cloud(std::filesystem::path target, SaveColumns columns = {});
+    void save_session(std::filesystem::path target);
+
+    // --- What is newest ---
+
+    std::shared_ptr<const DocumentView> view() const; // null until open
+    // Swaps the newest frame into `frame` if there is a newer one than it holds.
+    bool take_frame(PosedFrame& frame);
+    std::vector<Notice> take_notices();
+    std::vector<StepNumber> take_refused();
+
+    // Whether the journal holds acts that no saved session has.
+    struct Saved {
+        std::size_t session_acts = 0; // acts in the session as saved last
+        std::size_t cloud_acts = 0;   // acts behind the cloud as saved last
+    };
+    Saved saved() const;
+
+    // Ends the journal for good: nothing will be offered for restoring. Call it when the user closes and
+    // needs nothing kept.
+    void discard_journal();
+
+private:
+    std::unique_ptr<Locked<LiveShared>> shared_;
+    std::unique_ptr<Background> thread_;
+};
+
+} // namespace knead

@@ -1,0 +1,35 @@
+#pragma once
+// A drag as the document's thread follows it. Private to this room.
+
+#include "edit/live_shared.h"
+
+namespace knead {
+
+struct LiveDrag {
+    StepNumber step = 0;
+    DragLine line;                         // what was computed so far
+    HandleMotion base;                     // the pose when it began
+    Vec3d origin = Vec3d::Zero();          // the cloud's
+    std::optional<WantedPose> wanted = {}; // the newest pose of the hand
+    Transform shown = {};                  // how far it was followed
+    std::size_t repeats = 0;               // frames since the last new pose
+    bool rests = true;                     // nothing changes until the hand moves
+};
+
+// The transform of the next frame on the way from what is shown to what is wanted: the wanted one, but for
+// the angle, which goes on by no more than a frame may turn. So a typed "720" winds up like one that was
+// dragged.
+Transform next_on_the_way(const Transform& shown, const Transform& wanted);
+
+// Tells the window how far a long stage is, and stops it when the window closes.
+class LiveProgress final : public Progress {
+public:
+    explicit LiveProgress(Locked<LiveShared>& shared) : shared_(shared) {}
+    void report(std::string_view stage, double fraction) override;
+    bool cancelled() const override;
+
+private:
+    Locked<LiveShared>& shared_;
+};
+
+} // namespace knead

@@ -1,0 +1,114 @@
+#include "edit/live_recording.h"
+
+#include "base/error.h"
+#include "base/whole_file.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace knead {
+
+namespace {
+
+std::filesystem::path relative_to(const std::filesystem::path& path, const std::filesystem::path& folder) {
+    const std::filesystem::path way = path.lexically_relative(folder);
+    return way.empty() ? path : way;
+}
+
+std::size_t count_steps(const std::vector<bool>& joins) {
+    return static_cast<std::size_t>(std::ranges::count(joins, false));
+}
+
+} // namespace
+
+bool is_session(const std::filesystem::path& file, Progress& progress) {
+    progress.step("reading", 0);
+    std::ifstream stream(file, std::ios::binary);
+    std::string first(1024, '\0');
+    stream.read(first.data(), static_cast<std::streamsize>(first.size()));
+    first.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+    return looks_like_session(first);
+}
+
+Session recovered_session(const std::filesystem::path& journal) {
+    std::ifstream stream(journal, std::ios::binary);
+    if (!stream) throw Error(Trouble::input, journal.string(), "the recording cannot be opened");
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    return parse_session(std::string_view(text).substr(0, text.rfind('\n') + 1), journal);
+}
+
+LiveRecording::LiveRecording(const Session& session, const std::optional<std::filesystem::path>& restored)
+    : header_(session), cloud_(std::filesystem::absolute(session.resolve(session.cloud)).lexically_normal()) {
+    header_.lines.clear();
+    if (restored) {
+        journal_ = Journal::take_over(*restored);
+        lines_written_before_ = session.lines.size();
+    }
+}
+
+void LiveRecording::discard() {
+    if (journal_) journal_->discard();
+    if (journal_) folder_ = journal_->file().parent_path();
+    journal_.reset();
+}
+
+void LiveRecording::add(const SessionAction& act, bool joins_step) {
+    past_.push_back(joins_step && !past_.empty());
+    future_.clear();
+    write_down(act);
+}
+
+void LiveRecording::note(const SessionAction& line) {
+    write_down(line);
+}
+
+void LiveRecording::step_back(const UndoLine& line) {
+    future_.push_back(past_.back());
+    past_.pop_back();
+    write_down(line);
+}
+
+void LiveRecording::step_forward(const RedoLine& line) {
+    past_.push_back(future_.back());
+    future_.pop_back();
+    write_down(line);
+}
+
+std::size_t LiveRecording::undoable_steps() const {
+    return count_steps(past_);
+}
+
+std::size_t LiveRecording::redoable_steps() const {
+    return count_steps(future_);
+}
+
+void LiveRecording::save(const std::filesystem::path& target) const {
+    const std::filesystem::path folder = std::filesystem::absolute(target).lexically_normal().parent_path();
+    Session header = header_;
+    header.cloud = relative_to(cloud_, folder);
+    FileInTheMaking file(target);
+    file.write(header_text(header) + "\n");
+    for (SessionAction line : lines_) {
+        if (auto* check = std::get_if<CheckLine>(&line))
+            check->positions =
+                relative_to(std::filesystem::absolute(check->positions).lexically_normal(), folder);
+        file.write(to_text(line) + "\n");
+    }
+    file.commit();
+}
+
+void LiveRecording::write_down(const SessionAction& line) {
+    lines_.push_back(line);
+    if (journal_) {
+        if (lines_.size() > lines_written_before_) journal_->append(to_text(line));
+        return;
+    }
+    if (folder_.empty()) return;
+    Session header = header_;
+    header.cloud = cloud_;
+    journal_ = Journal::create(folder_, header_text(header));
+    for (const SessionAction& recorded : lines_) journal_->append(to_text(recorded));
+}
+
+} // namespace knead

@@ -1,0 +1,68 @@
+#pragma once
+// What a live document records: every act, in which step of undo it belongs, and the journal. Private to this
+// room.
+
+#include "base/progress.h"
+#include "edit/journal.h"
+#include "edit/session.h"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace knead {
+
+// Whether the file is a session rather than a cloud, by its first bytes. Throws Error (input) if it cannot be
+// read.
+bool is_session(const std::filesystem::path& file, Progress& progress);
+
+// A journal as a session, without a last line that a crash cut short. Throws Error (input).
+Session recovered_session(const std::filesystem::path& journal);
+
+class LiveRecording {
+public:
+    // `session` gives the header; its lines are not taken. With `restored`, that journal is gone on with.
+    LiveRecording(const Session& session, const std::optional<std::filesystem::path>& restored);
+
+    // From the next act on there is a journal in that folder (none, if it is empty) that holds everything. So
+    // a session that was only looked at leaves none. Functions that record throw Error (output) when it
+    // cannot be written; then the act counts all the same.
+    void keep_journal(const std::filesystem::path& folder) { folder_ = folder; }
+    // Removes the journal: what it holds is not wanted, or was saved. The next act begins another.
+    void discard();
+
+    // An act that the document has carried out: of the step before it, or the first of a new one. What could
+    // be redone is forgotten.
+    void add(const SessionAction& act, bool joins_step);
+    // A line that is no act of the document (`check`).
+    void note(const SessionAction& line);
+    // The last act was undone, the next one redone.
+    void step_back(const UndoLine& line);
+    void step_forward(const RedoLine& line);
+
+    bool can_undo() const { return !past_.empty(); }
+    bool can_redo() const { return !future_.empty(); }
+    bool last_joins() const { return !past_.empty() && past_.back(); }     // of the acts that can be undone
+    bool next_joins() const { return !future_.empty() && future_.back(); } // of those that can be redone
+    std::size_t undoable_steps() const;
+    std::size_t redoable_steps() const;
+
+    std::size_t acts() const { return lines_.size(); }
+    const std::filesystem::path& cloud() const { return cloud_; } // absolute
+
+    // Writes all of it as a session file, with paths relative to it. Throws Error (output).
+    void save(const std::filesystem::path& target) const;
+
+private:
+    void write_down(const SessionAction& line);
+
+    Session header_;
+    std::filesystem::path cloud_;
+    std::vector<SessionAction> lines_;
+    std::vector<bool> past_, future_; // of each act: whether it joins the step of the one before it
+    std::filesystem::path folder_;    // of the journal; empty: none is kept
+    std::optional<Journal> journal_;
+    std::size_t lines_written_before_ = 0; // that a restored journal has already
+};
+
+} // namespace knead

@@ -1,0 +1,64 @@
+#pragma once
+// What the window's thread and the document's thread of a LiveDocument both see. Private to this room.
+
+#include "edit/live_document.h"
+
+#include <deque>
+#include <variant>
+
+namespace knead {
+
+// A pose that the hand set.
+struct WantedPose {
+    Transform transform;
+    std::chrono::steady_clock::time_point set;
+};
+
+namespace task {
+struct Lines {
+    StepNumber step = 0;
+    std::vector<SessionAction> lines;
+};
+struct BeginDrag {
+    StepNumber step = 0;
+    std::string handle;
+    Vec3d pivot = Vec3d::Zero();
+};
+struct EndDrag {
+    std::optional<WantedPose> last; // not followed yet
+};
+struct CancelDrag {};
+struct Undo {};
+struct Redo {};
+struct SaveCloud {
+    std::filesystem::path target;
+    SaveColumns columns;
+};
+struct SaveSession {
+    std::filesystem::path target;
+};
+} // namespace task
+using LiveTask = std::variant<task::Lines, task::BeginDrag, task::EndDrag, task::CancelDrag, task::Undo,
+                              task::Redo, task::SaveCloud, task::SaveSession>;
+
+struct LiveShared {
+    // To the document.
+    std::deque<LiveTask> inbox;
+    std::optional<WantedPose> wanted; // the newest pose of the drag that was begun last
+    bool stop = false;
+    bool keep_journal = true;
+
+    // From it.
+    LiveDocument::Status status;
+    OpenedCloud opened;
+    std::shared_ptr<const DocumentView> view;
+    PosedFrame frame;
+    std::vector<Notice> notices;
+    std::vector<StepNumber> refused;
+    LiveDocument::Saved saved;
+};
+
+// The document's thread from its first to its last moment. Never throws.
+void run_live_document(OpenRequest request, Locked<LiveShared>& shared);
+
+} // namespace knead

@@ -1,0 +1,110 @@
+// The gizmo's drags and the modal G, R, S.
+
+#include "edit/tool_steps.h"
+
+#include <utility>
+
+namespace knead {
+
+namespace {
+
+// Transforms may be written in more than one way where they do nothing.
+bool do_the_same(const Transform& a, const Transform& b) {
+    const bool turn = a.angle == b.angle && (a.angle == 0 || a.axis == b.axis);
+    const bool size = a.scale == b.scale && (a.scale == glm::dvec3(1.0) || a.axes == b.axes);
+    return a.pivot == b.pivot && a.shift == b.shift && turn && size;
+}
+
+bool does_nothing(const Transform& transform) {
+    Transform nothing;
+    nothing.pivot = transform.pivot;
+    return do_the_same(transform, nothing);
+}
+
+void tell_transform(const Hand& hand) {
+    Tools& tools = hand.tools;
+    Transform transform = transform_of(*tools.drag);
+    if (do_the_same(transform, tools.sent)) return;
+    tools.sent = transform;
+    if (tools.drags_pivot)
+        hand.tell(SetPivot{transform.pivot + transform.shift});
+    else
+        hand.tell(DragTo{transform});
+}
+
+void finish(Tools& tools) {
+    tools.doing = Tools::Doing::nothing;
+    tools.drag.reset();
+    tools.modal = tools.orbiting_in_drag = tools.drags_pivot = false;
+    tools.hovered.reset();
+}
+
+} // namespace
+
+void begin_drag(const Hand& hand, const GizmoPart& part, bool modal) {
+    Tools& tools = hand.tools;
+    const Gizmo& gizmo = *hand.context.gizmo;
+    const glm::dquat& own = gizmo.local ? gizmo.axes : hand.context.local_axes;
+    tools.doing = Tools::Doing::transforming;
+    tools.modal = modal;
+    tools.orbiting_in_drag = false;
+    tools.drags_pivot = tools.move_pivot && !modal && part.kind == TransformKind::translate;
+    tools.drag = begin_transform(part.kind, gizmo.center, own, tools.cursor, hand.context.camera,
+                                 hand.context.viewport);
+    tools.drag->constraint = part.constraint;
+    tools.sent = transform_of(*tools.drag);
+    if (modal)
+        tools.hovered.reset();
+    else
+        tools.hovered = part;
+    if (!tools.drags_pivot) hand.tell(BeginDrag{gizmo.center});
+}
+
+void drag_to_cursor(const Hand& hand, glm::dvec2 cursor, Modifiers held) {
+    TransformDrag& drag = *hand.tools.drag;
+    drag.snap = held.ctrl;
+    follow_cursor(drag, cursor, held.shift, hand.context.camera, hand.context.viewport);
+    tell_transform(hand);
+}
+
+void end_drag(Tools& tools, std::vector<Command>& commands) {
+    if (!tools.drags_pivot) {
+        if (does_nothing(tools.sent))
+            commands.push_back(CancelDrag{});
+        else
+            commands.push_back(EndDrag{});
+    }
+    finish(tools);
+}
+
+void cancel_drag(Tools& tools, std::vector<Command>& commands) {
+    if (!tools.drags_pivot)
+        commands.push_back(CancelDrag{});
+    else if (!does_nothing(tools.sent))
+        commands.push_back(SetPivot{tools.sent.pivot});
+    finish(tools);
+}
+
+void drag_key(const Hand& hand, const KeyPress& press) {
+    TransformDrag& drag = *hand.tools.drag;
+    if (press.key == Key::backspace) {
+        type_character(drag, '\b');
+        tell_transform(hand);
+        return;
+    }
+    if (press.repeated) return;
+    if (press.key == Key::escape) return cancel_drag(hand.tools, hand.commands);
+    if (press.key == Key::enter) return end_drag(hand.tools, hand.commands);
+    const int axis = static_cast<int>(press.key) - static_cast<int>('X');
+    if (axis < 0 || axis > 2) return;
+    press_axis(drag, axis, press.held.shift);
+    tell_transform(hand);
+}
+
+void drag_character(const Hand& hand, const Character& character) {
+    const bool printable = character.code >= U' ' && character.code < 127;
+    if (printable && type_character(*hand.tools.drag, static_cast<char>(character.code)))
+        tell_transform(hand);
+}
+
+} // namespace knead

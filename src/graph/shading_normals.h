@@ -1,0 +1,20 @@
+#pragma once
+// Normals to shade a cloud with whose file has none.
+
+#include "base/workers.h"
+#include "graph/csr.h"
+
+#include <span>
+#include <vector>
+
+namespace knead {
+
+// A unit normal at every vertex, up to its sign, which is left to chance: that of its local frame
+// (local_frames.h), evened out among its neighbours. For looking at only; a saved file gets none.
+// `positions`: 3 floats a vertex.
+std::vector<float> shading_normals(const Graph& graph, std::span<const float> positions, Workers& workers);
+
+// The points' normals from those of their vertices. `vertex`: of each point (PointOrder).
+std::vector<float> spread_to_points(std::span<const float> vertex_normals, std::span<const Index> vertex);
+
+} // namespace knead

@@ -1,0 +1,224 @@
+#include "view/coloring.h"
+
+#include "base/error.h"
+#include "base/require.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace knead {
+
+namespace {
+
+constexpr std::size_t grain = 16384;
+constexpr std::uint32_t not_a_value = 0xff484848;
+
+std::uint32_t packed(double r, double g, double b) {
+    const auto byte = [](double c) {
+        return static_cast<std::uint32_t>(std::clamp(c, 0.0, 1.0) * 255 + 0.5);
+    };
+    return byte(r) | byte(g) << 8U | byte(b) << 16U | 0xff000000U;
+}
+
+std::uint32_t packed(const glm::vec3& color) {
+    return packed(color.r, color.g, color.b);
+}
+
+// --- The file's colours ---
+
+std::optional<std::array<std::size_t, 3>> find_colors(const PointCloud& cloud) {
+    constexpr const char* names[][3] = {
+        {"red", "green", "blue"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}, {"r", "g", "b"}};
+    for (const auto& triple : names) {
+        std::array<std::size_t, 3> columns{};
+        bool found = true;
+        for (std::size_t c = 0; c < 3 && found; ++c) {
+            const std::optional<std::size_t> column = find_attribute(cloud, triple[c]);
+            found = column && !cloud.attributes[*column].is_list();
+            if (found) columns[c] = *column;
+        }
+        if (found) return columns;
+    }
+    return std::nullopt;
+}
+
+// What full brightness is in these columns. 16-bit columns and floats hold bytes in some files.
+double brightest_value(const PointCloud& cloud, const std::array<std::size_t, 3>& columns) {
+    double most = 0;
+    bool fractions = true;
+    for (const std::size_t column : columns) {
+        const Attribute& attribute = cloud.attributes[column];
+        if (attribute.type == ScalarType::uint8) return 255;
+        fractions =
+            fractions && (attribute.type == ScalarType::float32 || attribute.type == ScalarType::float64);
+        for (std::size_t i = 0; i < cloud.size(); ++i) {
+            const double value = value_at(attribute, i);
+            if (std::isfinite(value)) most = std::max(most, value);
+        }
+    }
+    return fractions && most <= 1 ? 1 : most <= 255 ? 255 : 65535;
+}
+
+void color_as_in_file(const PointsToColor& points, const std::array<std::size_t, 3>& columns,
+                      std::span<std::uint32_t> colors, Workers& workers) {
+    const PointCloud& cloud = *points.cloud;
+    const double brightest = brightest_value(cloud, columns);
+    workers.for_each(colors.size(), grain, [&](std::size_t i) {
+        const auto part = [&](std::size_t c) {
+            const double value = value_at(cloud.attributes[columns[c]], points.file_index[i]) / brightest;
+            return std::isfinite(value) ? value : 0.0;
+        };
+        colors[i] = packed(part(0), part(1), part(2));
+    });
+}
+
+// --- Values by colour ---
+
+// Tenths of the scale, from the authors' table (BIDS/colormap, CC0).
+constexpr std::array<std::array<double, 3>, 11> viridis_tenths = {{{0.267004, 0.004874, 0.329415},
+                                                                   {0.282623, 0.140926, 0.457517},
+                                                                   {0.253935, 0.265254, 0.529983},
+                                                                   {0.206756, 0.371758, 0.553117},
+                                                                   {0.163625, 0.471133, 0.558148},
+                                                                   {0.127568, 0.566949, 0.550556},
+                                                                   {0.134692, 0.658636, 0.517649},
+                                                                   {0.266941, 0.748751, 0.440573},
+                                                                   {0.477504, 0.821444, 0.318195},
+                                                                   {0.741388, 0.873449, 0.149561},
+                                                                   {0.993248, 0.906157, 0.143936}}};
+
+// From the 1st to the 99th percentile, told from an even spread of the values.
+ValueRange usual_range(std::span<const float> values) {
+    constexpr std::size_t looked_at = 200'000;
+    const std::size_t step = (values.size() + looked_at - 1) / looked_at;
+    std::vector<float> some;
+    for (std::size_t i = 0; i < values.size(); i += step)
+        if (std::isfinite(values[i])) some.push_back(values[i]);
+    if (some.empty()) return {};
+    const auto percentile = [&some](std::size_t hundredths) {
+        const auto place = some.begin() + static_cast<std::ptrdiff_t>((some.size() - 1) * hundredths / 100);
+        std::ranges::nth_element(some, place);
+        return static_cast<double>(*place);
+    };
+    return {percentile(1), percentile(99)};
+}
+
+ValueRange color_values(std::span<const float> values, const std::optional<ValueRange>& given,
+                        std::span<std::uint32_t> colors, Workers& workers) {
+    const ValueRange range = given ? *given : usual_range(values);
+    std::array<std::uint32_t, 1024> scale{};
+    for (std::size_t i = 0; i < scale.size(); ++i)
+        scale[i] = packed(viridis(static_cast<double>(i) / static_cast<double>(scale.size() - 1)));
+    // All values equal: the middle of the scale.
+    const double width = range.high - range.low;
+    const double factor = width != 0 ? 1 / width : 0, offset = width != 0 ? 0 : 0.5;
+    workers.for_each(colors.size(), grain, [&](std::size_t i) {
+        const double value = values[i];
+        const double at = std::clamp((value - range.low) * factor + offset, 0.0, 1.0);
+        colors[i] = std::isfinite(value) ? scale[static_cast<std::size_t>(at * 1023 + 0.5)] : not_a_value;
+    });
+    return range;
+}
+
+std::vector<float> heights(const PointsToColor& points) {
+    std::vector<float> values(points.positions.size() / 3);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = points.positions[3 * i + 2];
+    return values;
+}
+
+std::vector<float> column_values(const PointsToColor& points, const std::string& name, Workers& workers) {
+    const PointCloud& cloud = *points.cloud;
+    const std::optional<std::size_t> column = find_attribute(cloud, name);
+    if (!column || cloud.attributes[*column].is_list()) {
+        std::string others;
+        for (const std::string& other : scalar_columns(cloud)) others += (others.empty() ? "" : ", ") + other;
+        throw Error(Trouble::usage, "",
+                    "the cloud has no column of numbers called \"" + name + "\"" +
+                        (others.empty() ? "" : "; it has " + others));
+    }
+    std::vector<float> values(points.file_index.size());
+    workers.for_each(values.size(), grain, [&](std::size_t i) {
+        values[i] = static_cast<float>(value_at(cloud.attributes[*column], points.file_index[i]));
+    });
+    return values;
+}
+
+void color_by_normal(const PointsToColor& points, std::span<std::uint32_t> colors, Workers& workers) {
+    workers.for_each(colors.size(), grain, [&](std::size_t i) {
+        const auto part = [&](std::size_t c) {
+            return 0.5 + 0.5 * static_cast<double>(points.normals[3 * i + c]);
+        };
+        colors[i] = packed(part(0), part(1), part(2));
+    });
+}
+
+Legend color_by_height(const ColorBy& by, const PointsToColor& points, std::span<std::uint32_t> colors,
+                       Workers& workers) {
+    // Positions are relative to the origin; the scale is told in the file's coordinates.
+    const double origin = points.cloud->origin.z();
+    std::optional<ValueRange> given = by.range;
+    if (given) given = ValueRange{given->low - origin, given->high - origin};
+    const ValueRange range = color_values(heights(points), given, colors, workers);
+    return {"height", by.range ? *by.range : ValueRange{range.low + origin, range.high + origin}};
+}
+
+} // namespace
+
+glm::vec3 viridis(double at) {
+    const double place = std::clamp(at, 0.0, 1.0) * 10;
+    const auto tenth = std::min<std::size_t>(static_cast<std::size_t>(place), 9);
+    const double share = place - static_cast<double>(tenth);
+    glm::vec3 color;
+    for (std::size_t c = 0; c < 3; ++c)
+        color[static_cast<int>(c)] =
+            static_cast<float>(viridis_tenths[tenth][c] * (1 - share) + viridis_tenths[tenth + 1][c] * share);
+    return color;
+}
+
+bool has_colors(const PointCloud& cloud) {
+    return find_colors(cloud).has_value();
+}
+
+std::vector<std::string> scalar_columns(const PointCloud& cloud) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < cloud.attributes.size(); ++i)
+        if (!cloud.attributes[i].is_list() &&
+            std::ranges::find(cloud.coordinate_columns, i) == cloud.coordinate_columns.end())
+            names.push_back(cloud.attributes[i].name);
+    return names;
+}
+
+Legend color_points(const ColorBy& by, const PointsToColor& points, std::span<std::uint32_t> colors,
+                    Workers& workers) {
+    require(points.cloud && points.file_index.size() == colors.size() &&
+                points.positions.size() == 3 * colors.size(),
+            "a place and three coordinates a colour");
+    switch (by.kind) {
+    case ColorBy::Kind::rgb:
+        if (const auto columns = find_colors(*points.cloud)) {
+            color_as_in_file(points, *columns, colors, workers);
+            return {};
+        }
+        break;
+    case ColorBy::Kind::plain:
+        break;
+    case ColorBy::Kind::height:
+        return color_by_height(by, points, colors, workers);
+    case ColorBy::Kind::normal:
+        if (points.normals.empty()) break;
+        color_by_normal(points, colors, workers);
+        return {"normal", std::nullopt};
+    case ColorBy::Kind::attribute:
+        return {by.attribute,
+                color_values(column_values(points, by.attribute, workers), by.range, colors, workers)};
+    case ColorBy::Kind::values:
+        require(points.values.size() == colors.size(), "a value a colour");
+        return {by.title, color_values(points.values, by.range, colors, workers)};
+    }
+    std::ranges::fill(colors, packed(by.plain));
+    return {};
+}
+
+} // namespace knead

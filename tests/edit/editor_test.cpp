@@ -1,0 +1,311 @@
+#include "edit/editor.h"
+
+#include "edit/live.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace knead::test {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// An editor with the bar, seen from the front: z upwards, the ends at the top and at the bottom.
+class BarEditor : public ::testing::Test {
+protected:
+    void SetUp() override {
+        editor_.viewport = {800, 800};
+        editor_.tools.select = SelectTool::box;
+        OpenRequest request;
+        request.file = bar_file(folder_);
+        request.device = "reference";
+        request.threads = 1;
+        open(editor_, request);
+        ASSERT_TRUE(wait_until([&] { return refresh(editor_) && editor_.document; }));
+        calm();
+        apply(editor_, LookAtSide{Side::front});
+        apply(editor_, FrameView{});
+    }
+
+    void calm() {
+        wait_until_idle(*editor_.live);
+        refresh(editor_);
+        refresh(editor_);
+    }
+
+    glm::dvec2 pixel_of(const glm::dvec3& point) {
+        return project(editor_.camera, editor_.viewport, point)->pixel;
+    }
+
+    // Everything between two heights, through the bar.
+    void select_heights(double low, double high, SelectMode mode = SelectMode::replace) {
+        const ScreenBox box{{0, pixel_of({0, 0, high}).y}, {800, pixel_of({0, 0, low}).y}};
+        apply(editor_, SelectRegion{box, mode, true});
+    }
+
+    std::size_t points_between(double low, double high) {
+        const std::vector<float>& positions = editor_.frame.positions;
+        std::size_t count = 0;
+        for (std::size_t i = 2; i < positions.size(); i += 3)
+            count += positions[i] >= static_cast<float>(low) && positions[i] <= static_cast<float>(high);
+        return count;
+    }
+
+    void make_handles() {
+        editor_.camera.orthographic = true;
+        select_heights(-3, -2);
+        apply(editor_, MakeHandle{HandleRole::fixed, "low"});
+        select_heights(2, 3);
+        apply(editor_, MakeHandle{HandleRole::moving, "high"});
+        calm();
+    }
+
+    void press(char letter, Modifiers held = {}) { handle_input(editor_, KeyPress{key(letter), held}); }
+    void press(Key which) { handle_input(editor_, KeyPress{which, {}}); }
+    void move(glm::dvec2 cursor) { handle_input(editor_, MouseMove{cursor, {}}); }
+    void type(std::string_view text) {
+        for (const char c : text) {
+            handle_input(editor_, KeyPress{key(c), {}});
+            handle_input(editor_, Character{static_cast<char32_t>(c)});
+        }
+    }
+
+    // The middle of the chosen handle's points in the shape as opened.
+    glm::dvec3 middle_at_rest() {
+        glm::dvec3 sum(0.0);
+        for (const Index i : *chosen_handle(editor_)->points) {
+            const float* p = editor_.opened.opened->positions.data() + 3 * std::size_t{editor_.ordered[i]};
+            sum += glm::dvec3(p[0], p[1], p[2]);
+        }
+        return sum / static_cast<double>(chosen_handle(editor_)->points->size());
+    }
+
+    ScratchFolder folder_;
+    Editor editor_{1};
+};
+
+glm::dvec3 to_glm_vector(const Vec3d& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+} // namespace
+
+TEST_F(BarEditor, SelectsWhatTheBoxHolds) {
+    editor_.camera.orthographic = true;
+    select_heights(1, 3);
+    EXPECT_EQ(editor_.selected, points_between(1, 3));
+    select_heights(-3, -1, SelectMode::add);
+    EXPECT_EQ(editor_.selected, points_between(1, 3) + points_between(-3, -1));
+    select_heights(2, 3, SelectMode::remove);
+    EXPECT_EQ(editor_.selected, points_between(1, 3) + points_between(-3, -1) - points_between(2, 3));
+}
+
+TEST_F(BarEditor, VisibleOnlyLeavesTheBackAlone) {
+    const ScreenBox all{{0, 0}, {800, 800}};
+    apply(editor_, SelectRegion{all, SelectMode::replace, true});
+    EXPECT_EQ(editor_.selected, 3000U);
+    apply(editor_, SelectRegion{all, SelectMode::replace, false});
+    EXPECT_GT(editor_.selected, 500U);
+    EXPECT_LT(editor_.selected, 1500U);
+}
+
+TEST_F(BarEditor, UndoAndRedoGoOverSelectionsToo) {
+    editor_.camera.orthographic = true;
+    select_heights(1, 3);
+    const auto first = editor_.marks;
+    apply(editor_, ChangeSelection{SelectionStep::invert});
+    const auto second = editor_.marks;
+    apply(editor_, ChangeHidden{HideStep::hide_selected});
+    EXPECT_EQ(editor_.hidden, 3000U - points_between(1, 3));
+    apply(editor_, UndoStep{});
+    EXPECT_EQ(editor_.marks, second);
+    apply(editor_, UndoStep{});
+    EXPECT_EQ(editor_.marks, first);
+    apply(editor_, RedoStep{});
+    EXPECT_EQ(editor_.marks, second);
+    apply(editor_, UndoStep{});
+    apply(editor_, UndoStep{});
+    EXPECT_EQ(editor_.selected, 0U);
+    EXPECT_FALSE(can_undo(editor_));
+}
+
+TEST_F(BarEditor, GrowingAndShrinkingGoAlongTheSurface) {
+    editor_.camera.orthographic = true;
+    select_heights(1, 3);
+    const std::size_t before = editor_.selected;
+    apply(editor_, ChangeSelection{SelectionStep::grow});
+    EXPECT_GT(editor_.selected, before);
+    EXPECT_LT(editor_.selected, points_between(0.5, 3));
+    apply(editor_, ChangeSelection{SelectionStep::shrink});
+    apply(editor_, ChangeSelection{SelectionStep::shrink});
+    EXPECT_LT(editor_.selected, before);
+    EXPECT_GT(editor_.selected, points_between(1.5, 3));
+    apply(editor_, ChangeSelection{SelectionStep::connected});
+    EXPECT_EQ(editor_.selected, 3000U);
+}
+
+TEST_F(BarEditor, ASelectionBecomesAHandleAndBackInOneStep) {
+    make_handles();
+    ASSERT_EQ(editor_.document->handles.size(), 2U);
+    EXPECT_EQ(editor_.document->handles[1].points->size(), points_between(2, 3));
+    EXPECT_EQ(editor_.chosen, "high");
+    EXPECT_EQ(editor_.selected, 0U);
+    EXPECT_EQ(std::ranges::count(editor_.marks, handle_mark(1)),
+              static_cast<std::ptrdiff_t>(points_between(2, 3)));
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(editor_.document->handles.size(), 1U);
+    EXPECT_EQ(editor_.selected, points_between(2, 3));
+    EXPECT_EQ(editor_.chosen, "");
+    apply(editor_, RedoStep{});
+    calm();
+    EXPECT_EQ(editor_.document->handles.size(), 2U);
+    EXPECT_EQ(editor_.selected, 0U);
+}
+
+TEST_F(BarEditor, RXNinetyEnterTurnsTheHandleByNinetyDegrees) {
+    make_handles();
+    move({400, 100});
+    press('R');
+    press('X');
+    type("90");
+    press(Key::enter);
+    calm();
+    ASSERT_TRUE(editor_.document->posed);
+    const Eigen::AngleAxisd turn(editor_.document->motions[1].rotation);
+    EXPECT_NEAR(turn.angle(), pi / 2, 1e-12);
+    EXPECT_NEAR(std::abs(turn.axis().x()), 1, 1e-12);
+    // About the middle of the handle's points: that stays where it is.
+    EXPECT_NEAR(glm::length(editor_.handle_middle - middle_at_rest()), 0, 1e-5);
+}
+
+TEST_F(BarEditor, EscapeTakesADragBack) {
+    make_handles();
+    const std::vector<float> rest = editor_.frame.positions;
+    const std::size_t steps = editor_.past.size();
+    move({400, 100});
+    press('G');
+    move({500, 150});
+    press(Key::escape);
+    calm();
+    EXPECT_EQ(editor_.frame.positions, rest);
+    EXPECT_EQ(editor_.past.size(), steps);
+    EXPECT_FALSE(editor_.document->posed);
+}
+
+TEST_F(BarEditor, TheHandleFollowsTheCursor) {
+    make_handles();
+    move({400, 100});
+    press('G');
+    move({460, 130});
+    move({500, 150});
+    const double pixel = pixel_size_at(editor_.camera, editor_.viewport, editor_.handle_middle);
+    press(Key::enter);
+    calm();
+    const Vec3d offset = editor_.document->motions[1].offset;
+    const Ray ray = ray_through(editor_.camera, editor_.viewport, {400, 400});
+    EXPECT_NEAR(offset.norm(), std::hypot(100, 50) * pixel, 1e-9);
+    EXPECT_NEAR(to_glm_vector(offset).z, -50 * pixel, 1e-9);
+    EXPECT_NEAR(glm::dot(to_glm_vector(offset), ray.direction), 0, 1e-9);
+}
+
+TEST_F(BarEditor, EnterCommitsAndSaysSoWhenThereIsNothing) {
+    make_handles();
+    press('R');
+    type("30");
+    press(Key::enter);
+    calm();
+    press(Key::enter);
+    calm();
+    EXPECT_FALSE(editor_.document->posed);
+    editor_.notices.clear();
+    press(Key::enter);
+    ASSERT_EQ(editor_.notices.size(), 1U);
+    EXPECT_NE(editor_.notices[0].words.find("Nothing is posed"), std::string::npos);
+}
+
+TEST_F(BarEditor, MirroringTakesThePointsAndThePoseAcross) {
+    make_handles();
+    move({400, 100});
+    press('R');
+    press('X');
+    type("40");
+    press(Key::enter);
+    calm();
+    const Eigen::AngleAxisd first(editor_.document->motions[1].rotation);
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    ASSERT_EQ(editor_.document->handles.size(), 3U);
+    const Handle& mirrored = editor_.document->handles[2];
+    EXPECT_EQ(mirrored.name, "high mirrored");
+    EXPECT_NEAR(static_cast<double>(mirrored.points->size()), static_cast<double>(points_between(-3, -2)),
+                60);
+    const Eigen::AngleAxisd turn(editor_.document->motions[2].rotation);
+    EXPECT_NEAR(turn.angle(), 40 * pi / 180, 1e-9);
+    EXPECT_NEAR(turn.axis().x() * first.axis().x(), -1, 1e-9);
+}
+
+TEST_F(BarEditor, AFailedOpeningLeavesThePresentDocument) {
+    make_handles();
+    OpenRequest request;
+    request.file = folder_ / "nothing.ply";
+    open(editor_, request);
+    ASSERT_TRUE(wait_until([&] {
+        refresh(editor_);
+        return !editor_.opening;
+    }));
+    EXPECT_EQ(editor_.document->handles.size(), 2U);
+    EXPECT_EQ(editor_.notices.size(), 1U);
+}
+
+TEST_F(BarEditor, LeadsTheArtistFromStepToStep) {
+    EXPECT_NE(next_step(editor_).find("lasso"), std::string::npos);
+    editor_.camera.orthographic = true;
+    select_heights(2, 3);
+    EXPECT_NE(next_step(editor_).find("Press H"), std::string::npos);
+    press('H');
+    calm();
+    EXPECT_NE(next_step(editor_).find("Nothing holds the rest"), std::string::npos);
+    select_heights(-3, -2);
+    press('H', {.shift = true});
+    calm();
+    EXPECT_NE(next_step(editor_).find("gizmo"), std::string::npos);
+}
+
+TEST_F(BarEditor, KnowsWhatIsUnsaved) {
+    EXPECT_FALSE(has_unsaved_session(editor_));
+    make_handles();
+    EXPECT_TRUE(has_unsaved_session(editor_));
+    editor_.live->save_session(folder_ / "a.knead");
+    calm();
+    EXPECT_FALSE(has_unsaved_session(editor_));
+    press('R');
+    type("30");
+    press(Key::enter);
+    calm();
+    EXPECT_TRUE(has_unsaved_session(editor_));
+    editor_.live->save_cloud(folder_ / "b.ply");
+    calm();
+    EXPECT_FALSE(has_unsaved_session(editor_));
+}
+
+TEST_F(BarEditor, DisplacementAndStretchAreThoseOfTheShape) {
+    make_handles();
+    EXPECT_EQ(std::ranges::max(displacements(editor_)), 0.0F);
+    for (const float stretch : local_stretch(editor_)) EXPECT_EQ(stretch, 1.0F);
+    move({400, 100});
+    press('G');
+    press('Z');
+    type("1");
+    press(Key::enter);
+    calm();
+    EXPECT_NEAR(static_cast<double>(std::ranges::max(displacements(editor_))), 1, 0.05);
+    const std::vector<float> stretch = local_stretch(editor_);
+    double sum = 0;
+    for (const float s : stretch) sum += static_cast<double>(s);
+    EXPECT_GT(sum / static_cast<double>(stretch.size()), 1.05);
+}
+
+} // namespace knead::test

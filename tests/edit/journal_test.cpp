@@ -1,0 +1,89 @@
+#include "edit/journal.h"
+
+#include "base/error.h"
+#include "support/scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace knead::test {
+
+namespace {
+
+constexpr const char* header = R"({"knead":1,"cloud":{"path":"/somewhere/cat.ply"}})";
+constexpr const char* commit = R"({"op":"commit"})";
+
+std::filesystem::path abandoned(const ScratchFolder& folder, const std::string& last = "") {
+    Journal journal = Journal::create(folder.path(), header);
+    journal.append(commit);
+    const std::filesystem::path file = journal.file();
+    if (!last.empty()) write_text(file, read_text(file) + last);
+    return file;
+}
+
+} // namespace
+
+TEST(Journal, HoldsEveryLineAtOnce) {
+    const ScratchFolder folder;
+    Journal journal = Journal::create(folder.path() / "deep" / "state", header);
+    EXPECT_EQ(read_text(journal.file()), std::string(header) + "\n");
+    journal.append(commit);
+    EXPECT_EQ(read_text(journal.file()), std::string(header) + "\n" + commit + "\n");
+}
+
+TEST(Journal, IsFoundOnceNobodyHasItOpen) {
+    const ScratchFolder folder;
+    {
+        Journal journal = Journal::create(folder.path(), header);
+        journal.append(commit);
+        EXPECT_TRUE(find_lost_work(folder.path()).empty());
+    }
+    const std::vector<LostWork> lost = find_lost_work(folder.path());
+    ASSERT_EQ(lost.size(), 1U);
+    EXPECT_EQ(lost[0].acts, 1U);
+    EXPECT_EQ(lost[0].cloud, "/somewhere/cat.ply");
+}
+
+TEST(Journal, OneWithoutAnActIsNotWorthKeeping) {
+    const ScratchFolder folder;
+    std::filesystem::path file;
+    {
+        const Journal journal = Journal::create(folder.path(), header);
+        file = journal.file();
+    }
+    EXPECT_TRUE(find_lost_work(folder.path()).empty());
+    EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(Journal, ALineThatWasCutShortIsDropped) {
+    const ScratchFolder folder;
+    const std::filesystem::path file = abandoned(folder, R"({"op":"settle","itera)");
+    ASSERT_EQ(find_lost_work(folder.path()).size(), 1U);
+    Journal journal = Journal::take_over(file);
+    journal.append(commit);
+    EXPECT_EQ(read_text(file), std::string(header) + "\n" + commit + "\n" + commit + "\n");
+}
+
+TEST(Journal, IsTakenOverByOneOnly) {
+    const ScratchFolder folder;
+    const std::filesystem::path file = abandoned(folder);
+    const Journal journal = Journal::take_over(file);
+    EXPECT_THROW(Journal::take_over(file), Error);
+}
+
+TEST(Journal, DiscardedIsGone) {
+    const ScratchFolder folder;
+    const std::filesystem::path file = abandoned(folder);
+    {
+        Journal journal = Journal::take_over(file);
+        journal.discard();
+    }
+    EXPECT_FALSE(std::filesystem::exists(file));
+    EXPECT_TRUE(find_lost_work(folder.path()).empty());
+}
+
+TEST(Journal, AFolderThatIsNotThereHoldsNothing) {
+    EXPECT_TRUE(find_lost_work("/nowhere/at/all").empty());
+    EXPECT_THROW(Journal::create("/proc/nowhere", header), Error);
+}
+
+} // namespace knead::test

@@ -1,0 +1,325 @@
+#include "edit/live_document.h"
+
+#include "edit/live.h"
+#include "edit/replay.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace knead::test {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+OpenRequest request_for(const std::filesystem::path& file) {
+    OpenRequest request;
+    request.file = file;
+    request.device = "reference";
+    request.threads = 2;
+    return request;
+}
+
+// A bar with handles at both ends, open.
+class LiveBar : public ::testing::Test {
+protected:
+    void SetUp() override {
+        live_ = std::make_unique<LiveDocument>(request_for(bar_file(folder_)));
+        wait_until_open(*live_);
+        ASSERT_EQ(live_->status().stage, LiveDocument::Stage::open);
+        for (const SessionAction& handle : bar_handles()) live_->post(++step_, {handle});
+        settle_down();
+    }
+
+    void settle_down() {
+        wait_until_idle(*live_);
+        live_->take_frame(frame_);
+    }
+
+    void drag(const std::vector<Transform>& poses) {
+        live_->begin_drag(++step_, "high", {0, 0, 2});
+        for (const Transform& pose : poses) {
+            live_->drag_to(pose);
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        live_->end_drag();
+        settle_down();
+    }
+
+    // Saves cloud and session, replays the session, and expects the same bytes.
+    void expect_replay_makes_the_same() {
+        live_->save_cloud(folder_ / "saved.ply");
+        live_->save_session(folder_ / "saved.knead");
+        settle_down();
+        const Session session = read_session(folder_ / "saved.knead");
+        ReplayOptions options;
+        options.out = folder_ / "replayed.ply";
+        options.device = "reference";
+        SilentProgress silent;
+        replay(session, options, silent, [](const std::string&) {});
+        EXPECT_EQ(read_text(folder_ / "saved.ply"), read_text(folder_ / "replayed.ply"));
+    }
+
+    // How far the points went from where they were opened, at most.
+    double largest_displacement() {
+        const std::vector<float>& opened = live_->opened().opened->positions;
+        double largest = 0;
+        for (std::size_t i = 0; i < opened.size(); ++i)
+            largest = std::max(largest, std::abs(static_cast<double>(frame_.positions[i] - opened[i])));
+        return largest;
+    }
+
+    ScratchFolder folder_;
+    std::unique_ptr<LiveDocument> live_;
+    PosedFrame frame_;
+    StepNumber step_ = 0;
+};
+
+} // namespace
+
+TEST_F(LiveBar, OpensWithItsPointsInTheOrderOfComputation) {
+    const OpenedCloud opened = live_->opened();
+    EXPECT_EQ(opened.cloud->size(), 3000U);
+    EXPECT_EQ(frame_.positions, opened.opened->positions);
+    EXPECT_EQ(opened.order->points(), 3000U);
+    EXPECT_GT(opened.spacing, 0.02);
+    EXPECT_LT(opened.spacing, 0.2);
+    EXPECT_TRUE(live_->view()->graph) << "stages are prepared before they are needed";
+}
+
+TEST_F(LiveBar, FollowsTheHandAndItsRecordingReplaysToTheSameBytes) {
+    std::vector<Transform> poses;
+    for (int k = 1; k <= 30; ++k) poses.push_back(turned(k * pi / 45, {1, 0, 0}));
+    drag(poses);
+    EXPECT_TRUE(live_->view()->posed);
+    EXPECT_GT(largest_displacement(), 0.3);
+    expect_replay_makes_the_same();
+}
+
+TEST_F(LiveBar, SeveralEditsReplayToTheSameBytes) {
+    drag({turned(0.5), turned(1.0)});
+    Transform lift;
+    lift.shift = {0.5, 0, 0.3};
+    lift.scale = {1.2, 1.0, 0.9};
+    drag({lift});
+    SettingsChange softer;
+    softer.stiffness = 0.05;
+    live_->post(++step_, {SetLine{softer}});
+    settle_down();
+    live_->post(++step_, {CommitLine{}});
+    drag({turned(0.7, {0, 1, 0})});
+    live_->undo();
+    live_->undo();
+    live_->redo();
+    drag({turned(-0.4, {0, 1, 0})});
+    expect_replay_makes_the_same();
+}
+
+TEST_F(LiveBar, ATypedTwoTurnsKeepsThemAll) {
+    drag({turned(4 * pi)});
+    // The handle is back where it was, and the middle has made one turn on the way: points there are at rest
+    // in position, so the recording must tell: it winds up in small steps.
+    live_->save_session(folder_ / "wound.knead");
+    settle_down();
+    const Session session = read_session(folder_ / "wound.knead");
+    const auto* line = std::get_if<DragLine>(&session.lines.at(2).action);
+    ASSERT_NE(line, nullptr);
+    EXPECT_GE(line->frames.size(), 36U);
+    Quatd before = Quatd::Identity();
+    double turned_so_far = 0;
+    for (const HandlePose& pose : line->frames) {
+        Quatd now = pose.rotate;
+        if (now.dot(before) < 0) now.coeffs() = -now.coeffs();
+        const Eigen::AngleAxisd step(now * before.conjugate());
+        turned_so_far += step.angle() * (step.axis().z() < 0 ? -1 : 1);
+        before = now;
+    }
+    EXPECT_NEAR(turned_so_far, 4 * pi, 1e-6);
+    EXPECT_NEAR(live_->view()->motions.at(1).rotation.w(), 1, 1e-9);
+}
+
+TEST_F(LiveBar, ACancelledDragNeverWas) {
+    drag({turned(0.5)});
+    const PosedFrame before = frame_;
+    const std::size_t acts = live_->view()->acts;
+    live_->begin_drag(++step_, "high", {0, 0, 2});
+    live_->drag_to(turned(2));
+    ASSERT_TRUE(wait_until([&] { return live_->take_frame(frame_) && frame_.shows_pose; }));
+    live_->cancel_drag();
+    settle_down();
+    EXPECT_EQ(frame_.positions, before.positions);
+    EXPECT_EQ(live_->view()->acts, acts);
+    EXPECT_EQ(live_->take_refused(), std::vector<StepNumber>{step_});
+    EXPECT_TRUE(live_->take_notices().empty());
+}
+
+TEST_F(LiveBar, UndoAndRedoAreExactAndOneStepADrag) {
+    const std::vector<float> rest = frame_.positions;
+    drag({turned(0.5)});
+    const std::vector<float> first = frame_.positions;
+    drag({turned(0.9, {1, 0, 0})});
+    const std::vector<float> second = frame_.positions;
+    EXPECT_EQ(live_->view()->undoable_steps, 4U);
+    live_->undo();
+    settle_down();
+    EXPECT_EQ(frame_.positions, first);
+    live_->undo();
+    settle_down();
+    EXPECT_EQ(frame_.positions, rest);
+    EXPECT_FALSE(live_->view()->posed);
+    live_->redo();
+    live_->redo();
+    settle_down();
+    EXPECT_EQ(frame_.positions, second);
+    EXPECT_EQ(live_->view()->redoable_steps, 0U);
+}
+
+TEST_F(LiveBar, CommitsBeforeALineThatNeedsIt) {
+    drag({turned(0.5)});
+    HandleLine middle{"middle", HandleRole::fixed, Region(BoxRegion{{-1, -1, -0.2}, {1, 1, 0.2}})};
+    live_->post(++step_, {middle});
+    settle_down();
+    EXPECT_FALSE(live_->view()->posed);
+    EXPECT_EQ(live_->view()->handles.size(), 3U);
+    live_->undo(); // the handle and its commit are one step
+    settle_down();
+    EXPECT_TRUE(live_->view()->posed);
+    EXPECT_EQ(live_->view()->handles.size(), 2U);
+}
+
+TEST_F(LiveBar, ARefusedStepLeavesNoTraceAndSaysWhy) {
+    const std::size_t steps = live_->view()->undoable_steps;
+    live_->post(++step_, {RenameLine{"high", "top"}, DeleteLine{"nobody"}});
+    settle_down();
+    EXPECT_EQ(live_->view()->undoable_steps, steps);
+    EXPECT_EQ(live_->view()->handles.at(1).name, "high");
+    EXPECT_EQ(live_->take_refused(), std::vector<StepNumber>{step_});
+    const std::vector<Notice> notices = live_->take_notices();
+    ASSERT_EQ(notices.size(), 1U);
+    EXPECT_EQ(notices[0].kind, Notice::Kind::error);
+    EXPECT_NE(notices[0].words.find("nobody"), std::string::npos);
+}
+
+TEST_F(LiveBar, GoesOnFromASavedSession) {
+    drag({turned(0.5), turned(1.0, {1, 0, 0})});
+    const std::vector<float> posed = frame_.positions;
+    live_->save_session(folder_ / "saved.knead");
+    settle_down();
+    LiveDocument again(request_for(folder_ / "saved.knead"));
+    wait_until_open(again);
+    ASSERT_EQ(again.status().stage, LiveDocument::Stage::open);
+    PosedFrame frame;
+    ASSERT_TRUE(again.take_frame(frame));
+    EXPECT_EQ(frame.positions, posed);
+    EXPECT_EQ(again.view()->undoable_steps, 3U);
+    EXPECT_EQ(again.saved().session_acts, again.view()->acts) << "there is nothing to save yet";
+}
+
+TEST_F(LiveBar, WhatACrashLeavesIsRestored) {
+    const std::filesystem::path state = folder_ / "state";
+    OpenRequest request = request_for(bar_file(folder_));
+    request.journal_folder = state;
+    PosedFrame posed;
+    {
+        LiveDocument live(request);
+        wait_until_open(live);
+        for (const SessionAction& handle : bar_handles()) live.post(++step_, {handle});
+        live.begin_drag(++step_, "high", {0, 0, 2});
+        live.drag_to(turned(1));
+        live.end_drag();
+        wait_until_idle(live);
+        live.take_frame(posed);
+        EXPECT_TRUE(find_lost_work(state).empty()) << "a recording that is open is not lost";
+        live.begin_drag(++step_, "high", {0, 0, 2}); // and dies in mid-drag
+        live.drag_to(turned(2));
+    }
+    const std::vector<LostWork> lost = find_lost_work(state);
+    ASSERT_EQ(lost.size(), 1U);
+    EXPECT_EQ(lost[0].acts, 4U); // two handles, the drag, its settling
+    EXPECT_EQ(lost[0].cloud, folder_ / "bar.ply");
+
+    OpenRequest restore = request_for({});
+    restore.journal_folder = state;
+    restore.restore = lost[0].journal;
+    LiveDocument live(restore);
+    wait_until_open(live);
+    ASSERT_EQ(live.status().stage, LiveDocument::Stage::open);
+    PosedFrame frame;
+    ASSERT_TRUE(live.take_frame(frame));
+    EXPECT_EQ(frame.positions, posed.positions);
+    EXPECT_EQ(live.saved().session_acts, 0U);
+    live.post(++step_, {CommitLine{}});
+    wait_until_idle(live);
+    EXPECT_EQ(read_session(lost[0].journal).lines.size(), 5U) << "the same recording goes on";
+}
+
+TEST_F(LiveBar, OnlyWhatIsNotSavedIsOfferedForRestoring) {
+    live_->save_session(folder_ / "a.knead");
+    settle_down();
+    const std::filesystem::path state = folder_ / "state";
+    OpenRequest request = request_for(folder_ / "a.knead");
+    request.journal_folder = state;
+    { // only looked at
+        LiveDocument live(request);
+        wait_until_open(live);
+        wait_until_idle(live);
+    }
+    EXPECT_TRUE(find_lost_work(state).empty());
+    { // changed and saved
+        LiveDocument live(request);
+        wait_until_open(live);
+        live.post(++step_, {RenameLine{"high", "top"}});
+        live.save_session(folder_ / "b.knead");
+        wait_until_idle(live);
+    }
+    EXPECT_TRUE(find_lost_work(state).empty());
+    { // changed, saved, and changed again
+        LiveDocument live(request);
+        wait_until_open(live);
+        live.post(++step_, {RenameLine{"high", "top"}});
+        live.save_session(folder_ / "c.knead");
+        live.post(++step_, {RenameLine{"low", "bottom"}});
+        wait_until_idle(live);
+    }
+    const std::vector<LostWork> lost = find_lost_work(state);
+    ASSERT_EQ(lost.size(), 1U);
+    EXPECT_EQ(lost[0].acts, 4U) << "it holds everything from the beginning";
+}
+
+TEST_F(LiveBar, SavesDisplacementAndStretchOnWish) {
+    Transform lift;
+    lift.shift = {0, 0, 1};
+    drag({lift});
+    live_->save_cloud(folder_ / "more.ply", {true, true});
+    settle_down();
+    SilentProgress silent;
+    const PointCloud saved = read_cloud(folder_ / "more.ply", silent);
+    const auto far = find_attribute(saved, "displacement");
+    const auto stretch = find_attribute(saved, "stretch");
+    ASSERT_TRUE(far && stretch);
+    double mean = 0;
+    for (std::size_t i = 0; i < saved.size(); ++i) {
+        const Vec3d went = saved.file_position(i) - live_->opened().cloud->file_position(i);
+        EXPECT_NEAR(value_at(saved.attributes[*far], i), went.norm(), 1e-5);
+        mean += value_at(saved.attributes[*stretch], i) / static_cast<double>(saved.size());
+    }
+    EXPECT_GT(mean, 1.05);
+    EXPECT_LT(mean, 1.3);
+}
+
+TEST(LiveDocument, SaysWhyAFileCannotBeOpened) {
+    LiveDocument live(request_for("/nowhere/at/all.ply"));
+    wait_until_open(live);
+    EXPECT_EQ(live.status().stage, LiveDocument::Stage::failed);
+    const std::vector<Notice> notices = live.take_notices();
+    ASSERT_EQ(notices.size(), 1U);
+    EXPECT_NE(notices[0].words.find("/nowhere/at/all.ply"), std::string::npos);
+}
+
+TEST(LiveDocument, ClosesAtOnceWhileItOpens) {
+    const ScratchFolder folder;
+    LiveDocument live(request_for(bar_file(folder, 100000)));
+    live.cancel_opening();
+}
+
+} // namespace knead::test

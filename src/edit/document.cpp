@@ -105,23 +105,32 @@ void Document::begin_drag(const std::string& handle, const Vec3d& pivot, const s
     require(!under_way_ && mode_ == Mode::real, "a drag begins when nothing else goes on");
     const Index index = movable_handle(handle, place);
     prepare(progress);
-    under_way_.emplace(UnderWay{now_, now_.samples ? *now_.samples : pipeline_.rest_state(), index, pivot});
+    under_way_.emplace(
+        UnderWay{now_, now_.samples ? *now_.samples : pipeline_.rest_state(), {}, index, pivot});
 }
 
 double Document::drag_frame(const HandlePose& pose, const std::string& place, Progress& progress) {
     require(under_way_ && under_way_->handle != no_index, "a frame of a drag follows its begin");
     UnderWay& drag = *under_way_;
     HandleMotion& motion = drag.next.motions[drag.handle];
-    const HandleMotion next = motion_of(pose, drag.pivot, cloud_.origin, motion.rotation);
+    const HandleMotion before = motion;
+    const HandleMotion next = motion_of(pose, drag.pivot, cloud_.origin, before.rotation);
     refuse_absurd(next, bounds_.diagonal(), drag.frames, place);
-    motion = next;
-    pipeline_.follow_handles(drag.next.motions, drag.samples);
+    drag.samples_before = drag.samples; // into the same memory, frame by frame
     double way = 0;
-    for (unsigned i = 0; i < drag.next.settings.iterations; ++i) {
-        progress.stop_if_cancelled();
-        way = iterate_once(drag);
+    try {
+        motion = next;
+        pipeline_.follow_handles(drag.next.motions, drag.samples);
+        for (unsigned i = 0; i < drag.next.settings.iterations; ++i) {
+            progress.stop_if_cancelled();
+            way = iterate_once(drag);
+        }
+        upsample(drag.next.motions, drag.samples);
+    } catch (...) {
+        motion = before;
+        drag.samples = drag.samples_before;
+        throw;
     }
-    upsample(drag.next.motions, drag.samples);
     ++drag.frames;
     ++log_.frames;
     return way;
@@ -212,6 +221,7 @@ void Document::rename(const RenameLine& line, const std::string& place) {
 }
 
 void Document::undo(const std::string& place) {
+    require(!under_way_, "an act comes after the drag that goes on");
     if (past_.empty()) throw Error(Trouble::input, place, "there is nothing to undo");
     future_.push_back(std::exchange(now_, std::move(past_.back())));
     past_.pop_back();
@@ -219,6 +229,7 @@ void Document::undo(const std::string& place) {
 }
 
 void Document::redo(const std::string& place) {
+    require(!under_way_, "an act comes after the drag that goes on");
     if (future_.empty()) throw Error(Trouble::input, place, "there is nothing to redo");
     past_.push_back(std::exchange(now_, std::move(future_.back())));
     future_.pop_back();
@@ -298,6 +309,7 @@ void Document::refuse_while_posed(const std::string& what, const std::string& pl
 }
 
 void Document::take(State next) {
+    require(!under_way_, "an act comes after the drag that goes on");
     past_.push_back(std::exchange(now_, std::move(next)));
     future_.clear();
     posed_is_now_ = false;

@@ -115,8 +115,8 @@ private:
     // What begin_drag() and begin_settling() began.
     struct UnderWay {
         State next;
-        SampleState samples;
-        Index handle = no_index; // no_index: settling
+        SampleState samples, samples_before = {}; // the latter: before the frame that is being computed
+        Index handle = no_index;                  // no_index: settling
         Vec3d pivot = Vec3d::Zero();
         std::size_t frames = 0;
         unsigned iterations = 0; // of settling

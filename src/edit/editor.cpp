@@ -1,5 +1,6 @@
 #include "edit/editor.h"
 
+#include "base/error.h"
 #include "edit/editor_steps.h"
 #include "view/framing.h"
 
@@ -49,6 +50,8 @@ void take_over(Editor& editor) {
     editor.live->take_frame(editor.frame);
     editor.drag.reset();
     editor.chosen.clear();
+    editor.chosen_by = 0;
+    editor.posted_names.clear();
     editor.pivot.reset();
     editor.tools.drag.reset();
     editor.tools.doing = Tools::Doing::nothing;
@@ -57,8 +60,8 @@ void take_over(Editor& editor) {
     const std::vector<Index>& file_index = editor.opened.order->file_index;
     for (Index i = 0; i < file_index.size(); ++i) editor.ordered[file_index[i]] = i;
     editor.marks.assign(file_index.size(), 0);
-    editor.past.assign(editor.document->undoable_steps, EditorStep{1, nullptr, nullptr});
-    editor.future.assign(editor.document->redoable_steps, EditorStep{1, nullptr, nullptr});
+    editor.past.assign(editor.document->undoable_steps, EditorStep{1});
+    editor.future.assign(editor.document->redoable_steps, EditorStep{1});
     mark_handles(editor);
     editor.camera = first_view(bulk_box(editor.frame.positions), editor.viewport);
     editor.changes = {};
@@ -79,12 +82,14 @@ bool refresh_opening(Editor& editor) {
 // A step that the document refused is no step: it leaves the history, and the selection comes back.
 void forget_refused(Editor& editor) {
     for (const StepNumber step : editor.live->take_refused()) {
+        std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first == step; });
+        std::erase_if(editor.future, [&](const EditorStep& future) { return future.document == step; });
+        if (editor.chosen_by == step) editor.chosen.clear();
+        if (editor.drag && editor.drag->step == step) editor.drag.reset();
         const auto found = std::ranges::find(editor.past, step, &EditorStep::document);
-        if (found == editor.past.end() || step == 0) continue;
+        if (found == editor.past.end()) continue;
         if (found->before) restore_selection(editor, *found->before);
         editor.past.erase(found);
-        if (editor.drag && editor.drag->step == step) editor.drag.reset();
-        if (std::exchange(editor.chosen_is_new, false)) editor.chosen.clear();
     }
 }
 
@@ -94,8 +99,10 @@ bool refresh_view(Editor& editor) {
     const bool other_handles = !hold_the_same(view->handles, editor.document->handles);
     editor.document = std::move(view);
     if (other_handles) mark_handles(editor);
-    if (chosen_handle(editor)) editor.chosen_is_new = false;
-    if (!editor.chosen_is_new && !chosen_handle(editor)) editor.chosen.clear();
+    std::erase_if(editor.posted_names,
+                  [&](const auto& posted) { return posted.first <= editor.document->last_step; });
+    if (editor.chosen_by <= editor.document->last_step) editor.chosen_by = 0;
+    if (editor.chosen_by == 0 && !chosen_handle(editor)) editor.chosen.clear();
     if (editor.drag && editor.drag->ended && editor.document->last_step >= editor.drag->step)
         editor.drag.reset();
     return true;
@@ -196,9 +203,12 @@ void carry_out(Editor& editor, const SelectPointUnder& command) {
     const Index hit = point_under(editor.camera, editor.viewport, editor.frame.positions,
                                   hidden_points(editor), command.pixel, click_radius, editor.workers);
     if (hit != no_index && command.mode == SelectMode::replace && (editor.marks[hit] & mark_handle)) {
-        const std::size_t handle = (editor.marks[hit] & mark_handle) - 1U;
-        if (handle < editor.document->handles.size())
-            return carry_out(editor, ChooseHandle{editor.document->handles[handle].name});
+        const Index point = editor.opened.order->file_index[hit];
+        const auto& handles = editor.document->handles;
+        for (std::size_t h = handles.size(); h-- > 0;)
+            if (handle_mark(h) == (editor.marks[hit] & mark_handle) &&
+                std::ranges::binary_search(*handles[h].points, point))
+                return carry_out(editor, ChooseHandle{handles[h].name});
     }
     std::vector<std::uint8_t> inside(editor.marks.size());
     if (hit != no_index) inside[hit] = 1;
@@ -243,9 +253,13 @@ void carry_out(Editor& editor, const ChangeHidden& command) {
 
 void carry_out(Editor& editor, const ChangeSettings& command) {
     if (!needs_document(editor)) return;
+    // A slider that goes on being moved is one step.
+    if (!editor.past.empty() && editor.past.back().of_settings && editor.future.empty())
+        return editor.live->post(++editor.last_step, {SetLine{command.change}}, true);
     const StepNumber step = ++editor.last_step;
     editor.live->post(step, {SetLine{command.change}});
     add_step(editor, step, nullptr);
+    editor.past.back().of_settings = true;
 }
 
 void carry_out(Editor& editor, const CommitPose& /*command*/) {
@@ -262,7 +276,7 @@ void carry_out(Editor& editor, const UndoStep& /*command*/) {
     EditorStep step = std::move(editor.past.back());
     editor.past.pop_back();
     if (step.before) restore_selection(editor, *step.before);
-    if (step.document) editor.live->undo();
+    if (step.document) editor.live->undo(step.document);
     editor.drag.reset();
     editor.future.push_back(std::move(step));
 }
@@ -271,7 +285,7 @@ void carry_out(Editor& editor, const RedoStep& /*command*/) {
     if (!can_redo(editor)) return;
     EditorStep step = std::move(editor.future.back());
     editor.future.pop_back();
-    if (step.document) editor.live->redo();
+    if (step.document) editor.live->redo(step.document);
     if (step.after) restore_selection(editor, *step.after);
     editor.past.push_back(std::move(step));
 }
@@ -305,7 +319,11 @@ void carry_out(Editor& editor, const SetPivotUnder& command) {
 } // namespace
 
 void apply(Editor& editor, const Command& command) {
-    std::visit([&](const auto& c) { carry_out(editor, c); }, command);
+    try {
+        std::visit([&](const auto& c) { carry_out(editor, c); }, command);
+    } catch (const Error& error) {
+        say(editor, Notice::Kind::error, error.what());
+    }
 }
 
 bool handle_input(Editor& editor, const Input& input) {

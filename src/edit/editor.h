@@ -27,9 +27,11 @@ struct EditorChanges {
 
 // One step of undo: a change of selection and hiding, a step of the document, or both.
 struct EditorStep {
-    StepNumber document = 0;                                 // 0: none
-    std::shared_ptr<const std::vector<std::uint8_t>> before; // marks, of a step that changed them; else null
-    std::shared_ptr<const std::vector<std::uint8_t>> after;
+    StepNumber document = 0; // 0: none
+    std::shared_ptr<const std::vector<std::uint8_t>> before =
+        {}; // marks, of a step that changed them; else null
+    std::shared_ptr<const std::vector<std::uint8_t>> after = {};
+    bool of_settings = false; // further settings join it
 };
 
 // The drag that goes on, or that ended and that the document has not answered yet.
@@ -39,6 +41,7 @@ struct EditorDrag {
     glm::dquat local_axes{1, 0, 0, 0}; // of the handle then
     Transform transform;               // so far
     bool ended = false;
+    std::vector<EditorStep> future; // what could be redone before it, should it be cancelled
 };
 
 struct Editor {
@@ -62,7 +65,7 @@ struct Editor {
     std::size_t selected = 0;        // points
     std::size_t hidden = 0;
     std::string chosen;              // the handle with the gizmo; empty: none
-    bool chosen_is_new = false;      // the document has not made it yet
+    StepNumber chosen_by = 0;        // the step that makes the chosen handle, until the document has it
     std::optional<glm::dvec3> pivot; // of the gizmo, where the user moved it
     bool local_axes = false;         // the gizmo's
 
@@ -76,7 +79,9 @@ struct Editor {
 
     // --- Going back ---
     std::vector<EditorStep> past, future;
-    StepNumber last_step = 0;
+    StepNumber last_step = 1; // 1 is the number of all steps of a session that was opened
+    // Names of handles that were posted and that the document has not shown yet.
+    std::vector<std::pair<StepNumber, std::string>> posted_names;
 
     std::vector<Notice> notices; // for the user, oldest first; the window takes them
     EditorChanges changes;

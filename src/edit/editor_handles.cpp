@@ -58,7 +58,9 @@ std::vector<IndexRange> ranges_of(const std::vector<Index>& points) {
 std::string free_name(const Editor& editor, HandleRole role) {
     for (unsigned number = 1;; ++number) {
         std::string name = std::string(word_for(role)) + " " + std::to_string(number);
-        if (!number_of(editor, name)) return name;
+        const bool is_posted = std::ranges::any_of(editor.posted_names,
+                                                   [&](const auto& posted) { return posted.second == name; });
+        if (!number_of(editor, name) && !is_posted) return name;
     }
 }
 
@@ -75,12 +77,13 @@ void carry_out(Editor& editor, const MakeHandle& command) {
     auto before = snapshot(editor);
     select_none(editor.marks, editor.workers);
     marks_changed(editor);
-    if (command.role == HandleRole::moving) {
-        editor.chosen = line.name;
-        editor.chosen_is_new = true;
-        editor.pivot.reset();
-    }
-    post(editor, {std::move(line)}, std::move(before));
+    const std::string name = line.name;
+    const StepNumber step = post(editor, {std::move(line)}, std::move(before));
+    editor.posted_names.emplace_back(step, name);
+    if (command.role != HandleRole::moving) return;
+    editor.chosen = name;
+    editor.chosen_by = step;
+    editor.pivot.reset();
 }
 
 void carry_out(Editor& editor, const ChooseHandle& command) {
@@ -93,11 +96,11 @@ void carry_out(Editor& editor, const RenameHandle& command) {
     if (!number_of(editor, command.handle) || command.to.empty() || command.to == command.handle) return;
     if (number_of(editor, command.to))
         return say(editor, Notice::Kind::error, "There is a handle \"" + command.to + "\" already.");
-    post(editor, {RenameLine{command.handle, command.to}});
-    if (editor.chosen == command.handle) {
-        editor.chosen = command.to;
-        editor.chosen_is_new = true;
-    }
+    const StepNumber step = post(editor, {RenameLine{command.handle, command.to}});
+    editor.posted_names.emplace_back(step, command.to);
+    if (editor.chosen != command.handle) return;
+    editor.chosen = command.to;
+    editor.chosen_by = step;
 }
 
 void carry_out(Editor& editor, const ChangeRole& command) {
@@ -124,6 +127,7 @@ void carry_out(Editor& editor, const SelectHandlePoints& command) {
         if (editor.ordered[i] != no_index) inside[editor.ordered[i]] = 1;
     auto before = snapshot(editor);
     select(editor.marks, inside, command.mode, editor.workers);
+    if (*before == editor.marks) return;
     marks_changed(editor);
     add_step(editor, 0, std::move(before));
 }
@@ -293,8 +297,8 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
             drag_towards(line.name, motion, rest_middle(editor, points), editor.opened.cloud->origin));
     }
     editor.chosen = line.name;
-    editor.chosen_is_new = true;
-    post(editor, std::move(lines));
+    editor.chosen_by = post(editor, std::move(lines));
+    editor.posted_names.emplace_back(editor.chosen_by, line.name);
 }
 
 // --- Dragging
@@ -312,9 +316,11 @@ void carry_out(Editor& editor, const BeginDrag& command) {
     if (editor.drag) // the last one is not answered yet
         drag.local_axes = glm::angleAxis(editor.drag->transform.angle, editor.drag->transform.axis) *
                           editor.drag->local_axes;
-    editor.drag = drag;
-    editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin);
-    add_step(editor, drag.step, nullptr);
+    drag.future = std::move(editor.future);
+    editor.drag = std::move(drag);
+    editor.live->begin_drag(editor.last_step, editor.chosen,
+                            to_eigen(command.pivot) + editor.opened.cloud->origin);
+    add_step(editor, editor.last_step, nullptr);
 }
 
 void carry_out(Editor& editor, const DragTo& command) {
@@ -333,9 +339,11 @@ void carry_out(Editor& editor, const EndDrag& /*command*/) {
 
 void carry_out(Editor& editor, const CancelDrag& /*command*/) {
     if (!editor.drag || editor.drag->ended) return;
-    const StepNumber step = editor.drag->step;
+    if (!editor.past.empty() && editor.past.back().document == editor.drag->step) {
+        editor.past.pop_back();
+        editor.future = std::move(editor.drag->future);
+    }
     editor.drag.reset();
-    std::erase_if(editor.past, [&](const EditorStep& past) { return past.document == step; });
     editor.live->cancel_drag();
 }
 

@@ -96,7 +96,10 @@ Journal Journal::create(const std::filesystem::path& folder, const std::string& 
         if (descriptor < 0 && errno == EEXIST && attempt < 1000) continue;
         if (descriptor < 0) fail(file, Trouble::output, "begin");
         Journal journal(file, descriptor);
-        lock(descriptor);
+        // Somebody who looks for lost work may have it for a moment, and may have removed it.
+        ::flock(descriptor, LOCK_EX);
+        struct stat status {};
+        if (::fstat(descriptor, &status) == 0 && status.st_nlink == 0) continue;
         journal.append(header);
         return journal;
     }
@@ -128,8 +131,15 @@ Journal& Journal::operator=(Journal&& other) noexcept {
 }
 
 void Journal::append(std::string_view line) {
-    write_all(descriptor_, std::string(line) + "\n", file_);
-    if (::fdatasync(descriptor_) != 0) fail(file_, Trouble::output, "sync");
+    const off_t before = ::lseek(descriptor_, 0, SEEK_END);
+    try {
+        write_all(descriptor_, std::string(line) + "\n", file_);
+        if (::fdatasync(descriptor_) != 0) fail(file_, Trouble::output, "sync");
+    } catch (...) {
+        // Whole lines only; if even that fails, take_over() drops the piece.
+        [[maybe_unused]] const int cut = ::ftruncate(descriptor_, before);
+        throw;
+    }
 }
 
 void Journal::discard() {

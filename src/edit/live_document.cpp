@@ -42,8 +42,8 @@ void put(Locked<LiveShared>& shared, LiveTask task) {
 
 } // namespace
 
-void LiveDocument::post(StepNumber step, std::vector<SessionAction> lines) {
-    put(*shared_, task::Lines{step, std::move(lines)});
+void LiveDocument::post(StepNumber step, std::vector<SessionAction> lines, bool joins_last) {
+    put(*shared_, task::Lines{step, std::move(lines), joins_last});
 }
 
 void LiveDocument::begin_drag(StepNumber step, std::string handle, Vec3d pivot) {
@@ -70,12 +70,12 @@ void LiveDocument::cancel_drag() {
     });
 }
 
-void LiveDocument::undo() {
-    put(*shared_, task::Undo{});
+void LiveDocument::undo(StepNumber step) {
+    put(*shared_, task::Undo{step});
 }
 
-void LiveDocument::redo() {
-    put(*shared_, task::Redo{});
+void LiveDocument::redo(StepNumber step) {
+    put(*shared_, task::Redo{step});
 }
 
 void LiveDocument::save_cloud(std::filesystem::path target, SaveColumns columns) {

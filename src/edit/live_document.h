@@ -121,7 +121,8 @@ public:
 
     // Carries out session lines as one step of undo. Where a line may not stand while handles are posed, a
     // commit is put before it. A refused step is told by take_refused(), and leaves no trace.
-    void post(StepNumber step, std::vector<SessionAction> lines);
+    // `joins_last`: it is undone together with the step before it (a slider that goes on being moved).
+    void post(StepNumber step, std::vector<SessionAction> lines, bool joins_last = false);
 
     // A drag of a moving handle: frames go on until end_drag(), the newest pose first. `pivot` is in the
     // file's coordinates.
@@ -130,8 +131,10 @@ public:
     void end_drag();
     void cancel_drag(); // as if it had not begun; its step counts as refused without words
 
-    void undo(); // the last step that was not refused
-    void redo();
+    // Takes the last step back, or does it again. `step` is its number, so that nothing happens if it was
+    // refused meanwhile.
+    void undo(StepNumber step);
+    void redo(StepNumber step);
 
     // Writes the shape as it is now / the session so far. Success and failure come as notices.
     void save_cloud(std::filesystem::path target, SaveColumns columns = {});

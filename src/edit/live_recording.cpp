@@ -16,8 +16,9 @@ std::filesystem::path relative_to(const std::filesystem::path& path, const std::
     return way.empty() ? path : way;
 }
 
-std::size_t count_steps(const std::vector<bool>& joins) {
-    return static_cast<std::size_t>(std::ranges::count(joins, false));
+template<typename Acts>
+std::size_t count_steps(const Acts& acts) {
+    return static_cast<std::size_t>(std::ranges::count_if(acts, [](const auto& act) { return !act.joins; }));
 }
 
 } // namespace
@@ -43,7 +44,7 @@ LiveRecording::LiveRecording(const Session& session, const std::optional<std::fi
     header_.lines.clear();
     if (restored) {
         journal_ = Journal::take_over(*restored);
-        lines_written_before_ = session.lines.size();
+        written_ = session.lines.size();
     }
 }
 
@@ -51,10 +52,11 @@ void LiveRecording::discard() {
     if (journal_) journal_->discard();
     if (journal_) folder_ = journal_->file().parent_path();
     journal_.reset();
+    written_ = 0;
 }
 
 void LiveRecording::add(const SessionAction& act, bool joins_step) {
-    past_.push_back(joins_step && !past_.empty());
+    past_.push_back({joins_step && !past_.empty(), std::holds_alternative<SetLine>(act)});
     future_.clear();
     write_down(act);
 }
@@ -73,6 +75,10 @@ void LiveRecording::step_forward(const RedoLine& line) {
     past_.push_back(future_.back());
     future_.pop_back();
     write_down(line);
+}
+
+bool LiveRecording::last_is_settings() const {
+    return !past_.empty() && past_.back().of_settings;
 }
 
 std::size_t LiveRecording::undoable_steps() const {
@@ -98,17 +104,17 @@ void LiveRecording::save(const std::filesystem::path& target) const {
     file.commit();
 }
 
+// Lines that could not be written are made up for before the next one, so that none is ever missing in
+// between.
 void LiveRecording::write_down(const SessionAction& line) {
     lines_.push_back(line);
-    if (journal_) {
-        if (lines_.size() > lines_written_before_) journal_->append(to_text(line));
-        return;
+    if (!journal_ && folder_.empty()) return;
+    if (!journal_) {
+        Session header = header_;
+        header.cloud = cloud_;
+        journal_ = Journal::create(folder_, header_text(header));
     }
-    if (folder_.empty()) return;
-    Session header = header_;
-    header.cloud = cloud_;
-    journal_ = Journal::create(folder_, header_text(header));
-    for (const SessionAction& recorded : lines_) journal_->append(to_text(recorded));
+    for (; written_ < lines_.size(); ++written_) journal_->append(to_text(lines_[written_]));
 }
 
 } // namespace knead

@@ -42,8 +42,11 @@ public:
 
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
-    bool last_joins() const { return !past_.empty() && past_.back(); }     // of the acts that can be undone
-    bool next_joins() const { return !future_.empty() && future_.back(); } // of those that can be redone
+    bool last_is_settings() const;                                           // of the acts that can be undone
+    bool last_joins() const { return !past_.empty() && past_.back().joins; } // of the acts that can be undone
+    bool next_joins() const {
+        return !future_.empty() && future_.back().joins;
+    } // of those that can be redone
     std::size_t undoable_steps() const;
     std::size_t redoable_steps() const;
 
@@ -59,10 +62,14 @@ private:
     Session header_;
     std::filesystem::path cloud_;
     std::vector<SessionAction> lines_;
-    std::vector<bool> past_, future_; // of each act: whether it joins the step of the one before it
-    std::filesystem::path folder_;    // of the journal; empty: none is kept
+    struct Act {
+        bool joins = false; // the step of the act before it
+        bool of_settings = false;
+    };
+    std::vector<Act> past_, future_;
+    std::filesystem::path folder_; // of the journal; empty: none is kept
     std::optional<Journal> journal_;
-    std::size_t lines_written_before_ = 0; // that a restored journal has already
+    std::size_t written_ = 0; // lines that the journal has; a restored one has more than were replayed so far
 };
 
 } // namespace knead

@@ -18,6 +18,7 @@ namespace task {
 struct Lines {
     StepNumber step = 0;
     std::vector<SessionAction> lines;
+    bool joins_last = false;
 };
 struct BeginDrag {
     StepNumber step = 0;
@@ -28,8 +29,12 @@ struct EndDrag {
     std::optional<WantedPose> last; // not followed yet
 };
 struct CancelDrag {};
-struct Undo {};
-struct Redo {};
+struct Undo {
+    StepNumber step = 0;
+};
+struct Redo {
+    StepNumber step = 0;
+};
 struct SaveCloud {
     std::filesystem::path target;
     SaveColumns columns;

@@ -4,6 +4,8 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "edit/live_drag.h"
+#include "edit/live_opening.h"
+#include "edit/live_publisher.h"
 #include "edit/live_recording.h"
 #include "edit/live_shared.h"
 #include "edit/measures.h"
@@ -13,6 +15,10 @@
 #include "view/framing.h"
 
 #include <algorithm>
+#include <cmath>
+#include <exception>
+#include <numbers>
+#include <set>
 #include <utility>
 
 namespace knead {
@@ -26,6 +32,7 @@ constexpr double still = 1e-7;
 
 // So many frames of a drag may repeat one pose, and so many iterations may a released pose settle.
 constexpr std::size_t most_repeats = 400;
+constexpr double most_turned = 40 * std::numbers::pi;
 constexpr unsigned most_settling = 1000;
 
 // Iterations of settling between two frames on the screen.
@@ -38,11 +45,12 @@ constexpr double shortest_frame = 0.008;
 class LiveWork {
 public:
     LiveWork(OpenRequest request, Locked<LiveShared>& shared)
-        : request_(std::move(request)), shared_(shared), progress_(shared), workers_(request_.threads) {}
+        : request_(std::move(request)), shared_(shared), publisher_(shared), progress_(shared),
+          workers_(request_.threads) {}
 
     void open() {
         const Stopwatch clock;
-        Session session = begin_session();
+        Session session = session_to_open(request_, progress_);
         const bool is_plain_cloud = session.file.empty();
         PointCloud cloud = read_session_cloud(
             session, is_plain_cloud ? std::optional(request_.file) : std::nullopt, progress_);
@@ -53,8 +61,10 @@ public:
         session.points = cloud.size();
         document_ = std::make_unique<Document>(std::move(cloud), session.settings, workers_, *upsampler_);
         recording_ = std::make_unique<LiveRecording>(session, request_.restore);
+        if (!request_.restore && !is_plain_cloud) session_file_ = std::filesystem::absolute(request_.file);
         document_->shape(progress_); // the order of the points
-        replay(session);
+        replay_session(session, *document_, *recording_, progress_);
+        if (!request_.restore) saved_ = {recording_->acts(), recording_->acts()};
         publish_opened(clock);
         if (!request_.restore) recording_->keep_journal(request_.journal_folder);
     }
@@ -67,18 +77,22 @@ public:
             [&](const LiveShared& s) { return s.stop || !s.inbox.empty() || s.wanted || something_to_do(); },
             [&](LiveShared& s) {
                 s.status.busy = true;
-                if (!s.inbox.empty()) {
+                if (!drag_ && !after_drag_.empty()) {
+                    task = std::move(after_drag_.front());
+                    after_drag_.pop_front();
+                } else if (!s.inbox.empty()) {
                     task = std::move(s.inbox.front());
                     s.inbox.pop_front();
                 } else if (s.wanted) {
-                    if (drag_) drag_->wanted = s.wanted;
-                    if (drag_) drag_->rests = false;
+                    if (drag_) take_wanted(*s.wanted);
                     s.wanted.reset();
                 }
                 return !s.stop;
             });
         if (!more) return false;
-        if (task)
+        if (task && drag_ && !ends_drag(*task))
+            after_drag_.push_back(std::move(*task)); // acts do not come in between
+        else if (task)
             guarded([&] { std::visit([&](auto& t) { carry_out(t); }, *task); });
         else
             guarded([&] { go_on(); });
@@ -96,35 +110,6 @@ public:
 private:
     // --- Opening ---
 
-    Session begin_session() {
-        if (request_.restore) return recovered_session(*request_.restore);
-        if (is_session(request_.file, progress_)) return read_session(request_.file);
-        Session session;
-        session.cloud = std::filesystem::absolute(request_.file);
-        session.settings = changed({}, request_.settings);
-        return session;
-    }
-
-    void replay(const Session& session) {
-        std::size_t done = 0;
-        for (const SessionLine& line : session.lines) {
-            progress_.step("replaying the session",
-                           static_cast<double>(done++) / static_cast<double>(session.lines.size()));
-            const std::string place = session.place(line.number);
-            const bool joins = std::holds_alternative<SettleLine>(line.action);
-            if (std::holds_alternative<UndoLine>(line.action))
-                document_->undo(place), recording_->step_back(UndoLine{});
-            else if (std::holds_alternative<RedoLine>(line.action))
-                document_->redo(place), recording_->step_forward(RedoLine{});
-            else if (const auto* check = std::get_if<CheckLine>(&line.action))
-                recording_->note(CheckLine{session.resolve(check->positions), check->tolerance});
-            else
-                act(line.action, place), recording_->add(line.action, joins);
-        }
-        saved_ = {recording_->acts(), recording_->acts()};
-        if (request_.restore) saved_ = {};
-    }
-
     void publish_opened(const Stopwatch& clock) {
         OpenedCloud opened;
         opened.file = recording_->cloud();
@@ -137,6 +122,7 @@ private:
         publish_view();
         opened.read_seconds = clock.seconds();
         shared_.with([&](LiveShared& s) {
+            if (s.stop) throw Cancelled(); // or the window would look at what is about to go
             s.opened = opened;
             s.saved = saved_;
             s.status.stage = Stage::open;
@@ -150,18 +136,19 @@ private:
     void carry_out(task::Lines& lines) {
         finish_settling();
         std::size_t done = 0;
+        const bool joins = lines.joins_last && recording_->last_is_settings();
         try {
             for (const SessionAction& line : lines.lines) {
                 if (needs_commit(line) && document_->is_posed()) {
-                    act(CommitLine{}, "");
-                    recording_->add(CommitLine{}, done++ > 0);
+                    carry_out_act(*document_, CommitLine{}, "", progress_);
+                    add_act(CommitLine{}, done++ > 0 || joins);
                 }
-                act(line, "");
-                recording_->add(line, done++ > 0);
+                carry_out_act(*document_, line, "", progress_);
+                add_act(line, done++ > 0 || joins);
             }
         } catch (...) {
             refuse(lines.step);
-            if (done > 0) take_back_step();
+            for (; done > 0; --done) take_back_act();
             show_document();
             throw;
         }
@@ -186,18 +173,36 @@ private:
                                {task.handle, task.pivot, {}},
                                document_->motions()[static_cast<std::size_t>(handle)],
                                document_->cloud().origin});
-        warn_of_strays();
+        publisher_.strays(document_->pipeline().strays());
         publish_view();
     }
 
     void carry_out(task::EndDrag& task) {
         if (!drag_) return;
-        if (task.last) drag_->wanted = task.last;
-        while (drag_->wanted && !(drag_->shown == drag_->wanted->transform)) follow();
-        if (drag_->line.frames.empty()) return drop_drag();
-        document_->end_drag();
-        recording_->add(drag_->line, false);
-        last_step_ = drag_->step;
+        if (task.last) take_wanted(*task.last);
+        std::exception_ptr trouble; // what was followed so far stands
+        try {
+            while (drag_->wanted && !(drag_->shown == drag_->wanted->transform)) {
+                progress_.stop_if_cancelled();
+                follow();
+            }
+        } catch (const Error&) {
+            trouble = std::current_exception();
+        } catch (const std::bad_alloc&) {
+            trouble = std::current_exception();
+        }
+        if (drag_->line.frames.empty()) {
+            drop_drag();
+        } else {
+            document_->end_drag();
+            record([&] { recording_->add(drag_->line, false); });
+            last_step_ = drag_->step;
+            finish_drag();
+        }
+        if (trouble) std::rethrow_exception(trouble);
+    }
+
+    void finish_drag() {
         drag_.reset();
         converge_ = true;
         publish_view();
@@ -207,19 +212,19 @@ private:
         if (drag_) drop_drag();
     }
 
-    void carry_out(task::Undo& /*task*/) {
+    void carry_out(task::Undo& task) {
         finish_settling();
-        if (drag_ || !recording_->can_undo()) return;
+        if (refused_.contains(task.step) || !recording_->can_undo()) return;
         take_back_step();
         show_document();
     }
 
-    void carry_out(task::Redo& /*task*/) {
+    void carry_out(task::Redo& task) {
         finish_settling();
-        if (drag_ || !recording_->can_redo()) return;
+        if (refused_.contains(task.step) || !recording_->can_redo()) return;
         do {
             document_->redo("");
-            recording_->step_forward(RedoLine{});
+            record([&] { recording_->step_forward(RedoLine{}); });
         } while (recording_->next_joins());
         show_document();
     }
@@ -267,22 +272,30 @@ private:
                              1);
     }
 
-    void act(const SessionAction& action, const std::string& place) {
-        if (const auto* line = std::get_if<HandleLine>(&action)) document_->declare(*line, place);
-        if (const auto* line = std::get_if<DragLine>(&action)) document_->drag(*line, place, progress_);
-        if (const auto* line = std::get_if<SettleLine>(&action)) document_->settle(*line, progress_);
-        if (std::holds_alternative<CommitLine>(action)) document_->commit(progress_);
-        if (const auto* line = std::get_if<SetLine>(&action)) document_->change_settings(line->change, place);
-        if (const auto* line = std::get_if<DeleteLine>(&action)) document_->remove(*line, place);
-        if (const auto* line = std::get_if<RenameLine>(&action)) document_->rename(*line, place);
+    // The act is done; that its line cannot be written is said, once, and changes nothing.
+    template<typename Record>
+    void record(Record&& write) {
+        try {
+            std::forward<Record>(write)();
+            told_of_journal_ = false;
+        } catch (const Error& error) {
+            if (!std::exchange(told_of_journal_, true)) say(Notice::Kind::error, error.what());
+        }
+    }
+    void add_act(const SessionAction& action, bool joins) {
+        record([&] { recording_->add(action, joins); });
+    }
+
+    void take_back_act() {
+        document_->undo("");
+        record([&] { recording_->step_back(UndoLine{}); });
     }
 
     void take_back_step() {
         bool joins = false;
         do {
             joins = recording_->last_joins();
-            document_->undo("");
-            recording_->step_back(UndoLine{});
+            take_back_act();
         } while (joins);
         converge_ = false; // an undone pose is shown as it was
     }
@@ -295,7 +308,14 @@ private:
             shared_.wait(left, [](const LiveShared& s) { return s.stop || !s.inbox.empty() || s.wanted; });
     }
 
-    bool something_to_do() const { return ahead_ || (drag_ && !drag_->rests) || (!drag_ && converge_); }
+    static bool ends_drag(const LiveTask& task) {
+        return std::holds_alternative<task::EndDrag>(task) || std::holds_alternative<task::CancelDrag>(task);
+    }
+
+    bool something_to_do() const {
+        return (!drag_ && !after_drag_.empty()) || ahead_ || (drag_ && !drag_->rests) ||
+               (!drag_ && converge_);
+    }
 
     void go_on() {
         if (drag_) return drag_->rests ? void() : follow();
@@ -307,6 +327,15 @@ private:
         if (converge_) settle();
     }
 
+    // Beyond so many turns a typed angle keeps its remainder alone: nobody means the others.
+    void take_wanted(WantedPose wanted) {
+        double& angle = wanted.transform.angle;
+        if (std::abs(angle) > most_turned)
+            angle = std::copysign(most_turned, angle) + std::remainder(angle, 2 * std::numbers::pi);
+        drag_->wanted = wanted;
+        drag_->rests = false;
+    }
+
     // A frame of the drag: a step towards the wanted pose, or the same pose again.
     void follow() {
         LiveDrag& drag = *drag_;
@@ -315,12 +344,12 @@ private:
         const bool new_pose = !(drag.shown == drag.wanted->transform);
         const Transform next = next_on_the_way(drag.shown, drag.wanted->transform);
         const HandleMotion motion = followed_by(drag.base, next);
-        drag.line.frames.push_back(pose_of(motion, drag.line.pivot, drag.origin));
         double way = 0;
         try {
-            way = document_->drag_frame(drag.line.frames.back(), "", progress_);
+            const HandlePose pose = pose_of(motion, drag.line.pivot, drag.origin);
+            way = document_->drag_frame(pose, "", progress_);
+            drag.line.frames.push_back(pose);
         } catch (...) {
-            drag.line.frames.pop_back();
             drag.wanted.reset();
             drag.rests = true;
             throw;
@@ -334,22 +363,35 @@ private:
 
     void settle() {
         if (!settling_) {
+            converge_ = false; // if it cannot begin now, it could not at once again
             document_->begin_settling(progress_);
-            settling_ = true;
+            settling_ = converge_ = true;
             settled_ = 0;
         }
         const Stopwatch clock;
-        const bool rests = document_->settle_some(settling_iterations, progress_);
+        bool rests = false;
+        try {
+            rests = document_->settle_some(settling_iterations, progress_);
+        } catch (...) {
+            stop_settling();
+            throw;
+        }
         settled_ += settling_iterations;
         solve_seconds_ = clock.seconds();
         publish_shape(document_->pipeline().posed(), false);
         if (rests || settled_ >= most_settling) finish_settling();
     }
 
+    void stop_settling() {
+        converge_ = settling_ = false;
+        document_->abandon();
+    }
+
     void finish_settling() {
         converge_ = false;
         if (!std::exchange(settling_, false)) return;
-        recording_->add(document_->end_settling(), true);
+        const SettleLine line = document_->end_settling();
+        record([&] { recording_->add(line, true); });
         publish_view();
     }
 
@@ -363,70 +405,30 @@ private:
     // --- Telling the window ---
 
     void show_document() {
+        publish_view(); // first: it cannot fail
         publish_shape(document_->shape(progress_), false);
-        publish_view();
     }
 
     void publish_shape(const RestShape& shape, bool of_drag) {
-        back_.positions.assign(shape.positions.begin(), shape.positions.end());
-        back_.normals.assign(shape.normals.begin(), shape.normals.end());
-        back_.version = ++frames_;
+        LivePublisher::FrameFacts facts;
+        if (of_drag) facts.pose_set = drag_->wanted->set;
+        facts.solve = solve_seconds_;
+        if (!document_->log().upsample.empty()) facts.upsample = document_->log().upsample.back();
+        publisher_.shape(shape, facts);
         since_frame_ = Stopwatch();
-        back_.shows_pose = of_drag;
-        if (of_drag) back_.pose_set = drag_->wanted->set;
-        back_.solve = solve_seconds_;
-        back_.upsample = document_->log().upsample.empty() ? 0 : document_->log().upsample.back();
-        shared_.with([&](LiveShared& s) { std::swap(s.frame, back_); });
     }
 
     void publish_view() {
-        auto view = std::make_shared<DocumentView>();
-        const Pipeline& pipeline = document_->pipeline();
-        view->settings = document_->settings();
-        view->handles = document_->handles();
-        view->motions = document_->motions();
-        view->posed = document_->is_posed() || drag_;
-        view->acts = recording_->acts();
-        view->last_step = last_step_;
-        view->undoable_steps = recording_->undoable_steps();
-        view->redoable_steps = recording_->redoable_steps();
-        view->samples = pipeline.samples().size();
-        view->strays = pipeline.strays();
-        view->graph = pipeline.shared_graph();
-        view->components = pipeline.shared_components();
-        note_samples();
-        view->sample_vertices = sample_vertices_;
-        view->sample_graph = sample_graph_;
-        view->device = upsampler_->device();
-        view->session = session_file_;
-        shared_.with([&](LiveShared& s) {
-            s.view = std::move(view);
-            s.saved = saved_;
-        });
-    }
-
-    // Copies for the window, which may look at them while the pipeline makes others.
-    void note_samples() {
-        const Pipeline& pipeline = document_->pipeline();
-        if (pipeline.samples_version() == samples_seen_) return;
-        samples_seen_ = pipeline.samples_version();
-        sample_vertices_ = std::make_shared<const std::vector<Index>>(pipeline.samples());
-        sample_graph_ = std::make_shared<const Graph>(pipeline.sample_graph().graph);
+        publisher_.view(*document_, *recording_,
+                        {drag_.has_value(), last_step_, upsampler_->device(), session_file_, saved_});
     }
 
     void refuse(StepNumber step) {
-        shared_.with([&](LiveShared& s) { s.refused.push_back(step); });
+        refused_.insert(step);
+        publisher_.refuse(step);
     }
 
-    void say(Notice::Kind kind, const std::string& words) {
-        shared_.with([&](LiveShared& s) { s.notices.push_back({kind, words}); });
-    }
-
-    void warn_of_strays() {
-        const std::string words = words_about(document_->pipeline().strays());
-        if (!words.empty() && words != told_of_strays_) say(Notice::Kind::information, words);
-        told_of_strays_ = words;
-    }
+    void say(Notice::Kind kind, const std::string& words) { publisher_.say(kind, words); }
 
     void rest_if_idle() {
         const std::string warning = upsampler_->take_warning();
@@ -453,6 +455,7 @@ private:
 
     OpenRequest request_;
     Locked<LiveShared>& shared_;
+    LivePublisher publisher_;
     LiveProgress progress_;
     Workers workers_;
     std::unique_ptr<Upsampler> upsampler_;
@@ -463,17 +466,14 @@ private:
     bool settling_ = false; // begun in the document
     unsigned settled_ = 0;
     bool ahead_ = true; // stages could be prepared before they are needed
-    PosedFrame back_;
-    std::uint64_t frames_ = 0;
     Stopwatch since_frame_;
     double solve_seconds_ = 0;
     StepNumber last_step_ = 0;
+    std::set<StepNumber> refused_;
+    std::deque<LiveTask> after_drag_; // what came while a drag went on
+    bool told_of_journal_ = false;
     LiveDocument::Saved saved_;
     std::filesystem::path session_file_;
-    std::string told_of_strays_;
-    std::uint64_t samples_seen_ = 0;
-    std::shared_ptr<const std::vector<Index>> sample_vertices_;
-    std::shared_ptr<const Graph> sample_graph_;
 };
 
 } // namespace

@@ -102,10 +102,11 @@ HeaderPlace behind_the_properties(const PlyImage& image) {
     place.line_end = text.substr(first_end, text.substr(first_end, 2) == "\r\n" ? 2 : 1);
     std::size_t line = 1;
     for (std::size_t begin = 0; begin < text.size(); ++line) {
-        const std::size_t end = std::min(text.find(place.line_end, begin), text.size());
+        // As the reader splits it, which takes \r\n and \n mixed.
+        const std::size_t end = std::min(text.find(place.line_end.back(), begin), text.size());
         std::string_view words = text.substr(begin, end - begin);
-        words.remove_prefix(std::min(words.find_first_not_of(" \t"), words.size()));
-        begin = std::min(end + place.line_end.size(), text.size());
+        words.remove_prefix(std::min(words.find_first_not_of(" \t\v\f\r"), words.size()));
+        begin = std::min(end + 1, text.size());
         if (line < image.vertices().line) continue;
         if (line > image.vertices().line && (words.starts_with("element") || words.starts_with("end_header")))
             break;

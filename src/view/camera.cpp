@@ -24,8 +24,13 @@ glm::dquat turn(double angle, const glm::dvec3& axis) {
     return glm::angleAxis(angle, axis);
 }
 
-// Turned by `azimuth` about the world's z axis from the front, and tipped up from looking straight down by
-// `tip`: 0 looks down, π/2 ahead, π up.
+// The world with z upwards, to the one with that axis upwards.
+glm::dquat upright(UpAxis up) {
+    return up == UpAxis::z ? glm::dquat(1, 0, 0, 0) : turn(-pi / 2, {1, 0, 0});
+}
+
+// In a world with z upwards: turned by `azimuth` about the z axis from the front, and tipped up from looking
+// straight down by `tip`: 0 looks down, π/2 ahead, π up.
 glm::dquat level_orientation(double azimuth, double tip) {
     return turn(azimuth, {0, 0, 1}) * turn(tip, {1, 0, 0});
 }
@@ -106,12 +111,20 @@ Projector::Projector(const Camera& camera, Viewport viewport)
       half_width(0.5 * std::max(1, viewport.width)), half_height(0.5 * height_over(viewport)),
       nearest(1e-9 * camera.distance), orthographic(camera.orthographic) {}
 
+void set_up(Camera& camera, UpAxis up) {
+    if (camera.up == up) return;
+    const Level level = level_of(glm::conjugate(upright(camera.up)) * camera.orientation);
+    camera.up = up;
+    camera.orientation = glm::normalize(upright(up) * level_orientation(level.azimuth, level.tip));
+}
+
 void orbit(Camera& camera, Orbiting style, glm::dvec2 drag_pixels, Viewport viewport) {
     const glm::dvec2 angle = pi / height_over(viewport) * drag_pixels;
     if (style == Orbiting::turntable) {
-        const Level level = level_of(camera.orientation);
+        const glm::dquat upwards = upright(camera.up);
+        const Level level = level_of(glm::conjugate(upwards) * camera.orientation);
         camera.orientation =
-            level_orientation(level.azimuth - angle.x, std::clamp(level.tip - angle.y, 0.0, pi));
+            upwards * level_orientation(level.azimuth - angle.x, std::clamp(level.tip - angle.y, 0.0, pi));
     } else {
         const double whole = glm::length(angle);
         if (whole == 0) return;
@@ -161,6 +174,7 @@ void look_at_side(Camera& camera, Side side) {
         camera.orientation = level_orientation(0, pi);
         break;
     }
+    camera.orientation = upright(camera.up) * camera.orientation;
 }
 
 void frame(Camera& camera, const Box3& box, Viewport viewport) {
@@ -179,9 +193,10 @@ void frame(Camera& camera, const Box3& box, Viewport viewport) {
     if (distance > 0) camera.distance = std::clamp(distance, nearest_distance, farthest_distance);
 }
 
-Camera first_view(const Box3& box, Viewport viewport) {
+Camera first_view(const Box3& box, Viewport viewport, UpAxis up) {
     Camera camera;
-    camera.orientation = level_orientation(pi / 6, pi / 2 - pi / 9);
+    camera.up = up;
+    camera.orientation = upright(up) * level_orientation(pi / 6, pi / 2 - pi / 9);
     frame(camera, box, viewport);
     return camera;
 }

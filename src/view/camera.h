@@ -2,8 +2,9 @@
 // The camera: where the artist looks from, how a drag of the mouse turns it, and the way between points and
 // pixels.
 //
-// Everything is in the cloud's units relative to its origin; the world's z axis points up. Pixels are those
-// of the framebuffer, x to the right and y downwards from the upper left corner, pixel centres at halves.
+// Everything is in the cloud's units relative to its origin; the world's z axis points up, or for clouds that
+// were made so, its y axis. Pixels are those of the framebuffer, x to the right and y downwards from the
+// upper left corner, pixel centres at halves.
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -19,9 +20,13 @@ struct Viewport {
 };
 
 enum class Orbiting {
-    turntable, // about the world's z axis and the screen's horizontal one: the horizon stays level
+    turntable, // about the world's upward axis and the screen's horizontal one: the horizon stays level
     trackball  // about the screen's two axes
 };
+
+// Which of the world's axes points upwards. With y up, x points to the right and z to the front; with z up, y
+// points to the back.
+enum class UpAxis { z, y };
 
 // The eye stands at pivot + orientation · (offset, distance) and looks along -z of `orientation`, whose y is
 // up on the screen. Take eye_of() rather than this formula.
@@ -32,6 +37,7 @@ struct Camera {
     double field_of_view = 0.6;         // vertical, radians
     bool orthographic = false;          // then the height seen is that at the pivot
     glm::dvec2 offset{0.0};             // of the eye in the screen's plane: a pivot need not be its middle
+    UpAxis up = UpAxis::z;              // of the turntable and of the sides
 
     bool operator==(const Camera&) const = default;
 };
@@ -52,14 +58,17 @@ void pan(Camera& camera, glm::dvec2 drag_pixels, Viewport viewport);
 // Goes nearer (steps > 0) or away, a tenth a step, keeping what is under the cursor at the pivot's depth
 // there.
 void zoom(Camera& camera, double steps, glm::dvec2 cursor, Viewport viewport);
-// Looks straight at that side about the same pivot: from the front, world x points to the right and z up;
-// from above, y up.
+// Looks straight at that side about the same pivot: from the front, world x points to the right and the
+// camera's up axis up; from above, the back is up.
 void look_at_side(Camera& camera, Side side);
 // Keeps the direction, and takes pivot and distance so that the box fills the viewport with a small margin. A
 // box without size keeps the distance; one that is not finite changes nothing.
 void frame(Camera& camera, const Box3& box, Viewport viewport);
 // A pleasant first view of a cloud of unknown front: from above the front right.
-Camera first_view(const Box3& box, Viewport viewport);
+Camera first_view(const Box3& box, Viewport viewport, UpAxis up = UpAxis::z);
+// Takes another axis for the upward one, and looks from the same side as before with respect to it, level,
+// about the same pivot.
+void set_up(Camera& camera, UpAxis up);
 // Makes a point the pivot without moving what is seen (the point lies in front of the eye; one that does not
 // comes to the middle of the screen).
 void set_pivot(Camera& camera, const glm::dvec3& point);

@@ -122,9 +122,9 @@ ValueRange color_values(std::span<const float> values, const std::optional<Value
     return range;
 }
 
-std::vector<float> heights(const PointsToColor& points) {
+std::vector<float> heights(const PointsToColor& points, std::size_t axis) {
     std::vector<float> values(points.positions.size() / 3);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = points.positions[3 * i + 2];
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = points.positions[3 * i + axis];
     return values;
 }
 
@@ -157,10 +157,11 @@ void color_by_normal(const PointsToColor& points, std::span<std::uint32_t> color
 Legend color_by_height(const ColorBy& by, const PointsToColor& points, std::span<std::uint32_t> colors,
                        Workers& workers) {
     // Positions are relative to the origin; the scale is told in the file's coordinates.
-    const double origin = points.cloud->origin.z();
+    const std::size_t axis = by.up == UpAxis::y ? 1 : 2;
+    const double origin = points.cloud->origin[static_cast<Eigen::Index>(axis)];
     std::optional<ValueRange> given = by.range;
     if (given) given = ValueRange{given->low - origin, given->high - origin};
-    const ValueRange range = color_values(heights(points), given, colors, workers);
+    const ValueRange range = color_values(heights(points, axis), given, colors, workers);
     return {"height", by.range ? *by.range : ValueRange{range.low + origin, range.high + origin}};
 }
 

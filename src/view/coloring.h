@@ -27,13 +27,14 @@ struct ColorBy {
     enum class Kind {
         rgb,       // the file's own colours; where it has none, `plain`
         plain,     // `plain` for all
-        height,    // z, in the file's coordinates
+        height,    // along `up`, in the file's coordinates
         normal,    // the direction of the normal: x, y, z as red, green, blue; where there are none, `plain`
         attribute, // the file's column called `attribute`
         values     // numbers that the caller computed (displacement, stretch)
     } kind = Kind::rgb;
     glm::vec3 plain{0.72f, 0.71f, 0.69f};
     std::string attribute;
+    UpAxis up = UpAxis::z;           // of heights
     std::string title;               // of `values`, for the legend
     std::optional<ValueRange> range; // the ends of the scale; nothing: 1st to 99th percentile
 

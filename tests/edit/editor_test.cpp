@@ -274,6 +274,69 @@ TEST_F(BarEditor, LeadsTheArtistFromStepToStep) {
     EXPECT_NE(next_step(editor_).find("gizmo"), std::string::npos);
 }
 
+TEST_F(BarEditor, HandlesMadeInQuickSuccessionHaveNamesOfTheirOwn) {
+    editor_.camera.orthographic = true;
+    select_heights(2, 3);
+    apply(editor_, MakeHandle{HandleRole::moving, ""});
+    select_heights(-3, -2);
+    apply(editor_, MakeHandle{HandleRole::moving, ""});
+    calm();
+    ASSERT_EQ(editor_.document->handles.size(), 2U);
+    EXPECT_EQ(editor_.document->handles[1].name, "handle 2");
+}
+
+TEST_F(BarEditor, ACancelledDragKeepsWhatCanBeRedone) {
+    make_handles();
+    press('R');
+    type("30");
+    press(Key::enter);
+    calm();
+    apply(editor_, UndoStep{});
+    calm();
+    ASSERT_TRUE(can_redo(editor_));
+    press('G');
+    move({500, 150});
+    press(Key::escape);
+    calm();
+    EXPECT_TRUE(can_redo(editor_));
+    apply(editor_, RedoStep{});
+    calm();
+    EXPECT_TRUE(editor_.document->posed);
+}
+
+TEST_F(BarEditor, UndoBehindARefusedStepTakesNothingElseBack) {
+    make_handles();
+    apply(editor_, DeleteHandle{"low"});
+    apply(editor_, DeleteHandle{"low"}); // refused, but the editor does not know yet
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(editor_.document->handles.size(), 1U) << "the first deletion stands";
+    EXPECT_FALSE(can_redo(editor_));
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(editor_.document->handles.size(), 2U);
+}
+
+TEST_F(BarEditor, ASliderThatGoesOnMovingIsOneStep) {
+    make_handles();
+    const std::size_t steps = editor_.past.size();
+    for (const double stiffness : {0.02, 0.03, 0.05}) {
+        SettingsChange change;
+        change.stiffness = stiffness;
+        apply(editor_, ChangeSettings{change});
+    }
+    calm();
+    EXPECT_EQ(editor_.past.size(), steps + 1);
+    EXPECT_EQ(editor_.document->settings.stiffness, 0.05);
+    EXPECT_EQ(editor_.document->undoable_steps, 3U) << "two handles, and the slider";
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(editor_.document->settings.stiffness, 0.01);
+    apply(editor_, RedoStep{});
+    calm();
+    EXPECT_EQ(editor_.document->settings.stiffness, 0.05);
+}
+
 TEST_F(BarEditor, KnowsWhatIsUnsaved) {
     EXPECT_FALSE(has_unsaved_session(editor_));
     make_handles();

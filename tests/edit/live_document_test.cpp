@@ -108,9 +108,9 @@ TEST_F(LiveBar, SeveralEditsReplayToTheSameBytes) {
     settle_down();
     live_->post(++step_, {CommitLine{}});
     drag({turned(0.7, {0, 1, 0})});
-    live_->undo();
-    live_->undo();
-    live_->redo();
+    live_->undo(step_);
+    live_->undo(step_);
+    live_->redo(step_);
     drag({turned(-0.4, {0, 1, 0})});
     expect_replay_makes_the_same();
 }
@@ -160,15 +160,15 @@ TEST_F(LiveBar, UndoAndRedoAreExactAndOneStepADrag) {
     drag({turned(0.9, {1, 0, 0})});
     const std::vector<float> second = frame_.positions;
     EXPECT_EQ(live_->view()->undoable_steps, 4U);
-    live_->undo();
+    live_->undo(step_);
     settle_down();
     EXPECT_EQ(frame_.positions, first);
-    live_->undo();
+    live_->undo(step_);
     settle_down();
     EXPECT_EQ(frame_.positions, rest);
     EXPECT_FALSE(live_->view()->posed);
-    live_->redo();
-    live_->redo();
+    live_->redo(step_);
+    live_->redo(step_);
     settle_down();
     EXPECT_EQ(frame_.positions, second);
     EXPECT_EQ(live_->view()->redoable_steps, 0U);
@@ -181,7 +181,7 @@ TEST_F(LiveBar, CommitsBeforeALineThatNeedsIt) {
     settle_down();
     EXPECT_FALSE(live_->view()->posed);
     EXPECT_EQ(live_->view()->handles.size(), 3U);
-    live_->undo(); // the handle and its commit are one step
+    live_->undo(step_); // the handle and its commit are one step
     settle_down();
     EXPECT_TRUE(live_->view()->posed);
     EXPECT_EQ(live_->view()->handles.size(), 2U);
@@ -251,6 +251,50 @@ TEST_F(LiveBar, WhatACrashLeavesIsRestored) {
     live.post(++step_, {CommitLine{}});
     wait_until_idle(live);
     EXPECT_EQ(read_session(lost[0].journal).lines.size(), 5U) << "the same recording goes on";
+}
+
+TEST_F(LiveBar, AnActPostedDuringADragComesAfterIt) {
+    live_->begin_drag(++step_, "high", {0, 0, 2});
+    live_->drag_to(turned(0.5));
+    ASSERT_TRUE(wait_until([&] { return live_->take_frame(frame_) && frame_.shows_pose; }));
+    live_->post(++step_, {RenameLine{"high", "top"}});
+    live_->save_cloud(folder_ / "between.ply");
+    live_->drag_to(turned(1, {1, 0, 0}));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(live_->view()->handles.at(1).name, "high");
+    live_->end_drag();
+    settle_down();
+    EXPECT_EQ(live_->view()->handles.at(1).name, "top");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "between.ply"));
+    EXPECT_TRUE(live_->take_refused().empty());
+    expect_replay_makes_the_same();
+}
+
+TEST_F(LiveBar, AnAbsurdPoseIsRefusedAndTheDragGoesOn) {
+    Transform far;
+    far.shift = {1e30, 0, 0};
+    live_->begin_drag(++step_, "high", {0, 0, 2});
+    live_->drag_to(turned(0.5));
+    ASSERT_TRUE(wait_until([&] { return live_->take_frame(frame_) && frame_.shows_pose; }));
+    live_->drag_to(far);
+    live_->end_drag();
+    settle_down();
+    EXPECT_EQ(live_->take_notices().size(), 1U);
+    drag({turned(0.8)});
+    EXPECT_EQ(live_->view()->undoable_steps, 4U);
+    expect_replay_makes_the_same();
+}
+
+TEST_F(LiveBar, AFolderThatCannotBeWrittenLosesTheJournalAndNothingElse) {
+    OpenRequest request = request_for(bar_file(folder_));
+    request.journal_folder = "/proc/nowhere";
+    LiveDocument live(request);
+    wait_until_open(live);
+    for (const SessionAction& handle : bar_handles()) live.post(++step_, {handle});
+    wait_until_idle(live);
+    EXPECT_EQ(live.view()->handles.size(), 2U);
+    EXPECT_TRUE(live.take_refused().empty());
+    EXPECT_EQ(live.take_notices().size(), 1U) << "it is said once";
 }
 
 TEST_F(LiveBar, OnlyWhatIsNotSavedIsOfferedForRestoring) {

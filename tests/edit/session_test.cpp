@@ -248,10 +248,9 @@ TEST(SessionRefuses, DeepNesting) {
 }
 
 TEST(SessionRefuses, UnknownOpsAndKeys) {
-    EXPECT_SAYS(
-        refusal(R"({"op":"explode"})"),
-        "\"op\" must be \"handle\", \"drag\", \"settle\", \"check\", \"commit\", \"set\", "
-        "\"delete\", \"rename\", \"undo\" or \"redo\", not \"explode\"");
+    EXPECT_SAYS(refusal(R"({"op":"explode"})"),
+                "\"op\" must be \"handle\", \"drag\", \"settle\", \"check\", \"commit\", \"set\", "
+                "\"delete\", \"rename\", \"undo\" or \"redo\", not \"explode\"");
     EXPECT_SAYS(refusal(R"({"op":3})"), "\"op\" must be");
     EXPECT_SAYS(refusal("{}"), "the line has no \"op\"");
     EXPECT_SAYS(refusal(R"({"op":"commit","all":true})"),

@@ -59,6 +59,57 @@ TEST(Camera, LooksAtEverySide) {
     }
 }
 
+TEST(Camera, LooksAtEverySideWithYUpwards) {
+    struct Expected {
+        Side side;
+        glm::dvec3 eye, right, up;
+    };
+    const std::array<Expected, 6> all{{{Side::front, {0, 0, 5}, {1, 0, 0}, {0, 1, 0}},
+                                       {Side::back, {0, 0, -5}, {-1, 0, 0}, {0, 1, 0}},
+                                       {Side::right, {5, 0, 0}, {0, 0, -1}, {0, 1, 0}},
+                                       {Side::left, {-5, 0, 0}, {0, 0, 1}, {0, 1, 0}},
+                                       {Side::top, {0, 5, 0}, {1, 0, 0}, {0, 0, -1}},
+                                       {Side::bottom, {0, -5, 0}, {1, 0, 0}, {0, 0, 1}}}};
+    for (const Expected& expected : all) {
+        Camera camera;
+        camera.distance = 5;
+        camera.up = UpAxis::y;
+        look_at_side(camera, expected.side);
+        EXPECT_TRUE(near(eye_of(camera), expected.eye, 1e-12));
+        EXPECT_TRUE(near(right_of(camera), expected.right, 1e-12));
+        EXPECT_TRUE(near(up_of(camera), expected.up, 1e-12));
+    }
+}
+
+TEST(Camera, AnotherUpwardAxisKeepsTheSideAndTheLevel) {
+    Camera camera = camera_from(Side::front);
+    orbit(camera, Orbiting::turntable, {130, 60}, screen);
+    const glm::dvec3 from = back_of(camera);
+    Camera tipped = camera;
+    set_up(tipped, UpAxis::y);
+    EXPECT_TRUE(near(back_of(tipped), {from.x, from.z, -from.y}, 1e-12))
+        << "z where y was, and y to the back";
+    EXPECT_NEAR(right_of(tipped).y, 0, 1e-12);
+    for (int i = 0; i < 200; ++i) {
+        orbit(tipped, Orbiting::turntable, {7.0 * (i % 9 - 4), 13.0 * (i % 5 - 2)}, screen);
+        ASSERT_NEAR(right_of(tipped).y, 0, 1e-12);
+        ASSERT_GE(up_of(tipped).y, -1e-12);
+    }
+    tipped = camera;
+    set_up(tipped, UpAxis::y);
+    set_up(tipped, UpAxis::z);
+    EXPECT_TRUE(near(back_of(tipped), from, 1e-12));
+    EXPECT_TRUE(near(up_of(tipped), up_of(camera), 1e-12)) << "and back";
+}
+
+TEST(Camera, FirstViewStandsUpright) {
+    const Box3 box{{-1, -2, -3}, {1, 2, 3}};
+    const Camera z_up = first_view(box, screen), y_up = first_view(box, screen, UpAxis::y);
+    EXPECT_GT(up_of(z_up).z, 0.9);
+    EXPECT_GT(up_of(y_up).y, 0.9);
+    EXPECT_EQ(y_up.up, UpAxis::y);
+}
+
 TEST(Camera, HalfTheHeightIsAQuarterTurn) {
     for (const Orbiting style : {Orbiting::turntable, Orbiting::trackball}) {
         Camera camera = camera_from(Side::front);

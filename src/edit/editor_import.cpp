@@ -1,0 +1,165 @@
+#include "edit/editor_import.h"
+
+#include "base/error.h"
+#include "edit/editor_steps.h"
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+namespace knead {
+
+namespace {
+
+bool is_whole(ScalarType type) {
+    return type != ScalarType::float32 && type != ScalarType::float64;
+}
+
+std::int64_t label_at(const Attribute& attribute, std::size_t point) {
+    return static_cast<std::int64_t>(value_at(attribute, point)); // whole numbers of 32 bits at most: exact
+}
+
+// The values that occur and how often; nothing where there are too many.
+std::optional<std::vector<LabelColumn::Value>> values_of(const Attribute& attribute, std::size_t points) {
+    std::unordered_map<std::int64_t, std::size_t> counts;
+    for (std::size_t i = 0; i < points; ++i)
+        if (++counts[label_at(attribute, i)] == 1 && counts.size() > most_labels) return std::nullopt;
+    std::vector<LabelColumn::Value> values;
+    for (const auto& [value, count] : counts) values.push_back({value, count});
+    std::ranges::sort(values, {}, &LabelColumn::Value::value);
+    return values;
+}
+
+// Posts handles as one step.
+void post_handles(Editor& editor, std::vector<SessionAction> lines) {
+    const std::size_t count = lines.size();
+    const StepNumber step = ++editor.last_step;
+    editor.live->post(step, std::move(lines));
+    add_step(editor, step, nullptr);
+    say(editor, Notice::Kind::information,
+        count == 1 ? "Made one handle." : "Made " + std::to_string(count) + " handles.");
+}
+
+void extend(std::vector<IndexRange>& ranges, std::size_t point) {
+    if (!ranges.empty() && ranges.back().last + 1 == point)
+        ranges.back().last = point;
+    else
+        ranges.push_back({point, point});
+}
+
+// The handles that stand at the end of a session, in the order of their last lines.
+using HandleLines = std::vector<std::pair<std::size_t, HandleLine>>; // with the line's number
+
+void put(HandleLines& handles, std::size_t number, const HandleLine& line) {
+    std::erase_if(handles, [&](const auto& handle) { return handle.second.name == line.name; });
+    handles.emplace_back(number, line);
+}
+
+HandleLines handles_at_end(const Session& session) {
+    std::vector<HandleLines> past{{}}, future; // after each act
+    for (const SessionLine& line : session.lines) {
+        const SessionAction& action = line.action;
+        if (std::holds_alternative<CheckLine>(action)) continue;
+        if (std::holds_alternative<UndoLine>(action) || std::holds_alternative<RedoLine>(action)) {
+            std::vector<HandleLines>& from = std::holds_alternative<UndoLine>(action) ? past : future;
+            std::vector<HandleLines>& to = std::holds_alternative<UndoLine>(action) ? future : past;
+            if (from.size() <= (&from == &past ? 1U : 0U)) continue; // a replay would refuse it
+            to.push_back(std::move(from.back()));
+            from.pop_back();
+            continue;
+        }
+        HandleLines now = past.back();
+        if (const auto* made = std::get_if<HandleLine>(&action)) put(now, line.number, *made);
+        if (const auto* gone = std::get_if<DeleteLine>(&action))
+            std::erase_if(now, [&](const auto& handle) { return handle.second.name == gone->handle; });
+        if (const auto* named = std::get_if<RenameLine>(&action))
+            for (auto& handle : now)
+                if (handle.second.name == named->handle) handle.second.name = named->to;
+        past.push_back(std::move(now));
+        future.clear();
+    }
+    return past.back();
+}
+
+// The lines with points instead of regions, as a recording has them. Throws Error (input).
+std::vector<SessionAction> with_points(const Editor& editor, const Session& session, HandleLines handles) {
+    const PointCloud& cloud = *editor.opened.cloud;
+    const auto place_of = [&](std::size_t i) -> Vec3d {
+        const Index at = editor.ordered[i];
+        if (at == no_index) return cloud.file_position(i);
+        const float* p = editor.frame.positions.data() + 3 * std::size_t{at};
+        return cloud.origin + Vec3f(p[0], p[1], p[2]).cast<double>();
+    };
+    std::vector<SessionAction> lines;
+    for (auto& [number, line] : handles) {
+        std::vector<IndexRange> ranges;
+        for (const Index i : resolve_points(line, cloud, place_of, session.place(number))) extend(ranges, i);
+        line.points = std::move(ranges);
+        lines.emplace_back(std::move(line));
+    }
+    return lines;
+}
+
+} // namespace
+
+std::vector<LabelColumn> label_columns(const PointCloud& cloud) {
+    std::vector<LabelColumn> columns;
+    for (std::size_t a = 0; a < cloud.attributes.size(); ++a) {
+        const Attribute& attribute = cloud.attributes[a];
+        if (attribute.is_list() || !is_whole(attribute.type)) continue;
+        if (std::ranges::find(cloud.coordinate_columns, a) != cloud.coordinate_columns.end()) continue;
+        auto values = values_of(attribute, cloud.size());
+        if (!values || values->size() < 2) continue;
+        LabelColumn column{attribute.name, std::move(*values), 0};
+        const auto commonest = std::ranges::max_element(column.values, {}, &LabelColumn::Value::points);
+        column.commonest = static_cast<std::size_t>(commonest - column.values.begin());
+        columns.push_back(std::move(column));
+    }
+    return columns;
+}
+
+void handles_from_labels(Editor& editor, const std::string& column, std::span<const LabelChoice> choices) {
+    if (!needs_document(editor)) return;
+    const PointCloud& cloud = *editor.opened.cloud;
+    const auto number = find_attribute(cloud, column);
+    if (!number || cloud.attributes[*number].is_list() || !is_whole(cloud.attributes[*number].type))
+        return say(editor, Notice::Kind::error,
+                   "The cloud has no column of whole numbers called \"" + column + "\".");
+    std::unordered_map<std::int64_t, std::vector<IndexRange>> points;
+    for (const LabelChoice& choice : choices) points[choice.value] = {};
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        if (editor.ordered[i] == no_index) continue;
+        const auto found = points.find(label_at(cloud.attributes[*number], i));
+        if (found != points.end()) extend(found->second, i);
+    }
+    std::vector<SessionAction> lines;
+    for (const LabelChoice& choice : choices) {
+        std::vector<IndexRange>& ranges = points[choice.value];
+        if (ranges.empty()) continue;
+        HandleLine line;
+        line.name = column + " " + std::to_string(choice.value);
+        line.role = choice.role;
+        line.points = std::exchange(ranges, {});
+        lines.emplace_back(std::move(line));
+    }
+    if (lines.empty())
+        return say(editor, Notice::Kind::information, "No points have the chosen values of " + column + ".");
+    post_handles(editor, std::move(lines));
+}
+
+void handles_from_session(Editor& editor, const std::filesystem::path& session) {
+    if (!needs_document(editor)) return;
+    try {
+        const Session read = read_session(session);
+        HandleLines handles = handles_at_end(read);
+        if (handles.empty())
+            return say(editor, Notice::Kind::information,
+                       session.filename().string() + " has no handles at its end.");
+        post_handles(editor, with_points(editor, read, std::move(handles)));
+    } catch (const Error& error) {
+        say(editor, Notice::Kind::error, std::string("No handles were made. ") + error.what());
+    }
+}
+
+} // namespace knead

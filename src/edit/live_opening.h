@@ -1,0 +1,22 @@
+#pragma once
+// How a live document begins: the session that it opens or makes, and the acts that are in it already.
+// Private to this room.
+
+#include "edit/document.h"
+#include "edit/live_recording.h"
+#include "edit/live_shared.h"
+
+namespace knead {
+
+// The session of the request's file, or of its journal; for a plain cloud a new one without a file of its
+// own. Throws Error (input).
+Session session_to_open(const OpenRequest& request, Progress& progress);
+
+// Any act but undo and redo; a check is none. Throws what the document throws.
+void carry_out_act(Document& document, const SessionAction& action, const std::string& place,
+                   Progress& progress);
+
+// Carries out and records all lines of the session. A settling is undone together with the act before it.
+void replay_session(const Session& session, Document& document, LiveRecording& recording, Progress& progress);
+
+} // namespace knead

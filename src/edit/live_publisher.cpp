@@ -1,0 +1,63 @@
+#include "edit/live_publisher.h"
+
+namespace knead {
+
+void LivePublisher::say(Notice::Kind kind, const std::string& words) {
+    shared_.with([&](LiveShared& s) { s.notices.push_back({kind, words}); });
+}
+
+void LivePublisher::refuse(StepNumber step) {
+    shared_.with([&](LiveShared& s) { s.refused.push_back(step); });
+}
+
+void LivePublisher::shape(const RestShape& shape, const FrameFacts& facts) {
+    back_.positions.assign(shape.positions.begin(), shape.positions.end());
+    back_.normals.assign(shape.normals.begin(), shape.normals.end());
+    back_.version = ++frames_;
+    back_.shows_pose = facts.pose_set.has_value();
+    if (facts.pose_set) back_.pose_set = *facts.pose_set;
+    back_.solve = facts.solve;
+    back_.upsample = facts.upsample;
+    shared_.with([&](LiveShared& s) { std::swap(s.frame, back_); });
+}
+
+void LivePublisher::view(const Document& document, const LiveRecording& recording, const ViewFacts& facts) {
+    auto view = std::make_shared<DocumentView>();
+    const Pipeline& pipeline = document.pipeline();
+    view->settings = document.settings();
+    view->handles = document.handles();
+    view->motions = document.motions();
+    view->posed = document.is_posed() || facts.dragging;
+    view->acts = recording.acts();
+    view->last_step = facts.last_step;
+    view->undoable_steps = recording.undoable_steps();
+    view->redoable_steps = recording.redoable_steps();
+    view->samples = pipeline.samples().size();
+    view->strays = pipeline.strays();
+    view->graph = pipeline.shared_graph();
+    view->components = pipeline.shared_components();
+    note_samples(pipeline);
+    view->sample_vertices = sample_vertices_;
+    view->sample_graph = sample_graph_;
+    view->device = facts.device;
+    view->session = facts.session;
+    shared_.with([&](LiveShared& s) {
+        s.view = std::move(view);
+        s.saved = facts.saved;
+    });
+}
+
+void LivePublisher::strays(const Pipeline::Strays& strays) {
+    const std::string words = words_about(strays);
+    if (!words.empty() && words != told_of_strays_) say(Notice::Kind::information, words);
+    told_of_strays_ = words;
+}
+
+void LivePublisher::note_samples(const Pipeline& pipeline) {
+    if (pipeline.samples_version() == samples_seen_) return;
+    samples_seen_ = pipeline.samples_version();
+    sample_vertices_ = std::make_shared<const std::vector<Index>>(pipeline.samples());
+    sample_graph_ = std::make_shared<const Graph>(pipeline.sample_graph().graph);
+}
+
+} // namespace knead

@@ -1,0 +1,49 @@
+#pragma once
+// What a live document tells the window. Private to this room.
+
+#include "edit/live_recording.h"
+#include "edit/live_shared.h"
+
+namespace knead {
+
+class LivePublisher {
+public:
+    explicit LivePublisher(Locked<LiveShared>& shared) : shared_(shared) {}
+
+    void say(Notice::Kind kind, const std::string& words);
+    void refuse(StepNumber step);
+
+    // The newest points. `pose_set`: of a drag, when the hand set the pose that they show.
+    struct FrameFacts {
+        std::optional<std::chrono::steady_clock::time_point> pose_set;
+        double solve = 0, upsample = 0; // seconds
+    };
+    void shape(const RestShape& shape, const FrameFacts& facts);
+
+    // The document between two acts.
+    struct ViewFacts {
+        bool dragging = false;
+        StepNumber last_step = 0;
+        std::string device;
+        std::filesystem::path session;
+        LiveDocument::Saved saved;
+    };
+    void view(const Document& document, const LiveRecording& recording, const ViewFacts& facts);
+
+    // Parts that follow no handle, once for every change.
+    void strays(const Pipeline::Strays& strays);
+
+private:
+    void note_samples(const Pipeline& pipeline);
+
+    Locked<LiveShared>& shared_;
+    PosedFrame back_; // the next frame to hand over; the window gives the one before back
+    std::uint64_t frames_ = 0;
+    std::string told_of_strays_;
+    // Copies for the window, which may look at them while the pipeline makes others.
+    std::uint64_t samples_seen_ = 0;
+    std::shared_ptr<const std::vector<Index>> sample_vertices_;
+    std::shared_ptr<const Graph> sample_graph_;
+};
+
+} // namespace knead

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # Builds knead and shows what it does. From bare Debian 12 with bash and a clone of this repository:
 #
-#   ./run.sh            replays the demonstration session
-#   ./run.sh SESSION    replays a recorded session; the bent cloud goes to build/
-#   ./run.sh FILE       shows what is in a point cloud
+#   ./run.sh            replays the demonstration session, and opens it in the editor
+#   ./run.sh SESSION    opens a recorded session in the editor
+#   ./run.sh FILE       opens a point cloud in the editor
 #   ./run.sh --build    only builds (test.sh does so)
+#
+# Without a display a session is replayed (the bent cloud goes to build/), and a cloud is described.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -64,6 +66,25 @@ replay() {
     return "$code"
 }
 
+has_display() { [ -n "${DISPLAY:-}" ]; }
+
+# The editor; or, where it cannot open its window, the same without one. It says itself why it cannot.
+edit() {
+    local code=0
+    "$root/build/knead" edit "$1" || code=$?
+    if [ "$code" != 2 ]; then exit "$code"; fi
+}
+
+without_window() {
+    if is_session "$1"; then
+        replay "$1"
+    else
+        "$root/build/knead" info "$1"
+        say "There is no display for the editor window. To bend this cloud without one, write its handles into a" \
+            "session (man -l $root/data/knead.1) and run ./run.sh SESSION"
+    fi
+}
+
 main() {
     if [ $# -gt 1 ]; then
         say "usage: ./run.sh [FILE|SESSION]"
@@ -92,14 +113,14 @@ main() {
     fi
 
     (build)
-    if [ $# = 0 ]; then say "The demonstration: replaying ${file#"$root/"}"; fi
-    if is_session "$file"; then
+    if [ $# = 0 ]; then
+        say "The demonstration: replaying ${file#"$root/"}"
         replay "$file"
-    else
-        "$root/build/knead" info "$file"
-        say "The editor window is not in this version of knead yet. To bend this cloud, write its handles into a" \
-            "session (man -l $root/data/knead.1) and run ./run.sh SESSION"
+        if has_display; then edit "$file"; fi
+        return
     fi
+    if has_display; then edit "$file"; fi
+    without_window "$file"
 }
 
 main "$@"

@@ -1,4 +1,4 @@
-// knead bench: the paper's Table 1, measured on this machine.
+// knead bench: the paper's Table 1, and how well the window follows the hand, measured on this machine.
 
 #include "bench/table1.h"
 #include "cli/commands.h"
@@ -7,19 +7,45 @@
 
 #include <memory>
 
+#ifdef KNEAD_HAS_EDITOR
+#include "app/drag_benchmark.h"
+#else
+#include "base/error.h"
+#endif
+
 namespace knead {
 
 namespace {
 
 struct BenchArguments {
     std::vector<std::string> rows;
-    std::string scans, device;
+    std::string scans, device, window;
     std::size_t repeats = 5;
     unsigned threads = 0;
     bool json = false;
 };
 
+#ifdef KNEAD_HAS_EDITOR
+int run_window_bench(const BenchArguments& arguments, Terminal& terminal) {
+    DragBenchmarkOptions options;
+    options.editor.file = arguments.window;
+    options.editor.device = arguments.device;
+    options.editor.threads = arguments.threads;
+    options.editor.width = 1280;
+    options.editor.height = 800;
+    options.editor.told_to_stop = [&terminal] { return terminal.cancelled(); };
+    const DragBenchmark result = measure_drag(options);
+    terminal.out << (arguments.json ? drag_benchmark_json(result) : drag_benchmark_text(result));
+    return 0;
+}
+#else
+int run_window_bench(const BenchArguments& /*arguments*/, Terminal& /*terminal*/) {
+    throw Error(Trouble::usage, "--window", "this knead was built without its window (KNEAD_EDITOR=OFF)");
+}
+#endif
+
 int run_bench(const BenchArguments& arguments, Terminal& terminal) {
+    if (!arguments.window.empty()) return run_window_bench(arguments, terminal);
     const std::vector<Table1Row> rows = rows_named(arguments.rows);
     const Table1Options options{arguments.repeats, arguments.threads, arguments.device,
                                 scan_folders(arguments.scans)};
@@ -46,6 +72,10 @@ void add_bench(CLI::App& app, Job& job) {
         ->add_option("--scans", arguments->scans,
                      "The folder of the scans (default: KNEAD_SCANS, then ../shared/scans)")
         ->check(CLI::ExistingDirectory);
+    command->add_option(
+        "--window", arguments->window,
+        "Instead: open this cloud in the window, drag a handle of it for some seconds, and tell "
+        "how old the pose on the screen is");
     command->add_flag("--json", arguments->json, "Print one JSON object");
     command->callback([arguments, &job] {
         job = [arguments](Terminal& terminal) { return run_bench(*arguments, terminal); };

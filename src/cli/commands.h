@@ -15,6 +15,7 @@ namespace knead {
 // Does the work and returns the exit code: 0, or 4 when a check failed. All other troubles are thrown.
 using Job = std::function<int(Terminal&)>;
 
+void add_edit(CLI::App& app, Job& job);
 void add_replay(CLI::App& app, Job& job);
 void add_info(CLI::App& app, Job& job);
 void add_diff(CLI::App& app, Job& job);
@@ -22,6 +23,6 @@ void add_make(CLI::App& app, Job& job);
 void add_devices(CLI::App& app, Job& job);
 void add_bench(CLI::App& app, Job& job);
 void add_evaluate(CLI::App& app, Job& job);
-void add_later(CLI::App& app, Job& job);
+void add_render(CLI::App& app, Job& job);
 
 } // namespace knead

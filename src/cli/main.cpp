@@ -7,9 +7,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
+#include <algorithm>
 #include <filesystem>
 #include <new>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -38,6 +40,11 @@ int run(const knead::Job& job, knead::Terminal& terminal) {
     }
 }
 
+bool is_subcommand(const CLI::App& app, const std::string& word) {
+    const auto all = app.get_subcommands([](const CLI::App*) { return true; });
+    return std::ranges::any_of(all, [&](const CLI::App* command) { return command->get_name() == word; });
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -47,6 +54,7 @@ int main(int argc, char** argv) {
     app.set_help_all_flag("--help-all", "Show the help of every subcommand");
 
     knead::Job job;
+    knead::add_edit(app, job);
     knead::add_replay(app, job);
     knead::add_info(app, job);
     knead::add_diff(app, job);
@@ -54,18 +62,18 @@ int main(int argc, char** argv) {
     knead::add_devices(app, job);
     knead::add_bench(app, job);
     knead::add_evaluate(app, job);
-    knead::add_later(app, job);
+    knead::add_render(app, job);
+
+    // `knead FILE` and `knead` alone are `knead edit` with the same.
+    std::vector<std::string> arguments(argv + std::min(1, argc), argv + argc);
+    if (arguments.empty() ||
+        (!is_subcommand(app, arguments.front()) && std::filesystem::is_regular_file(arguments.front())))
+        arguments.insert(arguments.begin(), "edit");
+    std::ranges::reverse(arguments); // as CLI11 takes them
 
     try {
-        app.parse(argc, argv);
+        app.parse(arguments);
     } catch (const CLI::ParseError& error) {
-        if (argc > 1 && std::filesystem::is_regular_file(argv[1])) {
-            std::fprintf(stderr,
-                         "knead: %s: the editor window is not in this version of knead yet; "
-                         "`knead info` looks at a cloud, `knead replay` carries out a session\n",
-                         argv[1]);
-            return exit_usage;
-        }
         return app.exit(error) == 0 ? 0 : exit_usage;
     }
     knead::Terminal terminal;

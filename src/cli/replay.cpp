@@ -3,6 +3,7 @@
 #include "edit/replay.h"
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/replay_pictures.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -15,18 +16,12 @@ namespace knead {
 namespace {
 
 struct Arguments {
-    std::string session, cloud, out, samples, device, picture, frames;
+    std::string session, cloud, out, samples, device;
+    ReplayPictureOptions pictures;
     std::vector<std::string> settings;
     unsigned threads = 0;
     bool record_checks = false, dry_run = false, json = false;
 };
-
-void refuse_pictures(const Arguments& arguments) {
-    const char* named = !arguments.picture.empty()  ? "--picture"
-                        : !arguments.frames.empty() ? "--frames"
-                                                    : nullptr;
-    if (named) throw Error(Trouble::usage, "", std::string(named) + " is not in this version of knead yet");
-}
 
 ReplayOptions options_from(const Arguments& arguments) {
     ReplayOptions options;
@@ -124,15 +119,23 @@ void tell(const ReplayReport& report, const Arguments& arguments, Terminal& term
 }
 
 int run_replay(const Arguments& arguments, Terminal& terminal) {
-    refuse_pictures(arguments);
-    const ReplayOptions options = options_from(arguments);
+    ReplayOptions options = options_from(arguments);
     const Session session = read_session(arguments.session);
-    const ReplayReport report =
+    std::optional<ReplayPictures> pictures;
+    if (arguments.pictures.wanted() && !arguments.dry_run) {
+        pictures.emplace(arguments.pictures);
+        options.after_frame = pictures->after_frame();
+        options.after_last = pictures->after_last();
+    }
+    ReplayReport report =
         replay(session, options, terminal, [&](const std::string& words) { terminal.warn(words); });
+    if (pictures)
+        for (std::filesystem::path& path : pictures->write()) report.written.push_back(std::move(path));
     terminal.clear_bar();
     if (arguments.dry_run)
         terminal.say(arguments.session + ": " + counted(session.lines.size() + 1, "line", "lines") +
-                     " in order; nothing was computed or written");
+                     " in order; nothing was computed or written" +
+                     (arguments.out.empty() ? "" : ", so --out was not used"));
     else if (!arguments.json)
         tell(report, arguments, terminal);
     for (const CheckResult& check : report.checks)
@@ -165,8 +168,11 @@ void add_replay(CLI::App& app, Job& job) {
                       "Write the session again, with a check after each edit and its cloud beside it");
     command->add_flag("--dry-run", arguments->dry_run, "Check the session without computing anything");
     command->add_flag("--json", arguments->json, "Print what was measured as JSON");
-    command->add_option("--picture", arguments->picture)->group(""); // refused by name, and not in the help
-    command->add_option("--frames", arguments->frames)->group("");
+    command->add_option("--picture", arguments->pictures.picture,
+                        "A PNG file for a picture of the last shape");
+    command->add_option("--frames", arguments->pictures.frames,
+                        "A folder for a picture of every frame of the drags");
+    declare_picture_options(*command, arguments->pictures.look);
     command->callback([arguments, &job] {
         job = [arguments](Terminal& terminal) { return run_replay(*arguments, terminal); };
     });

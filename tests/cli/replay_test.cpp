@@ -248,8 +248,6 @@ TEST_F(Replay, RefusesByNameWhatComesWithLaterVersions) {
         expect_failure(3, "s.knead:2: " + key);
     }
     session(edit);
-    expect_failure(2, "", {"--picture", "a.png"});
-    expect_failure(2, "", {"--frames", "a"});
     expect_failure(2, "poisson", {"--set", "poisson=0.3"});
 }
 

@@ -1,0 +1,43 @@
+#version 410 core
+// A point as a splat. Its colour comes ready with the tint of its handle and the selection; alpha says more:
+// 0 is a hidden point, anything else goes through to the pass over the screen (patterns, see compose.frag).
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 color;
+layout(location = 2) in vec3 normal;
+
+uniform mat4 to_clip;
+uniform vec2 size;     // pixels: size.x + size.y / w
+uniform vec2 extremes; // smallest and largest diameter in pixels
+uniform vec3 forward;  // where the camera looks
+uniform vec3 key;      // towards the light, in the half space of the viewer
+flat out vec4 splat_color;
+#ifdef CURVED
+uniform float pixel_size; // the length of a pixel at w = 1
+flat out vec2 splat_depth;
+#endif
+
+void main() {
+    gl_Position = to_clip * vec4(position, 1.0);
+    float diameter = clamp(size.x + size.y / gl_Position.w, extremes.x, extremes.y);
+    gl_PointSize = diameter;
+#ifdef SHADED
+    // Both sides are lit: a normal that faces away is turned round.
+    float facing = dot(normal, forward);
+    float light = dot(normal, key);
+    light = 0.5 + (facing > 0.0 ? -0.5 : 0.5) * light;
+    splat_color = vec4(color.rgb * (0.40 + 0.64 * light * light), color.a);
+#else
+    splat_color = color;
+#endif
+#ifdef CURVED
+    // A splat curves away from the viewer, see points.frag: its rim lies a third of its radius behind its middle.
+    // That parts overlapping splats between their middles; the bulge of a ball would look like scales.
+    float radius = 0.16 * diameter * pixel_size * gl_Position.w;
+    vec4 rim = to_clip * vec4(position + forward * radius, 1.0);
+    float middle = gl_Position.z / gl_Position.w;
+    splat_depth = 0.5 * vec2(middle + 1.0, rim.z / rim.w - middle);
+#endif
+    // Drawn at the far plane, where the depth test drops it: cheaper in software than a point outside.
+    if (color.a == 0.0) gl_Position = vec4(0.0, 0.0, 1.0, 1.0);
+}

@@ -1,0 +1,44 @@
+#pragma once
+// Everything that the window can do, once: the menus, the keys and the help page are all made from this
+// table.
+
+#include "app/ui.h"
+
+#include <optional>
+#include <span>
+
+namespace knead {
+
+struct Shortcut {
+    Key key{};
+    Modifiers held;
+};
+
+struct Action {
+    const char* menu;                 // "Edit", or a menu within one: "View/Look from"
+    const char* label;                // with "…" where it asks before it does anything
+    const char* keys;                 // as shown; empty: none
+    const char* words;                // what it does, for the tooltip and the help page
+    std::optional<Shortcut> shortcut; // none: the tools take that key themselves, or there is none
+    void (*act)(const Ui& ui);
+    bool (*possible)(const Ui& ui);
+    bool (*ticked)(const Ui& ui) = nullptr; // null: nothing to tick
+    bool line_before = false;               // a separator in the menu
+};
+
+// In the order of the menus.
+std::span<const Action> actions();
+
+// Does what a key stands for, if it stands for anything that is possible now. Keys that the tools take
+// themselves are not asked about here.
+bool press_shortcut(const Ui& ui, const KeyPress& press);
+
+// Keys and movements of the mouse that are no action of a menu, for the help page.
+struct Gesture {
+    const char* group;
+    const char* keys;
+    const char* words;
+};
+std::span<const Gesture> gestures();
+
+} // namespace knead

@@ -1,0 +1,105 @@
+// The two questions that are asked before something is lost.
+
+#include "app/ui.h"
+#include "app/widgets.h"
+
+#include <algorithm>
+
+namespace knead {
+
+namespace {
+
+bool begin_question(const Ui& ui, const char* id, const char* title) {
+    const ImGuiIO& io = ImGui::GetIO();
+    ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y * 0.42f}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(ui.scaled(470), io.DisplaySize.x * 0.94f), 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.scaled(24), ui.scaled(20)});
+    const bool open = ImGui::BeginPopupModal(
+        id, nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
+    ImGui::PopStyleVar();
+    if (!open) return false;
+    ImGui::PushFont(ui.state.fonts.title);
+    ImGui::TextUnformatted(title);
+    ImGui::PopFont();
+    return true;
+}
+
+bool pressed(ImGuiKey key) {
+    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
+}
+
+void unsaved_question(const Ui& ui) {
+    if (ui.state.ask_unsaved) {
+        ui.state.ask_unsaved = false;
+        ImGui::OpenPopup("unsaved");
+    }
+    if (!begin_question(ui, "unsaved", "Save what you did?")) return;
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(("The handles and poses of " + ui.editor.opened.file.filename().string() +
+                            " are not saved yet. A session keeps all of them, to go on with later.")
+                               .c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::Dummy({0, ui.scaled(8)});
+    AfterSaving& after = ui.state.after;
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
+    if (main_button("Save session…", {width, 0}) || pressed(ImGuiKey_Enter)) {
+        after.waiting_for_save = true;
+        ui.wish(WishSaveSession{});
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Discard", {width, 0})) {
+        if (after.then) ui.wish(WishDiscard{});
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel", {width, 0}) || pressed(ImGuiKey_Escape)) {
+        after = {};
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+void overwriting_question(const Ui& ui) {
+    std::optional<WishSaveTo>& target = ui.state.overwriting;
+    if (target && !ImGui::IsPopupOpen("overwrite")) ImGui::OpenPopup("overwrite");
+    const bool is_input = target && ui.has_cloud() && target->file == ui.editor.opened.file;
+    if (!begin_question(ui, "overwrite", is_input ? "Overwrite the input?" : "Overwrite this file?")) return;
+    if (!target) {
+        ImGui::CloseCurrentPopup();
+        ImGui::EndPopup();
+        return;
+    }
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(target->file.c_str());
+    ImGui::PopTextWrapPos();
+    faint_text(is_input
+                   ? "This is the cloud that you opened. Sessions recorded on it will no longer fit, and the "
+                     "points as they were are gone for good."
+                   : "What is in it now will be gone.");
+    ImGui::Dummy({0, ui.scaled(8)});
+    const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    if (ImGui::Button("Overwrite", {width, 0})) {
+        target->ask = false;
+        ui.wish(*target);
+        target.reset();
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::SameLine();
+    if (main_button("Another name…", {width, 0}) || pressed(ImGuiKey_Escape)) {
+        if (target) ui.wish(WishBrowse{target->purpose});
+        target.reset();
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+} // namespace
+
+void draw_dialogs(const Ui& ui) {
+    unsaved_question(ui);
+    overwriting_question(ui);
+}
+
+} // namespace knead

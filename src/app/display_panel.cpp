@@ -1,0 +1,152 @@
+// The panel "Display": what colours the points, how large they are, and what is shown beside them.
+
+#include "app/scene_lines.h"
+#include "app/ui.h"
+#include "app/widgets.h"
+
+#include <array>
+
+namespace knead {
+
+namespace {
+
+void choose(const Ui& ui, Coloring coloring, const std::string& attribute = {}) {
+    Display& display = ui.state.display;
+    display.coloring = coloring;
+    display.attribute = attribute;
+    display.automatic_range = true;
+}
+
+std::string chosen_name(const Display& display) {
+    return display.coloring == Coloring::attribute ? display.attribute : name_of(display.coloring);
+}
+
+void coloring_choice(const Ui& ui) {
+    caption("Colour by");
+    const Display& display = ui.state.display;
+    if (!ImGui::BeginCombo("##coloring", chosen_name(display).c_str(), ImGuiComboFlags_HeightLarge)) return;
+    const PointCloud& cloud = *ui.editor.opened.cloud;
+    for (const Coloring coloring : {Coloring::file, Coloring::plain, Coloring::height, Coloring::normal,
+                                    Coloring::displacement, Coloring::stretch, Coloring::parts}) {
+        if (coloring == Coloring::file && !has_colors(cloud)) continue;
+        if (coloring == Coloring::normal && ui.editor.frame.normals.empty()) continue;
+        if (ImGui::Selectable(name_of(coloring), display.coloring == coloring)) choose(ui, coloring);
+    }
+    const std::vector<std::string> columns = scalar_columns(cloud);
+    if (!columns.empty()) {
+        ImGui::Separator();
+        caption("Attributes of the file");
+        for (const std::string& column : columns) {
+            const bool chosen = display.coloring == Coloring::attribute && display.attribute == column;
+            if (ImGui::Selectable(column.c_str(), chosen)) choose(ui, Coloring::attribute, column);
+        }
+    }
+    ImGui::EndCombo();
+}
+
+void range_fields(const Ui& ui) {
+    Display& display = ui.state.display;
+    if (!tells_number(display.coloring)) return;
+    bool automatic = display.automatic_range;
+    if (ImGui::Checkbox("Range by itself", &automatic)) {
+        display.automatic_range = automatic;
+        if (!automatic && ui.state.legend.range) display.range = *ui.state.legend.range;
+    }
+    explain("The scale goes from the 1st to the 99th percentile of the values");
+    if (automatic) return;
+    const double step = std::max(1e-9, 0.005 * (display.range.high - display.range.low));
+    std::array<float, 2> ends{static_cast<float>(display.range.low), static_cast<float>(display.range.high)};
+    if (ImGui::DragFloatRange2("##range", &ends[0], &ends[1], static_cast<float>(step), 0, 0, "%.4g", "%.4g"))
+        display.range = {static_cast<double>(ends[0]), static_cast<double>(ends[1])};
+    explain("The lowest and the highest value of the scale; drag, or Ctrl+click to type");
+}
+
+void size_slider(const Ui& ui) {
+    PointLook& look = ui.state.display.look;
+    if (look.size_by_distance) {
+        bar_slider("Point size", look.scale, smallest_scale, largest_scale, "× %.2f",
+                   ImGuiSliderFlags_Logarithmic);
+        explain("Times the size at which points just close the surface (+ and -)");
+    } else {
+        bar_slider("Point size", look.pixels, smallest_point, largest_point, "%.1f px",
+                   ImGuiSliderFlags_Logarithmic);
+        explain("The diameter on the screen, in pixels (+ and -)");
+    }
+    ImGui::Checkbox("Smaller with distance", &look.size_by_distance);
+    explain("Points are as large as they lie apart in the cloud; otherwise all have one size on the screen");
+}
+
+// The next item goes to the right of the last one.
+void second_column() {
+    ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + ImGui::GetWindowContentRegionWidth() * 0.5f);
+}
+
+// What the solver works on. There is nothing to see before it has been asked for anything.
+void sample_overlays(const Ui& ui) {
+    Display& display = ui.state.display;
+    const auto& samples = ui.editor.document->sample_vertices;
+    const bool too_many = samples && samples->size() > most_shown_samples;
+    const std::string trouble =
+        !samples   ? "\nThey are chosen once there is a handle to move."
+        : too_many ? "\nNot shown: there are more than " + grouped(most_shown_samples) + " of them."
+                   : "";
+    ImGui::BeginDisabled(!trouble.empty());
+    ImGui::Checkbox("Samples", &display.samples);
+    explain("The points that are solved for; all others follow those near them" + trouble);
+    second_column();
+    ImGui::Checkbox("Sample links", &display.sample_graph);
+    explain("Which samples hold each other" + trouble);
+    ImGui::EndDisabled();
+}
+
+void overlays(const Ui& ui) {
+    Display& display = ui.state.display;
+    ImGui::Checkbox("Eye-dome lighting", &display.look.eye_dome);
+    explain("Darkens what lies behind, so that depth shows without normals (E)");
+    ImGui::Checkbox("Shading", &display.look.shading);
+    explain(ui.editor.frame.normals.empty()
+                ? "Lights the points. This file has no normals: they are estimated, for looking at only"
+                : "Lights the points by their normals");
+    second_column();
+    ImGui::Checkbox("Handle names", &display.names);
+    ImGui::Checkbox("Ground grid", &display.grid);
+    second_column();
+    ImGui::Checkbox("Axes", &display.axes);
+    sample_overlays(ui);
+}
+
+void camera_choice(const Ui& ui) {
+    caption("Camera");
+    const bool orthographic = ui.editor.camera.orthographic;
+    const int projection = segmented("projection", {"Perspective", "Parallel"}, orthographic ? 1 : 0);
+    explain("With or without perspective (5)");
+    if (projection >= 0 && (projection == 1) != orthographic) {
+        Camera camera = ui.editor.camera;
+        camera.orthographic = projection == 1;
+        ui.tell(MoveCamera{camera});
+    }
+    const Orbiting style = ui.editor.tools.orbiting;
+    const int orbiting =
+        segmented("orbiting", {"Turntable", "Trackball"}, style == Orbiting::turntable ? 0 : 1);
+    explain("Orbiting keeps the horizon level, or turns freely");
+    const int up = segmented("up", {"Z is up", "Y is up"}, ui.editor.camera.up == UpAxis::z ? 0 : 1);
+    explain("Which axis of the file points upwards: for the ground, the horizon and the views 1, 3 and 7");
+    if (up >= 0) ui.wish(WishUpAxis{up == 0 ? UpAxis::z : UpAxis::y});
+    if (orbiting >= 0) ui.wish(WishOrbiting{orbiting == 0 ? Orbiting::turntable : Orbiting::trackball});
+}
+
+} // namespace
+
+void display_panel(const Ui& ui) {
+    if (!ui.has_cloud()) {
+        faint_text("Colours, point size, lighting.");
+        return;
+    }
+    coloring_choice(ui);
+    range_fields(ui);
+    size_slider(ui);
+    overlays(ui);
+    camera_choice(ui);
+}
+
+} // namespace knead

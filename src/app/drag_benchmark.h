@@ -1,0 +1,37 @@
+#pragma once
+// How well the window follows the hand: a scripted artist opens a cloud in the real window, makes two handles
+// and drags one of them for some seconds, while every picture shown is timed.
+
+#include "app/run_editor.h"
+
+#include <cstddef>
+#include <string>
+
+namespace knead {
+
+struct DragBenchmarkOptions {
+    EditorOptions editor;   // with the file to open
+    double seconds = 8;     // of dragging
+    double per_second = 60; // motions of the hand
+};
+
+struct DragBenchmark {
+    std::size_t points = 0;
+    std::size_t samples = 0;
+    double opened = 0;        // seconds from the start to the first picture of the cloud
+    double seconds = 0;       // of dragging
+    std::size_t pictures = 0; // shown meanwhile
+    std::size_t poses = 0;    // of them with a pose that was not shown before
+    double age_median = 0, age_95 = 0, age_largest = 0; // of the pose on the screen when it is shown, seconds
+    double frame_median = 0, frame_95 = 0;              // from one picture to the next, seconds
+    double solve_median = 0;                            // of the document's thread, seconds a frame
+    std::string opengl;                                 // what draws
+};
+
+// Throws what run_editor() throws, and Error (input) if the cloud cannot be opened.
+DragBenchmark measure_drag(const DragBenchmarkOptions& options);
+
+std::string drag_benchmark_text(const DragBenchmark& result);
+std::string drag_benchmark_json(const DragBenchmark& result);
+
+} // namespace knead

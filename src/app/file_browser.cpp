@@ -1,0 +1,316 @@
+// The file browser: folders, clouds and sessions with their sizes, places at the left, a name or a path to be
+// typed below. Arrows, Enter, Backspace and Esc work it without a mouse.
+
+#include "app/file_browser.h"
+
+#include "app/ui.h"
+#include "app/widgets.h"
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <ctime>
+
+namespace knead {
+
+namespace {
+
+const char* title_of(BrowseFor purpose) {
+    switch (purpose) {
+    case BrowseFor::open:
+        return "Open a cloud or a session";
+    case BrowseFor::save_session:
+        return "Save the session";
+    case BrowseFor::take_handles:
+        return "Take the handles of a session";
+    default:
+        return "Export the cloud";
+    }
+}
+
+const char* verb_of(BrowseFor purpose) {
+    switch (purpose) {
+    case BrowseFor::open:
+        return "Open";
+    case BrowseFor::save_session:
+        return "Save";
+    case BrowseFor::take_handles:
+        return "Take";
+    default:
+        return "Export";
+    }
+}
+
+std::string date_words(std::filesystem::file_time_type when) {
+    const auto system = std::chrono::file_clock::to_sys(when);
+    const std::time_t seconds = std::chrono::system_clock::to_time_t(
+        std::chrono::time_point_cast<std::chrono::system_clock::duration>(system));
+    std::tm parts{};
+    localtime_r(&seconds, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%d  %H:%M", &parts);
+    return text;
+}
+
+void choose(const Ui& ui) {
+    FileBrowser& browser = ui.state.browser;
+    if (browser.typed.empty()) return;
+    const std::filesystem::path file = typed_path(browser);
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) {
+        go_to(browser, file);
+        return;
+    }
+    if (reads_file(browser.purpose)) {
+        if (!std::filesystem::exists(file, ignored)) {
+            browser.trouble = "There is no file " + file.string();
+            return;
+        }
+        if (browser.purpose == BrowseFor::open)
+            ui.wish(WishOpen{file});
+        else
+            ui.wish(WishTakeHandles{file});
+    } else
+        ui.wish(WishSaveTo{browser.purpose, file, true, browser.columns});
+    ImGui::CloseCurrentPopup();
+}
+
+void choose_entry(const Ui& ui, const FolderEntry& entry) {
+    FileBrowser& browser = ui.state.browser;
+    if (entry.is_folder)
+        go_to(browser, browser.folder / entry.name);
+    else {
+        browser.typed = entry.name;
+        choose(ui);
+    }
+}
+
+// The folders on the way here, each a button.
+void path_row(const Ui& ui) {
+    FileBrowser& browser = ui.state.browser;
+    const float side = ImGui::GetFrameHeight();
+    if (icon_button("up", Icon::up, side, false, "The folder above (Backspace)"))
+        go_to(browser, browser.folder.parent_path());
+    std::vector<std::filesystem::path> way;
+    for (std::filesystem::path at = browser.folder;; at = at.parent_path()) {
+        way.push_back(at);
+        if (!at.has_relative_path()) break;
+    }
+    std::reverse(way.begin(), way.end());
+    const auto name_of = [](const std::filesystem::path& at) {
+        return at.has_filename() ? at.filename().string() : std::string("/");
+    };
+    // Where they do not all fit, the ones nearest to the root are left out.
+    float room = ImGui::GetContentRegionAvail().x - side - ui.scaled(8);
+    std::size_t first = way.size();
+    while (first > 0) {
+        room -= ImGui::CalcTextSize(name_of(way[first - 1]).c_str()).x + ui.scaled(26);
+        if (room < 0 && first < way.size()) break;
+        --first;
+    }
+    ImGui::PushStyleColor(ImGuiCol_Button, 0);
+    std::filesystem::path go;
+    for (std::size_t i = first; i < way.size(); ++i) {
+        ImGui::SameLine(0, ui.scaled(4));
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Button(name_of(way[i]).c_str())) go = way[i];
+        ImGui::PopID();
+    }
+    ImGui::PopStyleColor();
+    if (!go.empty()) go_to(browser, go);
+}
+
+void place(const Ui& ui, Icon icon, const std::filesystem::path& folder, const std::string& label) {
+    ImGui::PushID(folder.c_str());
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetFrameHeight();
+    const bool here = ui.state.browser.folder == folder;
+    ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0.0f, 0.5f});
+    if (ImGui::Selectable(("       " + label).c_str(), here, 0, {0, height})) go_to(ui.state.browser, folder);
+    ImGui::PopStyleVar();
+    explain(folder.string());
+    draw_icon(*ImGui::GetWindowDrawList(), icon, {at.x + ui.scaled(12), at.y + height / 2}, ui.scaled(14),
+              palette::faint);
+    ImGui::PopID();
+}
+
+// Home, the folder that the program was started in, and those of the files that were opened last.
+void places(const Ui& ui) {
+    ImGui::BeginChild("places", {ui.scaled(180), -ui.scaled(92)});
+    std::error_code ignored;
+    if (const char* home = std::getenv("HOME"); home && std::filesystem::is_directory(home, ignored))
+        place(ui, Icon::home, home, "Home");
+    place(ui, Icon::folder, std::filesystem::current_path(ignored), "Working folder");
+    place(ui, Icon::folder, "/", "Computer");
+    std::vector<std::filesystem::path> folders;
+    for (const std::filesystem::path& file : ui.state.recent)
+        if (std::find(folders.begin(), folders.end(), file.parent_path()) == folders.end())
+            folders.push_back(file.parent_path());
+    if (!folders.empty()) {
+        ImGui::Dummy({0, ui.scaled(4)});
+        caption("Recent folders");
+        for (const std::filesystem::path& folder : folders)
+            place(ui, Icon::folder, folder, folder.filename().string());
+    }
+    ImGui::EndChild();
+}
+
+void entry_row(const Ui& ui, const FolderEntry& entry, int number) {
+    FileBrowser& browser = ui.state.browser;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetTextLineHeight() + ui.scaled(4);
+    ImGui::PushID(number);
+    const bool chosen = number == browser.chosen;
+    ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0.0f, 0.5f});
+    if (ImGui::Selectable(("       " + entry.name).c_str(), chosen,
+                          ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick |
+                              ImGuiSelectableFlags_DontClosePopups,
+                          {0, height})) {
+        browser.chosen = number;
+        if (!entry.is_folder) browser.typed = entry.name;
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) browser.enter_chosen = true;
+    }
+    ImGui::PopStyleVar();
+    if (chosen && browser.scroll_to_chosen) {
+        ImGui::SetScrollHereY();
+        browser.scroll_to_chosen = false;
+    }
+    ImGui::PopID();
+    const Icon icon = entry.is_folder ? Icon::folder : entry.is_session ? Icon::session : Icon::cloud;
+    const ImU32 color = entry.is_folder ? palette::faint : palette::accent;
+    draw_icon(*ImGui::GetWindowDrawList(), icon, {at.x + ui.scaled(10), at.y + height / 2}, ui.scaled(14),
+              color);
+    ImGui::TableNextColumn();
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ui.scaled(2));
+    if (!entry.is_folder) caption(byte_size(entry.bytes).c_str());
+    ImGui::TableNextColumn();
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ui.scaled(2));
+    caption(date_words(entry.changed).c_str());
+}
+
+void entry_table(const Ui& ui) {
+    FileBrowser& browser = ui.state.browser;
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, palette::rgb(0x000000, 46));
+    if (ImGui::BeginTable("entries", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg,
+                          {0, -ui.scaled(92)})) {
+        ImGui::TableSetupScrollFreeze(0, 1);
+        ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed, ui.scaled(80));
+        ImGui::TableSetupColumn("Changed", ImGuiTableColumnFlags_WidthFixed, ui.scaled(140));
+        ImGui::TableHeadersRow();
+        for (std::size_t i = 0; i < browser.entries.size(); ++i)
+            entry_row(ui, browser.entries[i], static_cast<int>(i));
+        ImGui::EndTable();
+    }
+    ImGui::PopStyleColor();
+    if (browser.enter_chosen && browser.chosen >= 0) {
+        browser.enter_chosen = false;
+        const FolderEntry entry = browser.entries[static_cast<std::size_t>(browser.chosen)];
+        choose_entry(ui, entry);
+    }
+}
+
+// Arrows move the choice, Backspace goes up, while nothing is typed.
+void keys(FileBrowser& browser) {
+    const int count = static_cast<int>(browser.entries.size());
+    const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
+    int step = 0;
+    if (pressed(ImGuiKey_DownArrow)) step = 1;
+    if (pressed(ImGuiKey_UpArrow)) step = -1;
+    if (pressed(ImGuiKey_PageDown)) step = 12;
+    if (pressed(ImGuiKey_PageUp)) step = -12;
+    if (step != 0 && count > 0) {
+        browser.chosen = std::clamp(browser.chosen + step, 0, count - 1);
+        browser.scroll_to_chosen = true;
+        const FolderEntry& entry = browser.entries[static_cast<std::size_t>(browser.chosen)];
+        browser.typed = entry.name;
+        browser.name_changed_outside = true;
+    }
+    if (browser.typed.empty() && pressed(ImGuiKey_Backspace)) go_to(browser, browser.folder.parent_path());
+}
+
+// What an exported cloud gets beside its own attributes.
+void column_choice(FileBrowser& browser) {
+    ImGui::SameLine();
+    ImGui::Checkbox("With displacement", &browser.columns.displacement);
+    explain("Adds the attribute \"displacement\": how far each point is from where it was opened, in the "
+            "cloud's units");
+    ImGui::SameLine();
+    ImGui::Checkbox("With stretch", &browser.columns.stretch);
+    explain("Adds the attribute \"stretch\": how much farther apart a point and its neighbours are than when "
+            "the cloud was opened; 1 is unstretched");
+}
+
+void bottom_row(const Ui& ui) {
+    FileBrowser& browser = ui.state.browser;
+    if (browser.trouble.empty())
+        caption(reads_file(browser.purpose) ? "A name in this folder, or a path" : "File name, or a path");
+    else {
+        ImGui::PushStyleColor(ImGuiCol_Text, palette::error);
+        ImGui::TextUnformatted(browser.trouble.c_str());
+        ImGui::PopStyleColor();
+    }
+    // The field keeps its own copy while it is active; typing another name from outside needs it to let go.
+    ImGui::PushID(browser.name_version);
+    if (browser.name_changed_outside) {
+        browser.name_changed_outside = false;
+        ++browser.name_version;
+        ImGui::PopID();
+        ImGui::PushID(browser.name_version);
+        browser.focus_name = true;
+    }
+    if (browser.focus_name) ImGui::SetKeyboardFocusHere();
+    browser.focus_name = false;
+    ImGui::SetNextItemWidth(-1);
+    const bool entered = ImGui::InputText("##path", &browser.typed, ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::PopID();
+    if (ImGui::Checkbox("Every file", &browser.every_file)) read_folder(browser);
+    explain("Also shows files that are neither clouds (.ply) nor sessions (.knead)");
+    if (browser.purpose == BrowseFor::save_cloud) column_choice(browser);
+    const float width = ui.scaled(110), gap = ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SameLine(ImGui::GetWindowWidth() - 2 * width - gap - ImGui::GetStyle().WindowPadding.x);
+    if (ImGui::Button("Cancel", {width, 0})) ImGui::CloseCurrentPopup();
+    ImGui::SameLine();
+    ImGui::BeginDisabled(browser.typed.empty());
+    const bool confirmed = main_button(verb_of(browser.purpose), {width, 0});
+    ImGui::EndDisabled();
+    if (confirmed || entered) choose(ui);
+}
+
+} // namespace
+
+void draw_file_browser(const Ui& ui) {
+    FileBrowser& browser = ui.state.browser;
+    if (browser.open_now) {
+        browser.open_now = false;
+        browser.name_changed_outside = true; // selects it whole, so that typing replaces it
+        ImGui::OpenPopup("browser");
+        read_folder(browser);
+    }
+    const ImGuiIO& io = ImGui::GetIO();
+    ImGui::SetNextWindowPos({io.DisplaySize.x / 2, io.DisplaySize.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(ui.scaled(860), io.DisplaySize.x * 0.94f),
+                              std::min(ui.scaled(580), io.DisplaySize.y * 0.9f)});
+    if (!ImGui::BeginPopupModal("browser", nullptr,
+                                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoMove)) {
+        browser.is_open = false;
+        return;
+    }
+    browser.is_open = true;
+    ImGui::PushFont(ui.state.fonts.title);
+    ImGui::TextUnformatted(title_of(browser.purpose));
+    ImGui::PopFont();
+    path_row(ui);
+    keys(browser);
+    places(ui);
+    ImGui::SameLine();
+    entry_table(ui);
+    bottom_row(ui);
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
+} // namespace knead

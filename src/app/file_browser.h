@@ -1,0 +1,56 @@
+#pragma once
+// Choosing a file in the window: what a browser knows between two frames, and how it reads a folder. What it
+// looks like is file_browser.cpp.
+
+#include "edit/live_document.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace knead {
+
+enum class BrowseFor { open, save_session, save_cloud, take_handles };
+// Whether the file has to be there already.
+constexpr bool reads_file(BrowseFor purpose) {
+    return purpose == BrowseFor::open || purpose == BrowseFor::take_handles;
+}
+
+struct FolderEntry {
+    std::string name;
+    bool is_folder = false;
+    bool is_session = false;
+    std::uintmax_t bytes = 0;
+    std::filesystem::file_time_type changed;
+};
+
+struct FileBrowser {
+    BrowseFor purpose = BrowseFor::open;
+    bool open_now = false; // is to come up in the next frame
+    bool is_open = false;
+    std::filesystem::path folder;
+    std::vector<FolderEntry> entries; // folders first, by name
+    std::string trouble;              // why the folder could not be read; empty: it was
+    std::string typed;                // the name, or a path
+    SaveColumns columns;              // of an exported cloud
+    bool every_file = false;          // also those that are neither cloud nor session
+    int chosen = -1;                  // among the entries
+    bool scroll_to_chosen = false;
+    bool focus_name = false;
+    bool enter_chosen = false;         // a double click
+    bool name_changed_outside = false; // `typed` was set by other means than typing
+    int name_version = 0;              // counts those times
+};
+
+// Reads the folder, `entries` and `trouble` anew. Never throws.
+void read_folder(FileBrowser& browser);
+
+// Goes to a folder, or to the folder of a file.
+void go_to(FileBrowser& browser, const std::filesystem::path& place);
+
+// The path that `typed` means: absolute, under ~, or in the folder; with the purpose's extension where it has
+// none and is to be written.
+std::filesystem::path typed_path(const FileBrowser& browser);
+
+} // namespace knead

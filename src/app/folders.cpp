@@ -1,0 +1,97 @@
+// Reading folders and typed paths for the file browser.
+
+#include "app/file_browser.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <system_error>
+
+namespace knead {
+
+namespace {
+
+std::string in_lower_case(std::string text) {
+    for (char& letter : text)
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+    return text;
+}
+
+std::string extension_of(const std::filesystem::path& file) {
+    return in_lower_case(file.extension().string());
+}
+
+bool is_cloud(const std::filesystem::path& file) {
+    return extension_of(file) == ".ply";
+}
+bool is_session(const std::filesystem::path& file) {
+    return extension_of(file) == ".knead";
+}
+
+bool by_name(const FolderEntry& a, const FolderEntry& b) {
+    if (a.is_folder != b.is_folder) return a.is_folder;
+    const std::string first = in_lower_case(a.name), second = in_lower_case(b.name);
+    return first != second ? first < second : a.name < b.name;
+}
+
+} // namespace
+
+void read_folder(FileBrowser& browser) {
+    browser.entries.clear();
+    browser.trouble.clear();
+    browser.chosen = -1;
+    std::error_code trouble;
+    if (browser.folder.empty()) browser.folder = std::filesystem::current_path(trouble);
+    std::filesystem::directory_iterator entry(browser.folder, trouble);
+    if (trouble) {
+        browser.trouble = "This folder cannot be read: " + trouble.message();
+        return;
+    }
+    for (; entry != std::filesystem::directory_iterator(); entry.increment(trouble)) {
+        if (trouble) break;
+        std::error_code ignored;
+        FolderEntry found;
+        found.name = entry->path().filename().string();
+        if (found.name.starts_with('.')) continue;
+        found.is_folder = entry->is_directory(ignored);
+        found.is_session = is_session(entry->path());
+        if (!found.is_folder) {
+            const bool shown =
+                browser.purpose == BrowseFor::save_session || browser.purpose == BrowseFor::take_handles
+                    ? found.is_session
+                : browser.purpose == BrowseFor::save_cloud ? is_cloud(entry->path())
+                                                           : found.is_session || is_cloud(entry->path());
+            if (!entry->is_regular_file(ignored) || (!shown && !browser.every_file)) continue;
+            found.bytes = entry->file_size(ignored);
+        }
+        found.changed = entry->last_write_time(ignored);
+        browser.entries.push_back(std::move(found));
+    }
+    std::sort(browser.entries.begin(), browser.entries.end(), by_name);
+}
+
+void go_to(FileBrowser& browser, const std::filesystem::path& place) {
+    std::error_code trouble;
+    std::filesystem::path folder = std::filesystem::weakly_canonical(place, trouble);
+    if (trouble) folder = place;
+    if (!std::filesystem::is_directory(folder, trouble)) folder = folder.parent_path();
+    browser.folder = folder;
+    if (reads_file(browser.purpose)) browser.typed.clear();
+    browser.name_changed_outside = true;
+    read_folder(browser);
+}
+
+std::filesystem::path typed_path(const FileBrowser& browser) {
+    std::filesystem::path typed(browser.typed);
+    if (browser.typed == "~" || browser.typed.starts_with("~/"))
+        if (const char* home = std::getenv("HOME"))
+            typed = std::filesystem::path(home) / (browser.typed.size() > 2 ? browser.typed.substr(2) : "");
+    if (typed.is_relative()) typed = browser.folder / typed;
+    std::error_code ignored;
+    if (!typed.has_extension() && !std::filesystem::is_directory(typed, ignored)) {
+        if (browser.purpose == BrowseFor::save_session) typed += ".knead";
+        if (browser.purpose == BrowseFor::save_cloud) typed += ".ply";
+    }
+    return typed.lexically_normal();
+}
+
+} // namespace knead

@@ -1,0 +1,203 @@
+// The panel "Handles": making handles of the selection, and the list of those there are.
+
+#include "app/handle_colors.h"
+#include "app/icons.h"
+#include "app/ui.h"
+#include "app/widgets.h"
+
+#include <imgui_stdlib.h>
+
+namespace knead {
+
+namespace {
+
+void selection_buttons(const Ui& ui) {
+    const std::size_t selected = ui.editor.selected;
+    if (selected == 0)
+        faint_text("Nothing selected. Draw around a part of the cloud with the left button.");
+    else
+        faint_text(grouped(selected) +
+                   (selected == 1 ? " point selected. Make it a" : " points selected. Make them a"));
+    ImGui::BeginDisabled(selected == 0);
+    if (key_button("Moving handle", "H", true)) ui.tell(MakeHandle{HandleRole::moving, {}});
+    explain("A part that you move, turn and scale; the rest of the cloud follows (H)");
+    const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    if (ImGui::Button("Fixed handle", {half, 0})) ui.tell(MakeHandle{HandleRole::fixed, {}});
+    explain("A part that stays exactly where it is (Shift+H)");
+    ImGui::SameLine();
+    if (ImGui::Button("Region", {half, 0})) ui.tell(MakeHandle{HandleRole::region_of_interest, {}});
+    explain("The region of interest: only these points may deform, everything else stays (Ctrl+H)");
+    ImGui::EndDisabled();
+}
+
+void role_items(const Ui& ui, const Handle& handle) {
+    const struct {
+        HandleRole role;
+        const char* label;
+    } roles[] = {{HandleRole::moving, "Moving"},
+                 {HandleRole::fixed, "Fixed"},
+                 {HandleRole::region_of_interest, "Region of interest"}};
+    for (const auto& [role, label] : roles)
+        if (ImGui::MenuItem(label, nullptr, handle.role == role)) ui.tell(ChangeRole{handle.name, role});
+}
+
+void handle_menu(const Ui& ui, const Handle& handle) {
+    role_items(ui, handle);
+    ImGui::Separator();
+    if (ImGui::MenuItem("Rename", "F2")) {
+        ui.state.renaming = ui.state.name_text = handle.name;
+        ui.state.renaming_begins = true;
+    }
+    if (ImGui::MenuItem("Colour…")) ui.state.recoloring = handle.name;
+    if (ImGui::MenuItem("Select its points", "Shift+L"))
+        ui.tell(SelectHandlePoints{handle.name, SelectMode::replace});
+    if (ImGui::MenuItem("Reset its pose", "Alt+R", false,
+                        handle.role == HandleRole::moving && ui.editor.document->posed))
+        ui.tell(ResetPose{handle.name});
+    if (ImGui::BeginMenu("Mirror")) {
+        if (ImGui::MenuItem("Along X")) ui.tell(MirrorHandle{handle.name, 0});
+        if (ImGui::MenuItem("Along Y")) ui.tell(MirrorHandle{handle.name, 1});
+        if (ImGui::MenuItem("Along Z")) ui.tell(MirrorHandle{handle.name, 2});
+        ImGui::EndMenu();
+    }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Delete", "Del")) ui.tell(DeleteHandle{handle.name});
+}
+
+// The field in which a name is typed, in place of the name.
+void name_field(const Ui& ui, const Handle& handle) {
+    UiState& state = ui.state;
+    if (state.renaming_begins) ImGui::SetKeyboardFocusHere();
+    const bool entered = ImGui::InputText(
+        "##name", &state.name_text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    const bool escaped = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    const bool left = !state.renaming_begins && ImGui::IsItemDeactivated();
+    state.renaming_begins = false;
+    if (!entered && !left) return;
+    if (!escaped && !state.name_text.empty() && state.name_text != handle.name)
+        ui.tell(RenameHandle{handle.name, state.name_text});
+    state.renaming.clear();
+}
+
+// What a row of the list reacts to; returns whether the cursor is on it.
+bool row_button(const Ui& ui, const Handle& handle, ImVec2 size, bool renaming) {
+    if (renaming) {
+        ImGui::Dummy(size);
+        return false;
+    }
+    if (ImGui::InvisibleButton("row", size)) ui.tell(ChooseHandle{handle.name});
+    const bool hovered = ImGui::IsItemHovered();
+    if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        ui.state.renaming = ui.state.name_text = handle.name;
+        ui.state.renaming_begins = true;
+    }
+    if (!ImGui::IsPopupOpen("menu"))
+        explain(handle.name + ": " + words_for(handle.role) + ", " + grouped(handle.points->size()) +
+                " points\nClick chooses it, a double click renames it, the right button has more.");
+    return hovered;
+}
+
+// The square in the handle's colour; a click changes it.
+void color_swatch(const Ui& ui, const Handle& handle, std::size_t number, ImVec2 middle) {
+    const ImU32 color = handle_color(ui.state.handle_colors, handle.name, number, handle.role);
+    const float half = ui.scaled(6);
+    ImGui::GetWindowDrawList()->AddRectFilled({middle.x - half, middle.y - half},
+                                              {middle.x + half, middle.y + half}, color, ui.scaled(3));
+    if (!ImGui::BeginPopup("color")) return;
+    ImVec4 mixed = as_vector(color);
+    if (ImGui::ColorPicker3("##picker", &mixed.x,
+                            ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs))
+        ui.state.handle_colors[handle.name] = ImGui::ColorConvertFloat4ToU32(mixed);
+    if (ImGui::Button("Usual colour", {-1, 0})) ui.state.handle_colors.erase(handle.name);
+    ImGui::EndPopup();
+}
+
+void handle_row(const Ui& ui, const Handle& handle, std::size_t number) {
+    ImGui::PushID(static_cast<int>(number));
+    const bool chosen = handle.name == ui.editor.chosen;
+    const float height = ImGui::GetFrameHeight(), width = ImGui::GetContentRegionAvail().x;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const bool renaming = ui.state.renaming == handle.name;
+    const bool hovered = row_button(ui, handle, {width - height, height}, renaming);
+    if (chosen || hovered)
+        list.AddRectFilled(corner, {corner.x + width, corner.y + height},
+                           chosen ? palette::field_pressed : palette::rgb(0xffffff, 14), ui.scaled(5));
+    if (chosen)
+        list.AddRectFilled(corner, {corner.x + ui.scaled(3), corner.y + height}, palette::accent,
+                           ui.scaled(2));
+    const float middle = corner.y + height / 2;
+    color_swatch(ui, handle, number, {corner.x + ui.scaled(18), middle});
+    draw_icon(list, icon_of(handle.role), {corner.x + ui.scaled(40), middle}, ui.scaled(13), palette::text);
+    const float text = ui.scaled(56);
+    if (renaming) {
+        ImGui::SetCursorScreenPos({corner.x + text - ImGui::GetStyle().FramePadding.x, corner.y});
+        ImGui::SetNextItemWidth(width - text - height);
+        name_field(ui, handle);
+    } else {
+        list.PushClipRect(corner, {corner.x + width - height, corner.y + height}, true);
+        list.AddText({corner.x + text, middle - ImGui::GetFontSize() / 2}, palette::text,
+                     handle.name.c_str());
+        list.PopClipRect();
+    }
+    ImGui::SetCursorScreenPos({corner.x + width - height, corner.y});
+    if (icon_button("more", Icon::more, height, false, "More: role, rename, mirror, delete …"))
+        ImGui::OpenPopup("menu");
+    if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) ImGui::OpenPopup("menu");
+    if (ImGui::BeginPopup("menu")) {
+        handle_menu(ui, handle);
+        ImGui::EndPopup();
+    }
+    if (ui.state.recoloring == handle.name) {
+        ui.state.recoloring.clear();
+        ImGui::OpenPopup("color");
+    }
+    ImGui::SetCursorScreenPos({corner.x, corner.y + height});
+    ImGui::Dummy({width, ui.scaled(2)});
+    ImGui::PopID();
+}
+
+void chosen_buttons(const Ui& ui, const Handle& handle) {
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float half = (ImGui::GetContentRegionAvail().x - gap) / 2;
+    if (ImGui::Button("Select points", {half, 0}))
+        ui.tell(SelectHandlePoints{handle.name, SelectMode::replace});
+    explain("Selects the points of the chosen handle (Shift+L)");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(handle.role != HandleRole::moving || !ui.editor.document->posed);
+    if (ImGui::Button("Reset pose", {half, 0})) ui.tell(ResetPose{handle.name});
+    explain("Puts the chosen handle back where it was at rest (Alt+R)");
+    ImGui::EndDisabled();
+    if (ImGui::Button("Mirror…", {half, 0})) ImGui::OpenPopup("mirror");
+    explain("Makes the same handle on the other side of the cloud, its pose mirrored");
+    if (ImGui::BeginPopup("mirror")) {
+        if (ImGui::MenuItem("Along X")) ui.tell(MirrorHandle{handle.name, 0});
+        if (ImGui::MenuItem("Along Y")) ui.tell(MirrorHandle{handle.name, 1});
+        if (ImGui::MenuItem("Along Z")) ui.tell(MirrorHandle{handle.name, 2});
+        ImGui::EndPopup();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Delete", {half, 0})) ui.tell(DeleteHandle{handle.name});
+    explain("Deletes the chosen handle; its points stay (Del)");
+}
+
+} // namespace
+
+void handles_panel(const Ui& ui) {
+    if (!ui.has_cloud()) {
+        faint_text("Handles are the parts of a cloud that you hold. Open a cloud first.");
+        return;
+    }
+    selection_buttons(ui);
+    const std::vector<Handle>& handles = ui.editor.document->handles;
+    if (handles.empty()) return;
+    ImGui::Dummy({0, ui.scaled(2)});
+    for (std::size_t i = 0; i < handles.size(); ++i) handle_row(ui, handles[i], i);
+    if (const Handle* handle = chosen_handle(ui.editor)) chosen_buttons(ui, *handle);
+    ImGui::BeginDisabled(!ui.editor.document->posed);
+    if (key_button("Commit the pose", "Enter", true)) ui.tell(CommitPose{});
+    explain("Makes the shape as it is now the new rest shape, from which the next edit starts");
+    ImGui::EndDisabled();
+}
+
+} // namespace knead

@@ -1,0 +1,70 @@
+// The scale of the colours, in the corner of the view.
+
+#include "app/overlay.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace knead {
+
+namespace {
+
+std::string number(double value, double width) {
+    // As many digits as tell the ends apart.
+    const int digits =
+        static_cast<int>(std::clamp(std::ceil(2 - std::log10(std::max(width, 1e-12))), 0.0, 9.0));
+    char text[48];
+    if (std::abs(value) >= 1e6 || digits > 7)
+        std::snprintf(text, sizeof text, "%.3g", value);
+    else
+        std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return text;
+}
+
+ImU32 scale_color(double at) {
+    const glm::vec3 color = viridis(at);
+    return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, 1});
+}
+
+} // namespace
+
+void draw_legend(const Ui& ui) {
+    const Legend& legend = ui.state.legend;
+    if (!ui.has_cloud() || !legend.range) return;
+    const Rectangle& view = ui.state.view;
+    const float width = ui.scaled(14), height = ui.scaled(170), margin = ui.scaled(14);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    ImGui::PushFont(ui.state.fonts.small);
+    const double low = legend.range->low, high = legend.range->high;
+    constexpr int marks = 4; // between which the scale is written
+    float text_width = ImGui::CalcTextSize(legend.title.c_str()).x - width;
+    for (int i = 0; i <= marks; ++i)
+        text_width = std::max(
+            text_width, ImGui::CalcTextSize(number(low + (high - low) * i / marks, high - low).c_str()).x);
+    const float line = ImGui::GetTextLineHeight();
+    const ImVec2 size(width + text_width + ui.scaled(8) + 2 * margin,
+                      height + line + ui.scaled(10) + 2 * margin);
+    const ImVec2 corner(view.x + ui.scaled(16), view.y + ui.scaled(16));
+    list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, palette::rgb(0x15171a, 170),
+                       ui.scaled(7));
+    list.AddText({corner.x + margin, corner.y + margin}, palette::text, legend.title.c_str());
+    const float left = corner.x + margin, top = corner.y + margin + line + ui.scaled(10);
+    constexpr int bands = 48;
+    for (int i = 0; i < bands; ++i) {
+        const double above = 1.0 - static_cast<double>(i) / bands,
+                     below = 1.0 - static_cast<double>(i + 1) / bands;
+        const float y0 = top + height * static_cast<float>(i) / bands,
+                    y1 = top + height * static_cast<float>(i + 1) / bands;
+        list.AddRectFilledMultiColor({left, y0}, {left + width, y1}, scale_color(above), scale_color(above),
+                                     scale_color(below), scale_color(below));
+    }
+    for (int i = 0; i <= marks; ++i) {
+        const float y = top + height * (1 - static_cast<float>(i) / marks);
+        list.AddLine({left + width, y}, {left + width + ui.scaled(4), y}, palette::faint);
+        list.AddText({left + width + ui.scaled(8), y - line / 2}, palette::text,
+                     number(low + (high - low) * i / marks, high - low).c_str());
+    }
+    ImGui::PopFont();
+}
+
+} // namespace knead

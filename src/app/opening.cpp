@@ -1,0 +1,106 @@
+// How far opening, or another long stage, is.
+
+#include "app/ui.h"
+#include "app/widgets.h"
+
+#include <algorithm>
+
+namespace knead {
+
+namespace {
+
+void bar(const Ui& ui, double fraction) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, height = ui.scaled(6);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + width, at.y + height}, palette::field, height / 2);
+    const float filled = width * static_cast<float>(std::clamp(fraction, 0.0, 1.0));
+    if (filled >= height) list.AddRectFilled(at, {at.x + filled, at.y + height}, palette::accent, height / 2);
+    ImGui::Dummy({width, height});
+}
+
+void begin_card(const Ui& ui, const char* id, float width, float down) {
+    const Rectangle& view = ui.state.view;
+    ImGui::SetNextWindowPos({view.x + view.width / 2, view.y + view.height * down}, ImGuiCond_Always,
+                            {0.5f, down});
+    ImGui::SetNextWindowSize({std::min(ui.scaled(width), view.width * 0.95f), 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.scaled(20), ui.scaled(16)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.scaled(8));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::raised);
+    ImGui::Begin(id, nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+}
+
+void end_card() {
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(3);
+}
+
+std::string sentence(std::string words) {
+    if (!words.empty() && words[0] >= 'a' && words[0] <= 'z')
+        words[0] = static_cast<char>(words[0] - 'a' + 'A');
+    return words;
+}
+
+} // namespace
+
+void draw_opening(const Ui& ui) {
+    if (ui.editor.opening) {
+        const LiveDocument::Status status = ui.editor.opening->status();
+        const OpenRequest& request = ui.editor.opening_request;
+        const std::filesystem::path& file = request.restore ? *request.restore : request.file;
+        begin_card(ui, "opening", 400, 0.5f);
+        ImGui::TextUnformatted(("Opening " + file.filename().string()).c_str());
+        bar(ui, status.fraction);
+        faint_text(status.doing.empty() ? "Reading" : sentence(status.doing));
+        ImGui::SameLine(ImGui::GetWindowWidth() - ui.scaled(110));
+        if (ImGui::Button("Cancel", {ui.scaled(90), 0})) ui.wish(WishCancelOpening{});
+        end_card();
+        return;
+    }
+    if (!ui.editor.live) return;
+    // Stages that a first drag or a change of samples starts: shown once they have taken a moment.
+    const LiveDocument::Status status = ui.editor.live->status();
+    UiState& state = ui.state;
+    if (status.doing.empty()) {
+        state.long_stage_since = ImGui::GetTime();
+        return;
+    }
+    if (ImGui::GetTime() - state.long_stage_since < 0.25) return;
+    begin_card(ui, "stage", 300, 0.97f);
+    faint_text(sentence(status.doing));
+    bar(ui, status.fraction);
+    end_card();
+}
+
+void draw_recovery(const Ui& ui) {
+    if (ui.state.lost.empty() || ui.editor.opening) return;
+    const LostWork work = ui.state.lost.front();
+    begin_card(ui, "recovery", 480, 0.04f);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    draw_icon(*ImGui::GetWindowDrawList(), Icon::warning, {at.x + ui.scaled(9), at.y + ui.scaled(9)},
+              ui.scaled(18), palette::warning);
+    ImGui::Indent(ui.scaled(30));
+    ImGui::TextUnformatted("knead ended without saving");
+    faint_text("There are " + std::to_string(work.acts) + (work.acts == 1 ? " act" : " acts") + " on " +
+               work.cloud.filename().string() +
+               " whose recording was not saved. Restoring brings back everything up to the "
+               "last finished one.");
+    ImGui::Unindent(ui.scaled(30));
+    ImGui::Dummy({0, ui.scaled(2)});
+    const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
+    const bool entered =
+        !ui.editor.document && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+    if (main_button("Restore", {width, 0}) || entered) ui.wish(WishRestore{work});
+    ImGui::SameLine();
+    if (ImGui::Button("Keep for later", {width, 0})) ui.state.lost.erase(ui.state.lost.begin());
+    explain("Asks again at the next start");
+    ImGui::SameLine();
+    if (ImGui::Button("Delete", {width, 0})) ui.wish(WishDeleteLost{work});
+    end_card();
+}
+
+} // namespace knead

@@ -1,0 +1,304 @@
+// Over the cloud, under the panels: the gizmo, the selection in the making, the amount beside the cursor, the
+// names of the handles and the axes in the corner.
+
+#include "app/overlay.h"
+
+#include "app/icons.h"
+#include "app/widgets.h"
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace knead {
+
+ImVec2 in_window(const Ui& ui, glm::dvec2 pixel) {
+    return {ui.state.view.x + static_cast<float>(pixel.x) / ui.state.pixel_ratio,
+            ui.state.view.y + static_cast<float>(pixel.y) / ui.state.pixel_ratio};
+}
+
+std::optional<glm::dvec3> middle_of_handle(const Editor& editor, const Handle& handle) {
+    constexpr std::size_t enough = 512;
+    const std::vector<Index>& points = *handle.points;
+    const std::size_t stride = std::max<std::size_t>(1, points.size() / enough);
+    glm::dvec3 sum(0.0);
+    double count = 0;
+    for (std::size_t i = 0; i < points.size(); i += stride) {
+        const Index at = editor.ordered[points[i]];
+        if (at == no_index) continue;
+        const float* p = &editor.frame.positions[3 * std::size_t{at}];
+        sum += glm::dvec3(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
+        ++count;
+    }
+    if (count == 0) return std::nullopt;
+    return sum / count;
+}
+
+namespace {
+
+constexpr std::array axis_colors{palette::rgb(0xf2545b), palette::rgb(0x7fc94d), palette::rgb(0x4b93f7),
+                                 palette::rgb(0xe6e8ec)};
+
+// --- The gizmo ---
+
+ImU32 color_of(const GizmoShape& shape, bool hovered, bool another_is_dragged) {
+    if (hovered) return palette::rgb(0xffd24a);
+    const ImU32 color = axis_colors[static_cast<std::size_t>(std::clamp(shape.color_axis, 0, 3))];
+    return with_alpha(color, another_is_dragged ? 0.25f : shape.behind ? 0.28f : 0.95f);
+}
+
+void draw_shape(const Ui& ui, ImDrawList& list, const GizmoShape& shape, ImU32 color, float thickness) {
+    for (const glm::dvec2 corner : shape.outline) list.PathLineTo(in_window(ui, corner));
+    if (shape.filled && shape.closed) {
+        const bool translucent = shape.part.constraint.kind == Constraint::Kind::plane;
+        list.PathFillConvex(translucent ? with_alpha(color, 0.45f) : color);
+        if (!translucent) return;
+        for (const glm::dvec2 corner : shape.outline) list.PathLineTo(in_window(ui, corner));
+    }
+    list.PathStroke(color, shape.closed ? ImDrawFlags_Closed : ImDrawFlags_None, thickness);
+}
+
+void draw_gizmo(const Ui& ui, ImDrawList& list) {
+    const std::optional<Gizmo> gizmo = gizmo_of(ui.editor);
+    if (!gizmo) return;
+    const Tools& tools = ui.editor.tools;
+    if (tools.drag && tools.modal) return; // the constraint's line says it all
+    std::vector<GizmoShape> shapes = gizmo_shapes(*gizmo, ui.editor.camera, ui.editor.viewport);
+    std::stable_sort(shapes.begin(), shapes.end(),
+                     [](const GizmoShape& a, const GizmoShape& b) { return a.depth > b.depth; });
+    for (const GizmoShape& shape : shapes) {
+        const bool hovered = tools.hovered && *tools.hovered == shape.part;
+        const ImU32 color = color_of(shape, hovered, tools.drag.has_value() && !hovered);
+        const float thickness = ui.scaled(hovered ? 3.0f : shape.behind ? 1.4f : 2.2f);
+        // A dark line beneath keeps it readable on bright clouds.
+        if (!shape.filled && !shape.behind)
+            draw_shape(ui, list, shape, palette::rgb(0x101114, 90), thickness + ui.scaled(1.6f));
+        draw_shape(ui, list, shape, color, thickness);
+    }
+}
+
+// The axis that a drag keeps to, through the whole view.
+void draw_constraint(const Ui& ui, ImDrawList& list) {
+    const Tools& tools = ui.editor.tools;
+    if (!tools.drag || tools.drag->constraint.kind != Constraint::Kind::axis) return;
+    const TransformDrag& drag = *tools.drag;
+    glm::dvec3 along(0.0);
+    along[drag.constraint.axis] = 1;
+    if (drag.constraint.local) along = drag.local_axes * along;
+    const Camera& camera = ui.editor.camera;
+    const double reach = 4 * camera.distance;
+    // In pieces, since its ends may lie behind the eye.
+    constexpr int pieces = 64;
+    std::optional<ImVec2> before;
+    const ImU32 color = with_alpha(axis_colors[static_cast<std::size_t>(drag.constraint.axis)], 0.75f);
+    for (int i = 0; i <= pieces; ++i) {
+        const double t = (2.0 * i / pieces - 1) * reach;
+        const auto projected = project(camera, ui.editor.viewport, drag.pivot + t * along);
+        std::optional<ImVec2> here;
+        if (projected) here = in_window(ui, projected->pixel);
+        if (here && before) list.AddLine(*before, *here, color, ui.scaled(1.3f));
+        before = here;
+    }
+}
+
+// --- Small labels ---
+
+void pill(const Ui& ui, ImDrawList& list, ImVec2 corner, const std::string& words, ImU32 ink, ImU32 back) {
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    const float across = ui.scaled(9), down = ui.scaled(5);
+    list.AddRectFilled(corner, {corner.x + size.x + 2 * across, corner.y + size.y + 2 * down}, back,
+                       ui.scaled(6));
+    list.AddText({corner.x + across, corner.y + down}, ink, words.c_str());
+}
+
+void draw_amount(const Ui& ui, ImDrawList& list) {
+    const Tools& tools = ui.editor.tools;
+    if (!tools.drag) return;
+    const std::string words = amount_text(*tools.drag, ui.editor.camera, ui.editor.viewport);
+    const ImVec2 cursor = in_window(ui, tools.cursor);
+    const Rectangle& view = ui.state.view;
+    const float width = ImGui::CalcTextSize(words.c_str()).x + ui.scaled(20);
+    const float x = std::min(cursor.x + ui.scaled(20), view.x + view.width - width);
+    const float y = std::min(cursor.y + ui.scaled(16), view.y + view.height - ui.scaled(30));
+    pill(ui, list, {x, y}, words, palette::text, palette::rgb(0x15171a, 225));
+}
+
+// Where a label goes that wants to be at `corner`: there, or below those that are in its way.
+ImVec2 free_place(std::vector<ImRect>& taken, ImVec2 corner, ImVec2 size) {
+    ImRect place(corner, {corner.x + size.x, corner.y + size.y});
+    for (int tries = 0; tries < 4; ++tries)
+        for (const ImRect& other : taken)
+            if (place.Overlaps(other)) place.TranslateY(other.Max.y + 2 - place.Min.y);
+    taken.push_back(place);
+    return place.Min;
+}
+
+void draw_name(const Ui& ui, ImDrawList& list, const Handle& handle, std::size_t number,
+               std::vector<ImRect>& taken) {
+    const std::optional<glm::dvec3> middle = middle_of_handle(ui.editor, handle);
+    if (!middle) return;
+    const auto projected = project(ui.editor.camera, ui.editor.viewport, *middle);
+    if (!projected) return;
+    const ImVec2 at = in_window(ui, projected->pixel);
+    const bool chosen = handle.name == ui.editor.chosen;
+    const ImVec2 size = ImGui::CalcTextSize(handle.name.c_str());
+    const float icon = ui.scaled(11), across = ui.scaled(7), down = ui.scaled(3), gap = ui.scaled(5);
+    const float width = 2 * across + icon + gap + size.x, height = size.y + 2 * down;
+    // The chosen one's stands above its gizmo.
+    const std::optional<Gizmo> gizmo = chosen ? gizmo_of(ui.editor) : std::nullopt;
+    const float ring = gizmo ? 1.3f * static_cast<float>(gizmo->size) / ui.state.pixel_ratio : 0;
+    const float rise = gizmo ? ring + ui.scaled(10) + height : height / 2;
+    const ImVec2 corner =
+        free_place(taken, {std::round(at.x - width / 2), std::round(at.y - rise)}, {width, height});
+    const ImU32 color = handle_color(ui.state.handle_colors, handle.name, number, handle.role);
+    list.AddRectFilled(corner, {corner.x + width, corner.y + height},
+                       palette::rgb(0x15171a, chosen ? 225 : 165), height / 2);
+    if (chosen)
+        list.AddRect(corner, {corner.x + width, corner.y + height}, palette::accent, height / 2, 0,
+                     ui.scaled(1.2f));
+    draw_icon(list, icon_of(handle.role), {corner.x + across + icon / 2, corner.y + height / 2}, icon, color);
+    list.AddText({corner.x + across + icon + gap, corner.y + down}, palette::text, handle.name.c_str());
+}
+
+void draw_names(const Ui& ui, ImDrawList& list) {
+    if (!ui.state.display.names || ui.editor.frame.positions.empty()) return;
+    ImGui::PushFont(ui.state.fonts.small);
+    const std::vector<Handle>& handles = ui.editor.document->handles;
+    std::vector<ImRect> taken;
+    for (std::size_t i = 0; i < handles.size(); ++i)
+        if (handles[i].role != HandleRole::region_of_interest || handles[i].name == ui.editor.chosen)
+            draw_name(ui, list, handles[i], i, taken);
+    ImGui::PopFont();
+}
+
+// --- The selection in the making ---
+
+ImU32 band_color(SelectMode mode) {
+    switch (mode) {
+    case SelectMode::add:
+        return palette::good;
+    case SelectMode::remove:
+        return palette::error;
+    default:
+        return palette::accent;
+    }
+}
+
+void draw_path(const Ui& ui, ImDrawList& list, std::span<const glm::dvec2> path, bool closed, ImU32 color,
+               float thickness) {
+    for (const glm::dvec2 corner : path) list.PathLineTo(in_window(ui, corner));
+    list.PathStroke(color, closed ? ImDrawFlags_Closed : ImDrawFlags_None, ui.scaled(thickness));
+}
+
+void draw_box(const Ui& ui, ImDrawList& list, ImU32 color) {
+    const Tools& tools = ui.editor.tools;
+    const ImVec2 a = in_window(ui, tools.band.front()), b = in_window(ui, tools.cursor);
+    const ImVec2 low(std::min(a.x, b.x), std::min(a.y, b.y)), high(std::max(a.x, b.x), std::max(a.y, b.y));
+    list.AddRectFilled(low, high, with_alpha(color, 0.10f));
+    list.AddRect(low, high, color, 0, 0, ui.scaled(1.4f));
+}
+
+void draw_polygon(const Ui& ui, ImDrawList& list, ImU32 color) {
+    const Tools& tools = ui.editor.tools;
+    std::vector<glm::dvec2> path = tools.band;
+    path.push_back(tools.cursor);
+    draw_path(ui, list, path, false, color, 1.5f);
+    if (path.size() > 2) {
+        const std::array closing{path.back(), path.front()};
+        draw_path(ui, list, closing, false, with_alpha(color, 0.45f), 1.2f);
+    }
+    for (const glm::dvec2 corner : tools.band)
+        list.AddCircleFilled(in_window(ui, corner), ui.scaled(3.5f), color);
+}
+
+void draw_band(const Ui& ui, ImDrawList& list) {
+    const Tools& tools = ui.editor.tools;
+    if (tools.band.empty()) return;
+    const ImU32 color = band_color(tools.band_mode);
+    switch (tools.select) {
+    case SelectTool::box:
+        draw_box(ui, list, color);
+        break;
+    case SelectTool::polygon:
+        draw_polygon(ui, list, color);
+        break;
+    case SelectTool::brush: {
+        const float width =
+            2 * static_cast<float>(tools.brush_radius) / ui.state.pixel_ratio / ui.state.scale;
+        draw_path(ui, list, tools.band, false, with_alpha(color, 0.22f), width);
+        break;
+    }
+    default:
+        draw_path(ui, list, tools.band, false, palette::rgb(0x101114, 110), 3.2f);
+        draw_path(ui, list, tools.band, false, color, 1.6f);
+        if (tools.band.size() > 2) {
+            const std::array closing{tools.band.back(), tools.band.front()};
+            draw_path(ui, list, closing, false, with_alpha(color, 0.45f), 1.2f);
+        }
+    }
+}
+
+void draw_brush(const Ui& ui, ImDrawList& list) {
+    const Tools& tools = ui.editor.tools;
+    if (tools.select != SelectTool::brush || tools.drag || tools.hovered || !ui.state.cursor_in_view) return;
+    const float radius = static_cast<float>(tools.brush_radius) / ui.state.pixel_ratio;
+    const ImVec2 at = in_window(ui, tools.cursor);
+    list.AddCircle(at, radius, palette::rgb(0x101114, 120), 0, ui.scaled(3));
+    list.AddCircle(at, radius, tools.band.empty() ? palette::text : band_color(tools.band_mode), 0,
+                   ui.scaled(1.4f));
+}
+
+// --- The axes in the corner ---
+
+void draw_axes(const Ui& ui, ImDrawList& list) {
+    if (!ui.state.display.axes) return;
+    const Rectangle& view = ui.state.view;
+    const ImVec2 middle(view.x + ui.scaled(52), view.y + view.height - ui.scaled(52));
+    const float length = ui.scaled(30);
+    struct Tip {
+        glm::dvec3 direction;
+        std::size_t axis;
+    };
+    std::array<Tip, 3> tips{};
+    const glm::dquat to_screen = glm::conjugate(ui.editor.camera.orientation);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        glm::dvec3 along(0.0);
+        along[static_cast<glm::length_t>(axis)] = 1;
+        tips[axis] = {to_screen * along, axis};
+    }
+    std::sort(tips.begin(), tips.end(),
+              [](const Tip& a, const Tip& b) { return a.direction.z < b.direction.z; });
+    ImGui::PushFont(ui.state.fonts.small);
+    for (const Tip& tip : tips) {
+        const ImVec2 end(middle.x + length * static_cast<float>(tip.direction.x),
+                         middle.y - length * static_cast<float>(tip.direction.y));
+        const ImU32 color = with_alpha(axis_colors[tip.axis], tip.direction.z < -0.3 ? 0.5f : 0.95f);
+        list.AddLine(middle, end, color, ui.scaled(2));
+        list.AddCircleFilled(end, ui.scaled(8.5f), color);
+        const char letter[2] = {static_cast<char>('X' + tip.axis), 0};
+        const ImVec2 size = ImGui::CalcTextSize(letter);
+        list.AddText({end.x - size.x / 2, end.y - size.y / 2}, palette::rgb(0x14161a), letter);
+    }
+    ImGui::PopFont();
+}
+
+} // namespace
+
+void draw_overlay(const Ui& ui) {
+    if (!ui.has_cloud()) return;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const Rectangle& view = ui.state.view;
+    list.PushClipRect({view.x, view.y}, {view.x + view.width, view.y + view.height});
+    draw_constraint(ui, list);
+    draw_names(ui, list);
+    draw_gizmo(ui, list);
+    draw_band(ui, list);
+    draw_brush(ui, list);
+    draw_axes(ui, list);
+    draw_amount(ui, list);
+    list.PopClipRect();
+}
+
+} // namespace knead

@@ -1,0 +1,173 @@
+#include "app/scene.h"
+
+#include "app/estimated_normals.h"
+#include "app/scene_lines.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+
+namespace knead {
+
+struct Scene::State {
+    PointRenderer renderer;
+    GLuint framebuffer = 0, color = 0;
+    int width = 0, height = 0;
+
+    // As handed to the renderer last.
+    Coloring coloring{};
+    std::string attribute;
+    bool automatic_range = true;
+    ValueRange range;
+    bool colored = false;
+    bool parts_known = false;
+    UpAxis up = UpAxis::z;
+    SceneLinesOf lines;
+    EstimatedNormals estimated;
+    bool lit = false; // by them
+    std::vector<HandleLook> looks;
+    std::vector<std::uint32_t> colors;
+
+    State() {
+        glGenFramebuffers(1, &framebuffer);
+        glGenTextures(1, &color);
+    }
+    ~State() {
+        glDeleteFramebuffers(1, &framebuffer);
+        glDeleteTextures(1, &color);
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+
+    void resize(Viewport viewport) {
+        if (viewport.width == width && viewport.height == height) return;
+        width = viewport.width;
+        height = viewport.height;
+        glBindTexture(GL_TEXTURE_2D, color);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        glBindTexture(GL_TEXTURE_2D, 0);
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    }
+};
+
+Scene::Scene() : state_(std::make_unique<State>()) {}
+Scene::~Scene() = default;
+
+namespace {
+
+HandleLook::Pattern pattern_of(HandleRole role) {
+    switch (role) {
+    case HandleRole::moving:
+        return HandleLook::Pattern::solid;
+    case HandleRole::fixed:
+        return HandleLook::Pattern::stripes;
+    default:
+        return HandleLook::Pattern::dots;
+    }
+}
+
+std::vector<HandleLook> looks_of(const Editor& editor, const UiState& state) {
+    std::vector<HandleLook> looks;
+    const std::vector<Handle>& handles = editor.document->handles;
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+        const ImVec4 color =
+            as_vector(handle_color(state.handle_colors, handles[i].name, i, handles[i].role));
+        looks.push_back({{color.x, color.y, color.z}, pattern_of(handles[i].role)});
+    }
+    return looks;
+}
+
+bool same(const std::vector<HandleLook>& a, const std::vector<HandleLook>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const HandleLook& x, const HandleLook& y) {
+        return x.color == y.color && x.pattern == y.pattern;
+    });
+}
+
+} // namespace
+
+void Scene::take_in(Editor& editor, UiState& state) {
+    if (!editor.document) return;
+    State& own = *state_;
+    const Display& display = state.display;
+    EditorChanges& changes = editor.changes;
+    if (changes.cloud) {
+        if (display.coloring == Coloring::attribute) // of the cloud before
+            state.display.coloring = Coloring::file;
+        own.renderer.set_points(editor.marks.size(), editor.opened.spacing);
+        own.colored = false;
+        own.looks.clear();
+        own.lines = {};
+        own.renderer.set_overlay({});
+        own.estimated.begin_anew();
+        own.lit = false;
+    }
+    if (changes.cloud || changes.positions) {
+        own.renderer.set_positions(editor.frame.positions);
+        if (!editor.frame.normals.empty()) own.renderer.set_normals(editor.frame.normals);
+        if (follows_pose(display.coloring)) own.colored = false;
+    }
+    if (changes.cloud || changes.marks) own.renderer.set_marks(editor.marks);
+    changes = {false, false, false};
+    if (std::vector<HandleLook> looks = looks_of(editor, state); !same(looks, own.looks)) {
+        own.looks = std::move(looks);
+        own.renderer.set_handle_looks(own.looks);
+    }
+    const bool graph_came = !own.parts_known && editor.document->components != nullptr;
+    own.parts_known = editor.document->components != nullptr;
+    const bool needs_graph = display.coloring == Coloring::stretch || display.coloring == Coloring::parts;
+    if (!own.colored || own.coloring != display.coloring || own.attribute != display.attribute ||
+        own.automatic_range != display.automatic_range || own.up != editor.camera.up ||
+        !(own.range == display.range) || (graph_came && needs_graph)) {
+        state.legend = color_points(display, editor, own.colors);
+        own.renderer.set_colors(own.colors);
+        own.colored = true;
+        own.coloring = display.coloring;
+        own.attribute = display.attribute;
+        own.automatic_range = display.automatic_range;
+        own.range = display.range;
+        own.up = editor.camera.up;
+    }
+    if (SceneLinesOf lines = scene_lines_of(editor, display); !(lines == own.lines)) {
+        own.lines = std::move(lines);
+        own.renderer.set_overlay(scene_lines(editor, own.lines));
+    }
+    own.estimated.look_at(editor, display.look.shading, ImGui::GetTime());
+    const auto normals = own.estimated.take();
+    if (own.lit && own.estimated.outdated()) own.renderer.set_normals({});
+    own.lit &= !own.estimated.outdated();
+    if (normals && !own.estimated.outdated()) {
+        own.renderer.set_normals(*normals);
+        own.lit = true;
+    }
+}
+
+DrawResult Scene::draw(const Editor& editor, PointLook look, std::size_t budget, bool coarse) {
+    Viewport viewport = editor.viewport;
+    if (coarse) {
+        viewport = {std::max(1, viewport.width / 2), std::max(1, viewport.height / 2)};
+        look.pixel_scale /= 2;
+    }
+    state_->resize(viewport);
+    return state_->renderer.draw(editor.camera, viewport, look, budget, state_->framebuffer);
+}
+
+bool Scene::expects_more() const {
+    return state_->estimated.expected();
+}
+
+void Scene::show(int left, int top, Viewport viewport, int window_height) {
+    const State& own = *state_;
+    const int bottom = window_height - top - viewport.height;
+    const bool same_size = own.width == viewport.width && own.height == viewport.height;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, own.framebuffer);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, own.width, own.height, left, bottom, left + viewport.width,
+                      bottom + viewport.height, GL_COLOR_BUFFER_BIT, same_size ? GL_NEAREST : GL_LINEAR);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+} // namespace knead

@@ -1,0 +1,100 @@
+#include "app/scene_lines.h"
+
+#include "view/framing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knead {
+
+namespace {
+
+constexpr std::uint32_t rgba(unsigned red, unsigned green, unsigned blue, unsigned alpha) {
+    return red | green << 8 | blue << 16 | alpha << 24;
+}
+
+// A grid on the ground, of round steps; the axes through its middle are tinted.
+void add_ground(const Editor& editor, std::vector<OverlayLine>& lines) {
+    const Box3 box = bulk_box(editor.opened.opened->positions); // stray points below do not lower the ground
+    const glm::dvec3 middle = (box.lowest + box.highest) / 2.0;
+    const bool y_up = editor.camera.up == UpAxis::y;
+    // Across and along the ground: x and y, or x and z.
+    const glm::length_t along = y_up ? 2 : 1, upward = y_up ? 1 : 2;
+    const double ground = box.lowest[upward];
+    const double reach = std::max(glm::distance(box.lowest, box.highest), 1e-9);
+    const double step = std::pow(10.0, std::floor(std::log10(reach / 3)));
+    const double fine = reach / step > 15 ? 2 * step : step;
+    const int count = static_cast<int>(std::ceil(reach / fine));
+    const auto point = [&](double x, double y) {
+        glm::vec3 place(static_cast<float>(x));
+        place[along] = static_cast<float>(y);
+        place[upward] = static_cast<float>(ground);
+        return place;
+    };
+    const double x0 = std::round(middle.x / fine) * fine, y0 = std::round(middle[along] / fine) * fine;
+    const double half = count * fine;
+    const std::uint32_t middle_color = y_up ? rgba(75, 125, 220, 120) : rgba(100, 165, 60, 120);
+    for (int i = -count; i <= count; ++i) {
+        // Fainter towards the ends.
+        const double fade = 1 - std::abs(static_cast<double>(i)) / (count + 1);
+        const auto alpha = static_cast<unsigned>(20 + 45 * fade);
+        const std::uint32_t gray = rgba(190, 200, 215, alpha);
+        lines.push_back({point(x0 - half, y0 + i * fine), point(x0 + half, y0 + i * fine),
+                         i == 0 ? rgba(200, 70, 75, 120) : gray, 1});
+        lines.push_back({point(x0 + i * fine, y0 - half), point(x0 + i * fine, y0 + half),
+                         i == 0 ? middle_color : gray, 1});
+    }
+}
+
+// Where a vertex of the graph is now.
+glm::vec3 place_of(const Editor& editor, Index vertex) {
+    const float* p =
+        editor.frame.positions.data() + 3 * std::size_t{editor.opened.order->first_point[vertex]};
+    return {p[0], p[1], p[2]};
+}
+
+void add_links(const Editor& editor, const SceneLinesOf& what, std::vector<OverlayLine>& lines) {
+    const std::vector<Index>& vertices = *what.sample_vertices;
+    const Graph& graph = *what.sample_graph;
+    const std::size_t count = std::min(vertices.size(), graph.size());
+    for (std::size_t s = 0; s < count; ++s)
+        for (const Index other : graph.row(s))
+            if (s < other) // each link once
+                lines.push_back({place_of(editor, vertices[s]), place_of(editor, vertices[other]),
+                                 rgba(120, 215, 255, 130), 1});
+}
+
+void add_samples(const Editor& editor, const SceneLinesOf& what, std::vector<OverlayLine>& lines) {
+    for (const Index vertex : *what.sample_vertices) {
+        const glm::vec3 place = place_of(editor, vertex);
+        lines.push_back({place, place, rgba(10, 14, 20, 220), 6.5f});
+        lines.push_back({place, place, rgba(245, 250, 255, 255), 4});
+    }
+}
+
+} // namespace
+
+SceneLinesOf scene_lines_of(const Editor& editor, const Display& display) {
+    SceneLinesOf what;
+    what.grid = display.grid;
+    what.up = editor.camera.up;
+    const DocumentView& document = *editor.document;
+    const bool there = document.sample_vertices && document.sample_vertices->size() <= most_shown_samples;
+    what.samples = there && display.samples;
+    what.links = there && display.sample_graph && document.sample_graph;
+    if (!what.samples && !what.links) return what;
+    what.sample_vertices = document.sample_vertices;
+    what.sample_graph = document.sample_graph;
+    what.version = editor.frame.version;
+    return what;
+}
+
+std::vector<OverlayLine> scene_lines(const Editor& editor, const SceneLinesOf& what) {
+    std::vector<OverlayLine> lines;
+    if (what.grid) add_ground(editor, lines);
+    if (what.links) add_links(editor, what, lines);
+    if (what.samples) add_samples(editor, what, lines);
+    return lines;
+}
+
+} // namespace knead

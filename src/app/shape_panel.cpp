@@ -1,0 +1,129 @@
+// The panel "Shape": how stiff the cloud is and how finely the deformation is computed.
+
+#include "app/ui.h"
+#include "app/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace knead {
+
+namespace {
+
+// How long a slider has to rest until its value takes effect, in seconds.
+constexpr double rest = 0.12;
+
+void change(const Ui& ui, const SettingsChange& wanted) {
+    SlidingSettings& sliding = ui.state.sliding;
+    sliding.change = sliding.change ? merged(*sliding.change, wanted) : wanted;
+    sliding.last_moved = ImGui::GetTime();
+}
+
+// Sends what was slid once the hand rests.
+void send_rested(const Ui& ui) {
+    SlidingSettings& sliding = ui.state.sliding;
+    if (!sliding.change) return;
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && ImGui::GetTime() - sliding.last_moved < rest) return;
+    ui.tell(ChangeSettings{*sliding.change});
+    sliding.change.reset();
+}
+
+void stiffness_slider(const Ui& ui, const Settings& settings) {
+    auto stiffness = static_cast<float>(settings.stiffness);
+    if (bar_slider("Stiffness", stiffness, 1e-4f, 10.0f, "%.4g",
+                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat)) {
+        SettingsChange wanted;
+        // Two digits are what a hand can mean; a session file then reads 0.013 and not 0.01298734.
+        const double unit = std::pow(10.0, std::floor(std::log10(static_cast<double>(stiffness))) - 1);
+        wanted.stiffness = std::max(1e-4, std::round(static_cast<double>(stiffness) / unit) * unit);
+        change(ui, wanted);
+    }
+    explain(
+        "How evenly turns spread through the cloud: little bends near the handles, much carries a turn far. "
+        "α, a plain number; 0.01 suits most shapes.");
+}
+
+void samples_slider(const Ui& ui, const Settings& settings) {
+    bool all = !settings.samples;
+    const float box = ImGui::GetFrameHeight() + ImGui::CalcTextSize("All").x + ui.scaled(18);
+    ImGui::BeginDisabled(all);
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - box);
+    int samples = static_cast<int>(std::min<std::uint64_t>(settings.samples.value_or(1000), 1000000));
+    if (bar_slider("Samples", samples, 50, 20000, "%d",
+                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
+        SettingsChange wanted;
+        const int step = samples < 1000 ? 50 : samples < 5000 ? 250 : 1000;
+        wanted.samples = static_cast<std::uint64_t>(std::max(50, (samples + step / 2) / step * step));
+        change(ui, wanted);
+    }
+    ImGui::EndDisabled();
+    explain("At how many points the deformation is computed; all others follow. More are finer and slower. "
+            "Changing "
+            "it while handles are posed commits the pose first.");
+    ImGui::SameLine();
+    if (ImGui::Checkbox("All", &all)) {
+        SettingsChange wanted;
+        wanted.samples = all ? std::optional<std::uint64_t>{} : std::optional<std::uint64_t>{1000};
+        ui.tell(ChangeSettings{wanted});
+    }
+    explain("Every point is a sample: exact, and slow on large clouds");
+}
+
+void iterations_slider(const Ui& ui, const Settings& settings) {
+    int iterations = static_cast<int>(settings.iterations);
+    if (bar_slider("Iterations a frame", iterations, 0, 20, "%d")) {
+        SettingsChange wanted;
+        wanted.iterations = static_cast<unsigned>(std::clamp(iterations, 0, 1000));
+        change(ui, wanted);
+    }
+    explain("How far the shape goes towards rest in each frame of a drag. Few follow the hand faster; the "
+            "shape settles "
+            "by itself when the hand rests.");
+}
+
+void weights_choice(const Ui& ui, const Settings& settings) {
+    caption("Weights");
+    const int chosen = settings.weights == InfluenceWeights::smooth ? 0 : 1;
+    const int clicked = segmented("weights", {"Smooth", "Paper"}, chosen);
+    explain("How samples share out their influence on the points between them. Smooth: none at the farthest, "
+            "so nothing "
+            "jumps. Paper: one over the distance squared.");
+    if (clicked < 0 || clicked == chosen) return;
+    SettingsChange wanted;
+    wanted.weights = clicked == 0 ? InfluenceWeights::smooth : InfluenceWeights::paper;
+    ui.tell(ChangeSettings{wanted});
+}
+
+void what_there_is(const DocumentView& document) {
+    std::string words;
+    if (document.samples > 0) words += grouped(document.samples) + " samples";
+    const std::size_t parts = document.components ? document.components->size.size() : 0;
+    if (parts > 0)
+        words += (words.empty() ? "" : ", ") + grouped(parts) +
+                 (parts == 1 ? " connected part" : " connected parts");
+    if (document.strays.parts > 0)
+        words += (words.empty() ? "" : "\n") + grouped(document.strays.parts) + " parts (" +
+                 grouped(document.strays.points) + " points) hold no handle and stay where they are";
+    if (!words.empty()) faint_text(words);
+}
+
+} // namespace
+
+void shape_panel(const Ui& ui) {
+    if (!ui.has_cloud()) {
+        faint_text("How stiff the cloud is, and how finely it is computed.");
+        return;
+    }
+    const DocumentView& document = *ui.editor.document;
+    Settings settings = document.settings;
+    if (ui.state.sliding.change) settings = changed(settings, *ui.state.sliding.change);
+    stiffness_slider(ui, settings);
+    samples_slider(ui, settings);
+    iterations_slider(ui, settings);
+    weights_choice(ui, settings);
+    what_there_is(document);
+    send_rested(ui);
+}
+
+} // namespace knead

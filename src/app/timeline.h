@@ -1,0 +1,35 @@
+#pragma once
+// Playing a session back: its steps are undone and done again in time, so what is seen is what was recorded,
+// and a drag or any other act in the middle goes on from there, as after an undo.
+//
+// Positions count the steps of the document: 0 is the cloud as it was opened. Steps that only changed the
+// selection come and go with their neighbours.
+
+#include <cstddef>
+#include <optional>
+
+namespace knead {
+
+struct Editor;
+struct Ui;
+
+struct Playback {
+    bool shown = false; // the bar
+    bool playing = false;
+    double speed = 1;                  // steps a second
+    double next_at = 0;                // ImGui's time of the next step
+    std::size_t steps = 0;             // there were when it began to play; others mean that the user went on
+    std::optional<std::size_t> wanted; // the position to go to, once the document is free
+};
+
+std::size_t playback_position(const Editor& editor);
+std::size_t playback_steps(const Editor& editor);
+
+// Starts playing, from the beginning where it is at the end; or stops.
+void toggle_playing(const Ui& ui);
+// Goes to a position, the newest one that was asked for.
+void play_to(const Ui& ui, std::size_t position);
+// Takes the step that is due. Call it once a frame.
+void play_on(const Ui& ui);
+
+} // namespace knead

@@ -1,0 +1,117 @@
+// Messages in the corner of the view. They stay long enough to be read, errors longer, and as long as the
+// cursor is on them.
+
+#include "app/ui.h"
+#include "app/widgets.h"
+
+#include <algorithm>
+
+namespace knead {
+
+namespace {
+
+constexpr std::size_t most = 6; // at a time; older ones make room
+
+double reading_time(const Notice& notice) {
+    const double by_length = 0.06 * static_cast<double>(notice.words.size()); // 16 letters a second
+    switch (notice.kind) {
+    case Notice::Kind::error:
+        return 8 + by_length;
+    case Notice::Kind::warning:
+        return 6 + by_length;
+    default:
+        return 3 + by_length;
+    }
+}
+
+ImU32 color_of(Notice::Kind kind) {
+    switch (kind) {
+    case Notice::Kind::error:
+        return palette::error;
+    case Notice::Kind::warning:
+        return palette::warning;
+    default:
+        return palette::good;
+    }
+}
+
+Icon icon_of(Notice::Kind kind) {
+    switch (kind) {
+    case Notice::Kind::error:
+        return Icon::error;
+    case Notice::Kind::warning:
+        return Icon::warning;
+    default:
+        return Icon::information;
+    }
+}
+
+// Draws one with its lower right corner at `corner`; returns its height and whether it was clicked away.
+struct Drawn {
+    float height = 0;
+    bool clicked = false, hovered = false;
+};
+Drawn draw_toast(const Ui& ui, const Toast& toast, int number, ImVec2 corner) {
+    const float width = ui.scaled(400), inset = ui.scaled(44);
+    ImGui::SetNextWindowPos(corner, ImGuiCond_Always, {1, 1});
+    ImGui::SetNextWindowSize({width, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, toast.shown);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::raised);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+    const std::string id = "toast " + std::to_string(number);
+    ImGui::Begin(id.c_str(), nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+    const ImU32 color = with_alpha(color_of(toast.notice.kind), toast.shown);
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRectFullScreen();
+    list.AddRectFilled({at.x, at.y}, {at.x + ui.scaled(4), at.y + size.y}, color, ui.scaled(4),
+                       ImDrawFlags_RoundCornersLeft);
+    list.PopClipRect();
+    draw_icon(list, icon_of(toast.notice.kind), {at.x + ui.scaled(25), at.y + ui.scaled(22)}, ui.scaled(17),
+              color);
+    ImGui::SetCursorPosX(inset);
+    ImGui::PushTextWrapPos(width - ui.scaled(34));
+    ImGui::TextUnformatted(toast.notice.words.c_str());
+    ImGui::PopTextWrapPos();
+    Drawn drawn{.height = size.y};
+    drawn.hovered = ImGui::IsWindowHovered();
+    drawn.clicked = drawn.hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
+    draw_icon(list, Icon::close, {at.x + width - ui.scaled(18), at.y + ui.scaled(20)}, ui.scaled(11),
+              with_alpha(drawn.hovered ? palette::text : palette::faint, toast.shown));
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+    ImGui::PopStyleColor();
+    return drawn;
+}
+
+} // namespace
+
+void add_toast(UiState& state, Notice notice) {
+    // The same again only begins its time anew.
+    std::erase_if(state.toasts, [&](const Toast& old) {
+        return old.notice.kind == notice.kind && old.notice.words == notice.words;
+    });
+    const double seconds = reading_time(notice);
+    state.toasts.push_back({std::move(notice), seconds, 0});
+    while (state.toasts.size() > most) state.toasts.pop_front();
+}
+
+void draw_toasts(const Ui& ui) {
+    const Rectangle& view = ui.state.view;
+    ImVec2 corner(view.x + view.width - ui.scaled(16), view.y + view.height - ui.scaled(16));
+    const float step = std::min(ImGui::GetIO().DeltaTime, 0.1f);
+    int number = 0;
+    std::deque<Toast>& toasts = ui.state.toasts;
+    for (auto toast = toasts.rbegin(); toast != toasts.rend(); ++toast) {
+        toast->shown = std::min(1.0f, toast->shown + 6 * step);
+        const Drawn drawn = draw_toast(ui, *toast, number++, corner);
+        if (!drawn.hovered) toast->seconds_left -= static_cast<double>(ImGui::GetIO().DeltaTime);
+        if (drawn.clicked) toast->seconds_left = 0;
+        corner.y -= drawn.height + ui.scaled(8);
+    }
+    std::erase_if(toasts, [](const Toast& toast) { return toast.seconds_left <= 0; });
+}
+
+} // namespace knead

@@ -1,0 +1,203 @@
+#pragma once
+// What the window's panels share: what they may look at, what they remember between frames, and how they say
+// what the user wants.
+//
+// A panel is a function that draws itself with Dear ImGui. It reads the editor, changes only its own part of
+// UiState, and asks for everything else: by commands (edit/command.h), which the editor carries out, and by
+// wishes, which the main loop does. Nothing happens in the middle of drawing.
+
+#include "app/display.h"
+#include "app/file_browser.h"
+#include "app/handle_colors.h"
+#include "app/label_dialog.h"
+#include "app/theme.h"
+#include "app/timeline.h"
+#include "edit/editor.h"
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace knead {
+
+// --- What a panel can ask of the main loop ---
+
+struct WishOpen { // asks about unsaved work first
+    std::filesystem::path file;
+};
+struct WishRestore {
+    LostWork work;
+};
+struct WishDeleteLost {
+    LostWork work;
+};
+struct WishCancelOpening {};
+struct WishBrowse { // the file browser
+    BrowseFor purpose = BrowseFor::open;
+};
+struct WishSaveSession {}; // where it was saved before, or asks where
+struct WishSaveTo {        // asks before anything is overwritten
+    BrowseFor purpose = BrowseFor::save_session;
+    std::filesystem::path file;
+    bool ask = true;
+    SaveColumns columns = {}; // of a cloud
+};
+struct WishDiscard {}; // the unsaved work; what it kept waiting comes now
+struct WishDemonstration {
+    bool posed = false; // the recorded session; else the creature at rest, to be posed
+};
+struct WishPress { // a key, as if the hand had pressed it
+    KeyPress press;
+};
+struct WishSelectTool {
+    SelectTool tool = SelectTool::lasso;
+};
+struct WishThrough {
+    bool through = false;
+};
+struct WishMovePivot { // the gizmo's arrows move its pivot instead of the handle
+    bool pivot = false;
+};
+struct WishLocalAxes {
+    bool local = false;
+};
+struct WishOrbiting {
+    Orbiting style = Orbiting::turntable;
+};
+struct WishUpAxis { // of the camera and the ground; remembered for the next cloud
+    UpAxis up = UpAxis::z;
+};
+struct WishBrowseLabels {}; // the dialog that makes handles of an attribute
+struct WishLabelHandles {
+    std::string column;
+    std::vector<LabelChoice> choices;
+};
+struct WishTakeHandles { // of a session
+    std::filesystem::path session;
+};
+struct WishForgetRecent {};
+struct WishClose {}; // the window; asks about unsaved work first
+
+using Wish = std::variant<WishOpen, WishRestore, WishDeleteLost, WishCancelOpening, WishBrowse,
+                          WishSaveSession, WishSaveTo, WishDiscard, WishDemonstration, WishPress,
+                          WishSelectTool, WishThrough, WishMovePivot, WishLocalAxes, WishOrbiting, WishUpAxis,
+                          WishBrowseLabels, WishLabelHandles, WishTakeHandles, WishForgetRecent, WishClose>;
+
+// --- What the panels remember ---
+
+// A message in the corner of the view.
+struct Toast {
+    Notice notice;
+    double seconds_left = 0;
+    float shown = 0; // 0 … 1, for fading in
+};
+
+struct Rectangle { // in ImGui's coordinates
+    float x = 0, y = 0, width = 0, height = 0;
+};
+
+// A setting that is being dragged: it takes effect when the hand rests for a moment, so that one drag is not
+// fifty steps of undo.
+struct SlidingSettings {
+    std::optional<SettingsChange> change;
+    double last_moved = 0; // ImGui's time
+};
+
+// What the status line tells; measured by the main loop.
+struct Measured {
+    double frame = 0;    // seconds, smoothed, of frames that were drawn
+    double solve = 0;    // of the newest frame's iterations
+    double upsample = 0; // of its upsampling
+    std::size_t drawn = 0, in_view = 0;
+    bool complete = true;
+};
+
+// What to do once the user has said what becomes of the unsaved work.
+struct AfterSaving {
+    std::optional<Wish> then;      // WishOpen, WishRestore, WishDemonstration or WishClose
+    bool waiting_for_save = false; // `then` comes when a save has succeeded
+    bool save_was_posted = false;  // that save
+};
+
+struct UiState {
+    Fonts fonts;
+    float scale = 1;
+    Display display;
+    Legend legend; // of the colours as they are
+    FileBrowser browser;
+    Measured measured;
+
+    std::deque<Toast> toasts;
+    std::vector<std::filesystem::path> recent;
+    std::vector<LostWork> lost; // that was found at the start
+
+    bool show_help = false;
+    bool show_about = false;
+    bool show_panels = true;
+    bool ask_unsaved = false; // the dialog is to be opened
+    AfterSaving after;
+    std::optional<WishSaveTo> overwriting; // the dialog asks whether to overwrite this
+
+    ChosenColors handle_colors;
+    std::string recoloring; // the handle whose colours are to be shown; empty: none
+    std::string renaming;   // the handle that is being renamed in the list; empty: none
+    std::string name_text;  // what was typed so far
+    bool renaming_begins = false;
+    SlidingSettings sliding;
+    Playback playback;
+    LabelDialog labels;
+
+    bool opening_demonstration = false; // which is then looked at from where the creature looks best
+    double long_stage_since = 0;        // ImGui's time; of draw_opening()
+
+    Rectangle view;              // the part of the window that shows the cloud
+    float pixel_ratio = 1;       // framebuffer pixels to one of ImGui's
+    bool cursor_in_view = false; // over the cloud, and over no panel
+};
+
+// What a panel is given.
+struct Ui {
+    const Editor& editor;
+    UiState& state;
+    std::vector<Command>& commands;
+    std::vector<Wish>& wishes;
+
+    void tell(Command command) const { commands.push_back(std::move(command)); }
+    void wish(Wish wanted) const { wishes.push_back(std::move(wanted)); }
+    float scaled(float distance) const { return distance * state.scale; }
+    bool has_cloud() const { return editor.document != nullptr; }
+};
+
+// --- The panels, one file each ---
+
+// Each draws itself at its place; the main loop calls them all once a frame.
+void draw_menu_bar(const Ui& ui); // returns with its height known to ImGui
+void draw_tool_column(const Ui& ui, Rectangle where);
+void draw_side_panels(const Ui& ui, Rectangle where); // Handles, Shape, Display
+void draw_timeline(const Ui& ui, Rectangle where);
+void draw_status_line(const Ui& ui, Rectangle where);
+void draw_overlay(const Ui& ui);  // gizmo, bands, names: over the cloud, under all panels
+void draw_legend(const Ui& ui);   // of the colours
+void draw_welcome(const Ui& ui);  // while nothing is open
+void draw_opening(const Ui& ui);  // progress of opening and of other long stages
+void draw_recovery(const Ui& ui); // work that a crash left
+void draw_toasts(const Ui& ui);
+void draw_help(const Ui& ui);
+void draw_about(const Ui& ui);
+void draw_file_browser(const Ui& ui);
+void draw_label_dialog(const Ui& ui);
+void draw_dialogs(const Ui& ui); // unsaved work, overwriting
+
+// Parts of the side panels.
+void handles_panel(const Ui& ui);
+void shape_panel(const Ui& ui);
+void display_panel(const Ui& ui);
+
+// Puts a notice among the toasts.
+void add_toast(UiState& state, Notice notice);
+
+} // namespace knead

@@ -1,0 +1,102 @@
+// The empty window: what knead does, and how to begin.
+
+#include "app/icons.h"
+#include "app/ui.h"
+#include "app/widgets.h"
+
+#include <algorithm>
+
+namespace knead {
+
+namespace {
+
+void step(const Ui& ui, const char* number, const char* title, const char* words) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float radius = ui.scaled(13), indent = ui.scaled(40);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 middle(at.x + radius, at.y + radius + ui.scaled(2));
+    list.AddCircleFilled(middle, radius, with_alpha(palette::accent, 0.18f));
+    const ImVec2 size = ImGui::CalcTextSize(number);
+    list.AddText({middle.x - size.x / 2, middle.y - size.y / 2}, palette::accent, number);
+    ImGui::Indent(indent);
+    ImGui::TextUnformatted(title);
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ui.scaled(5));
+    faint_text(words);
+    ImGui::Unindent(indent);
+    ImGui::Dummy({0, ui.scaled(2)});
+}
+
+void recent_rows(const Ui& ui) {
+    const std::vector<std::filesystem::path>& recent = ui.state.recent;
+    if (recent.empty()) return;
+    ImGui::Dummy({0, ui.scaled(6)});
+    caption("Opened last");
+    const std::size_t count = std::min<std::size_t>(recent.size(), 4);
+    for (std::size_t i = 0; i < count; ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float height = ImGui::GetTextLineHeight() + ui.scaled(6);
+        ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0.0f, 0.5f});
+        if (ImGui::Selectable(("       " + recent[i].filename().string()).c_str(), false, 0, {0, height}))
+            ui.wish(WishOpen{recent[i]});
+        ImGui::PopStyleVar();
+        explain(recent[i].string());
+        const bool session = recent[i].extension() == ".knead";
+        draw_icon(*ImGui::GetWindowDrawList(), session ? Icon::session : Icon::cloud,
+                  {at.x + ui.scaled(10), at.y + height / 2}, ui.scaled(14), palette::accent);
+        const std::string folder = recent[i].parent_path().filename().string();
+        const float width = ImGui::CalcTextSize(folder.c_str()).x;
+        ImGui::GetWindowDrawList()->AddText(
+            {at.x + ImGui::GetContentRegionAvail().x - width, at.y + ui.scaled(3)}, palette::faint,
+            folder.c_str());
+        ImGui::PopID();
+    }
+}
+
+} // namespace
+
+void draw_welcome(const Ui& ui) {
+    if (ui.has_cloud() || ui.editor.opening || ui.state.browser.open_now) return;
+    const Rectangle& view = ui.state.view;
+    const glm::vec3 top = ui.state.display.look.background_top,
+                    bottom = ui.state.display.look.background_bottom;
+    const ImU32 sky = ImGui::ColorConvertFloat4ToU32({top.r, top.g, top.b, 1});
+    const ImU32 ground = ImGui::ColorConvertFloat4ToU32({bottom.r, bottom.g, bottom.b, 1});
+    ImGui::GetBackgroundDrawList()->AddRectFilledMultiColor(
+        {view.x, view.y}, {view.x + view.width, view.y + view.height}, sky, sky, ground, ground);
+    const float above = ui.state.lost.empty() ? 0.5f : 0.6f;
+    ImGui::SetNextWindowPos({view.x + view.width / 2, view.y + view.height * above}, ImGuiCond_Always,
+                            {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(ui.scaled(510), view.width * 0.95f), 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.scaled(32), ui.scaled(28)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.scaled(10));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::raised);
+    ImGui::Begin("welcome", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::PushFont(ui.state.fonts.title);
+    ImGui::TextUnformatted("Pose a point cloud");
+    ImGui::PopFont();
+    faint_text("knead bends, twists and stretches raw scans with handles. The rest of the cloud follows "
+               "while you drag; "
+               "no mesh is needed.");
+    ImGui::Dummy({0, ui.scaled(8)});
+    step(ui, "1", "Open a scan", "Drop a .ply file into this window, or press Ctrl+O.");
+    step(ui, "2", "Make handles", "Draw around a part: Shift+H holds it fixed, H makes it one that moves.");
+    step(ui, "3", "Pose", "Drag the arrows and rings, or press G, R or S. Enter keeps the pose.");
+    ImGui::Dummy({0, ui.scaled(6)});
+    const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.scaled(12), ui.scaled(9)});
+    if (main_button("Open…", {width, 0})) ui.wish(WishBrowse{BrowseFor::open});
+    explain("Opens a cloud or a recorded session (Ctrl+O)");
+    ImGui::SameLine();
+    if (ImGui::Button("Demonstration", {width, 0})) ui.wish(WishDemonstration{true});
+    explain("Opens a creature whose handles are already posed, to play with");
+    ImGui::PopStyleVar();
+    recent_rows(ui);
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+}
+
+} // namespace knead

@@ -1,0 +1,250 @@
+#include "app/widgets.h"
+
+#include "app/theme.h"
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <initializer_list>
+#include <string_view>
+
+namespace knead {
+
+namespace {
+
+// How long the cursor has to rest before an explanation comes, in seconds.
+constexpr float patience = 0.4f;
+
+} // namespace
+
+void explain(const char* words) {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    if (context.HoveredId != 0 && context.HoveredIdTimer < patience) return;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(11, 8));
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0f);
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    ImGui::TextUnformatted(words);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+    ImGui::PopStyleVar(2);
+}
+
+namespace {
+
+bool is_disabled() {
+    return (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
+}
+
+// Text on the accent's colour while it lives.
+struct AccentColors {
+    AccentColors() {
+        ImGui::PushStyleColor(ImGuiCol_Button, palette::accent);
+        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, palette::accent_hovered);
+        ImGui::PushStyleColor(ImGuiCol_ButtonActive, palette::accent);
+        ImGui::PushStyleColor(ImGuiCol_Text, palette::on_accent);
+    }
+    ~AccentColors() { ImGui::PopStyleColor(4); }
+    AccentColors(const AccentColors&) = delete;
+    AccentColors& operator=(const AccentColors&) = delete;
+};
+
+} // namespace
+
+bool main_button(const char* label, ImVec2 size) {
+    if (is_disabled()) return ImGui::Button(label, size); // what cannot be pressed does not ask for it
+    const AccentColors colors;
+    return ImGui::Button(label, size);
+}
+
+bool key_button(const char* label, const char* keys, bool is_main) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight());
+    ImGui::PushID(label);
+    const bool accented = is_main && !is_disabled();
+    const bool clicked = accented ? main_button("##button", size) : ImGui::Button("##button", size);
+    ImGui::PopID();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float alpha = ImGui::GetStyle().Alpha, padding = ImGui::GetStyle().FramePadding.x;
+    const float down = (size.y - ImGui::GetFontSize()) / 2;
+    const ImU32 ink = with_alpha(accented ? palette::on_accent : palette::text, alpha);
+    list.AddText({corner.x + padding + 2, corner.y + down}, ink, label);
+    const float width = ImGui::CalcTextSize(keys).x;
+    list.AddText({corner.x + size.x - padding - 2 - width, corner.y + down}, with_alpha(ink, 0.6f), keys);
+    return clicked;
+}
+
+namespace {
+
+// Draws the bar and its words over a slider that has just been laid out without any.
+void draw_bar(const char* name, const char* value, float filled) {
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
+    list.AddRectFilled(low, high, with_alpha(lit ? palette::field_hovered : palette::field, style.Alpha),
+                       style.FrameRounding);
+    const float x = low.x + std::clamp(filled, 0.0f, 1.0f) * (high.x - low.x);
+    list.PushClipRect(low, {x, high.y}, true);
+    list.AddRectFilled(low, high, with_alpha(palette::accent, style.Alpha * (lit ? 0.52f : 0.42f)),
+                       style.FrameRounding);
+    list.PopClipRect();
+    list.AddLine({x, low.y}, {x, high.y}, with_alpha(palette::accent, style.Alpha), 2);
+    const float y = low.y + style.FramePadding.y;
+    const ImU32 ink = with_alpha(palette::text, style.Alpha);
+    list.AddText({low.x + style.FramePadding.x, y}, ink, name);
+    list.AddText({high.x - style.FramePadding.x - ImGui::CalcTextSize(value).x, y}, ink, value);
+}
+
+bool bar_slider_of(const char* name, ImGuiDataType type, void* value, const void* lowest, const void* highest,
+                   const char* format, int flags) {
+    // While a number is typed it is an ordinary field.
+    const std::string id = std::string("##") + name;
+    const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id.c_str()));
+    if (!typed)
+        for (const ImGuiCol hidden : {ImGuiCol_Text, ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive,
+                                      ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive})
+            ImGui::PushStyleColor(hidden, ImU32{0});
+    // The grab has no width of its own to speak of: the bar ends where the cursor is.
+    ImGui::PushStyleVar(ImGuiStyleVar_GrabMinSize, 1.0f);
+    const bool changed = ImGui::SliderScalar(id.c_str(), type, value, lowest, highest, format, flags);
+    ImGui::PopStyleVar();
+    if (!typed) ImGui::PopStyleColor(6);
+    return changed;
+}
+
+float share(double value, double lowest, double highest, bool logarithmic) {
+    if (logarithmic) return static_cast<float>(std::log(value / lowest) / std::log(highest / lowest));
+    return static_cast<float>((value - lowest) / (highest - lowest));
+}
+
+template<typename Number>
+bool slide(const char* name, ImGuiDataType type, Number& value, Number lowest, Number highest,
+           const char* format, int flags) {
+    const std::string id = std::string("##") + name;
+    const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id.c_str()));
+    const bool changed = bar_slider_of(name, type, &value, &lowest, &highest, format, flags);
+    if (typed) return changed;
+    char words[48];
+    std::snprintf(words, sizeof words, format, value);
+    const bool logarithmic = (flags & ImGuiSliderFlags_Logarithmic) != 0;
+    draw_bar(name, words,
+             share(static_cast<double>(value), static_cast<double>(lowest), static_cast<double>(highest),
+                   logarithmic));
+    return changed;
+}
+
+} // namespace
+
+bool bar_slider(const char* name, float& value, float lowest, float highest, const char* format, int flags) {
+    return slide(name, ImGuiDataType_Float, value, lowest, highest, format, flags);
+}
+
+bool bar_slider(const char* name, int& value, int lowest, int highest, const char* format, int flags) {
+    return slide(name, ImGuiDataType_S32, value, lowest, highest, format, flags);
+}
+
+bool section(const char* title, ImFont* font) {
+    ImGuiStorage& storage = *ImGui::GetStateStorage();
+    const ImGuiID id = ImGui::GetID(title);
+    bool open = storage.GetBool(id, true);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight());
+    if (ImGui::InvisibleButton(title, size)) storage.SetBool(id, open = !open);
+    const ImU32 ink = ImGui::IsItemHovered() ? palette::accent_hovered : palette::text;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddText(font, font->FontSize, {corner.x, corner.y + (size.y - font->FontSize) / 2}, ink, title);
+    const float middle = corner.y + size.y / 2, right = corner.x + size.x - 8, reach = 4;
+    if (open) // a chevron downwards, or to the left
+        for (const ImVec2 point :
+             {ImVec2(right - reach, middle - reach / 2), ImVec2(right, middle + reach / 2),
+              ImVec2(right + reach, middle - reach / 2)})
+            list.PathLineTo(point);
+    else
+        for (const ImVec2 point :
+             {ImVec2(right + reach / 2, middle - reach), ImVec2(right - reach / 2, middle),
+              ImVec2(right + reach / 2, middle + reach)})
+            list.PathLineTo(point);
+    list.PathStroke(palette::faint, ImDrawFlags_None, 1.6f);
+    return open;
+}
+
+void caption(const char* words) {
+    ImGui::PushStyleColor(ImGuiCol_Text, palette::faint);
+    ImGui::TextUnformatted(words);
+    ImGui::PopStyleColor();
+}
+
+void faint_text(const std::string& words) {
+    ImGui::PushStyleColor(ImGuiCol_Text, palette::faint);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(words.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+int segmented(const char* id, std::initializer_list<const char*> labels, int chosen) {
+    ImGui::PushID(id);
+    const auto count = static_cast<float>(labels.size());
+    const float gap = 2;
+    const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
+    int clicked = -1, number = 0;
+    for (const char* label : labels) {
+        if (number > 0) ImGui::SameLine(0, gap);
+        const bool on = number == chosen;
+        if (on ? main_button(label, {width, 0}) : ImGui::Button(label, {width, 0})) clicked = number;
+        ++number;
+    }
+    ImGui::PopID();
+    return clicked;
+}
+
+float key_caps(ImDrawList* list, ImVec2 corner, const char* keys) {
+    const ImFont& font = *ImGui::GetFont();
+    const float size = ImGui::GetFontSize() * 0.88f;
+    const float padding = size * 0.42f, height = size * 1.5f;
+    float x = corner.x;
+    std::string_view rest = keys;
+    while (!rest.empty()) {
+        // "Ctrl+Shift+S" are three caps; a plus at the end is itself a key.
+        const std::size_t plus = rest.find('+', 1);
+        const std::string_view cap = rest.substr(0, plus);
+        rest = plus == std::string_view::npos ? std::string_view{} : rest.substr(plus + 1);
+        const char* end = cap.data() + cap.size();
+        const float text = font.CalcTextSizeA(size, 1e6f, 0, cap.data(), end).x;
+        const float width = std::max(text + 2 * padding, height);
+        if (list) {
+            list->AddRectFilled({x, corner.y}, {x + width, corner.y + height}, palette::field, size * 0.3f);
+            list->AddRect({x, corner.y}, {x + width, corner.y + height}, palette::rgb(0x4a505a), size * 0.3f);
+            list->AddText(&font, size, {x + (width - text) / 2, corner.y + (height - size) / 2 - 0.5f},
+                          palette::text, cap.data(), end);
+        }
+        x += width + size * 0.25f;
+    }
+    return x - corner.x;
+}
+
+std::string grouped(std::size_t number) {
+    std::string digits = std::to_string(number);
+    for (std::size_t place = digits.size(); place > 3; place -= 3) digits.insert(place - 3, 1, ',');
+    return digits;
+}
+
+std::string byte_size(std::uintmax_t bytes) {
+    const char* units[] = {"B", "kB", "MB", "GB", "TB"};
+    auto amount = static_cast<double>(bytes);
+    std::size_t unit = 0;
+    while (amount >= 999.5 && unit + 1 < std::size(units)) {
+        amount /= 1000;
+        ++unit;
+    }
+    char text[32];
+    std::snprintf(text, sizeof text, unit == 0 || amount >= 99.5 ? "%.0f %s" : "%.1f %s", amount,
+                  units[unit]);
+    return text;
+}
+
+} // namespace knead

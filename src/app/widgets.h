@@ -1,0 +1,49 @@
+#pragma once
+// Small things that several panels are made of.
+
+#include "app/icons.h"
+
+#include <string>
+
+namespace knead {
+
+// A tooltip for the last item, with wrapped lines, after a short rest of the cursor. Shown on disabled items,
+// too.
+void explain(const char* words);
+inline void explain(const std::string& words) {
+    explain(words.c_str());
+}
+
+// A button in the accent's colour: the one that is meant to be pressed.
+bool main_button(const char* label, ImVec2 size = {0, 0});
+
+// A button over the whole width, with its key at the right.
+bool key_button(const char* label, const char* keys, bool is_main);
+
+// A slider that is a bar with its name and value in it. Ctrl+click types a number. `format` is printf's;
+// `flags` are ImGuiSliderFlags.
+bool bar_slider(const char* name, float& value, float lowest, float highest, const char* format,
+                int flags = 0);
+bool bar_slider(const char* name, int& value, int lowest, int highest, const char* format, int flags = 0);
+
+// The heading of a part of a panel, which folds it. Returns whether it is open.
+bool section(const char* title, ImFont* font);
+
+// A label over the next item, in the second rank's colour.
+void caption(const char* words);
+
+// Text in the second rank's colour, wrapped.
+void faint_text(const std::string& words);
+
+// One of several side by side; returns the one clicked, or -1.
+int segmented(const char* id, std::initializer_list<const char*> labels, int chosen);
+
+// A shortcut as it is shown: letters on small key caps. Returns its width; draws nothing if `list` is null.
+float key_caps(ImDrawList* list, ImVec2 corner, const char* keys);
+
+// 1234567 as "1,234,567".
+std::string grouped(std::size_t number);
+// "12.4 MB"
+std::string byte_size(std::uintmax_t bytes);
+
+} // namespace knead

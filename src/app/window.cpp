@@ -1,0 +1,278 @@
+#include "app/window.h"
+
+#include "base/error.h"
+
+#include <epoxy/gl.h> // before GLFW, which would bring another loader
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+
+namespace knead {
+
+namespace {
+
+constexpr double double_click_seconds = 0.35;
+constexpr double double_click_reach = 5; // of the cursor, in the window's coordinates
+
+std::string last_trouble() {
+    const char* words = nullptr;
+    glfwGetError(&words);
+    return words ? words : "no reason was given";
+}
+
+Modifiers modifiers_of(int mods) {
+    return {(mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_ALT) != 0};
+}
+
+Modifiers held_now(GLFWwindow* window) {
+    const auto either = [window](int left, int right) {
+        return glfwGetKey(window, left) == GLFW_PRESS || glfwGetKey(window, right) == GLFW_PRESS;
+    };
+    return {either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT),
+            either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL),
+            either(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT)};
+}
+
+bool is_modifier(int glfw_key) {
+    return glfw_key >= GLFW_KEY_LEFT_SHIFT && glfw_key <= GLFW_KEY_RIGHT_SUPER;
+}
+
+// GLFW names a key by its place on a US keyboard. Letters are taken by what is printed on them, so that
+// Ctrl+Z is where the Z is.
+std::optional<Key> key_of(int glfw_key, int scancode) {
+    if (glfw_key >= GLFW_KEY_A && glfw_key <= GLFW_KEY_Z) {
+        const char* name = glfwGetKeyName(glfw_key, scancode);
+        if (name && name[0] && !name[1] && std::isalpha(static_cast<unsigned char>(name[0])))
+            return key(static_cast<char>(std::toupper(static_cast<unsigned char>(name[0]))));
+        return key(static_cast<char>(glfw_key));
+    }
+    if (glfw_key > ' ' && glfw_key < 128) return key(static_cast<char>(glfw_key));
+    if (glfw_key >= GLFW_KEY_ESCAPE && glfw_key <= GLFW_KEY_END)
+        return static_cast<Key>(static_cast<int>(Key::escape) + glfw_key - GLFW_KEY_ESCAPE);
+    if (glfw_key >= GLFW_KEY_F1 && glfw_key <= GLFW_KEY_F12)
+        return static_cast<Key>(static_cast<int>(Key::f1) + glfw_key - GLFW_KEY_F1);
+    if (glfw_key >= GLFW_KEY_KP_0 && glfw_key <= GLFW_KEY_KP_9)
+        return static_cast<Key>(static_cast<int>(Key::pad_0) + glfw_key - GLFW_KEY_KP_0);
+    switch (glfw_key) {
+    case GLFW_KEY_KP_ENTER:
+        return Key::enter;
+    case GLFW_KEY_KP_ADD:
+        return key('+');
+    case GLFW_KEY_KP_SUBTRACT:
+        return key('-');
+    case GLFW_KEY_SPACE:
+        return key(' ');
+    default:
+        return std::nullopt;
+    }
+}
+
+std::optional<MouseButton> button_of(int glfw_button) {
+    switch (glfw_button) {
+    case GLFW_MOUSE_BUTTON_LEFT:
+        return MouseButton::left;
+    case GLFW_MOUSE_BUTTON_MIDDLE:
+        return MouseButton::middle;
+    case GLFW_MOUSE_BUTTON_RIGHT:
+        return MouseButton::right;
+    default:
+        return std::nullopt;
+    }
+}
+
+} // namespace
+
+struct Window::Callbacks {
+    static Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+
+    static void cursor(GLFWwindow* window, double x, double y) {
+        Window& self = of(window);
+        self.cursor_ = {x, y};
+        self.events_.emplace_back(Input(MouseMove{self.cursor_, held_now(window)}));
+    }
+    static void button(GLFWwindow* window, int glfw_button, int action, int mods) {
+        const std::optional<MouseButton> which = button_of(glfw_button);
+        if (!which) return;
+        Window& self = of(window);
+        if (action == GLFW_PRESS)
+            self.press(*which, modifiers_of(mods));
+        else
+            self.events_.emplace_back(Input(MouseRelease{*which, self.cursor_, modifiers_of(mods)}));
+    }
+    static void scroll(GLFWwindow* window, double /*x*/, double y) {
+        Window& self = of(window);
+        if (y != 0) self.events_.emplace_back(Input(Wheel{y, self.cursor_, held_now(window)}));
+    }
+    static void key(GLFWwindow* window, int glfw_key, int scancode, int action, int mods) {
+        Window& self = of(window);
+        if (is_modifier(glfw_key)) { // what the cursor does now means something else
+            self.events_.emplace_back(Input(MouseMove{self.cursor_, held_now(window)}));
+            return;
+        }
+        if (action == GLFW_RELEASE) return;
+        if (glfw_key >= 0) self.tapped_.push_back({glfw_key, mods});
+        if (const std::optional<Key> which = key_of(glfw_key, scancode))
+            self.events_.emplace_back(Input(KeyPress{*which, modifiers_of(mods), action == GLFW_REPEAT}));
+    }
+    static void character(GLFWwindow* window, unsigned code) {
+        of(window).events_.emplace_back(Input(Character{static_cast<char32_t>(code)}));
+    }
+    static void drop(GLFWwindow* window, int count, const char** paths) {
+        DroppedFiles dropped;
+        for (int i = 0; i < count; ++i) dropped.files.emplace_back(paths[i]);
+        of(window).events_.emplace_back(std::move(dropped));
+    }
+    static void close(GLFWwindow* window) {
+        glfwSetWindowShouldClose(window, GLFW_FALSE); // it is asked about first
+        of(window).events_.emplace_back(CloseAsked{});
+    }
+    static void focus(GLFWwindow* window, int focused) {
+        if (!focused) of(window).events_.emplace_back(FocusLost{});
+    }
+};
+
+void Window::press(MouseButton button, Modifiers held) {
+    const double now = glfwGetTime();
+    const bool again = button == last_button_ && now - last_time_ < double_click_seconds &&
+                       glm::distance(cursor_, last_place_) < double_click_reach;
+    clicks_ = again ? clicks_ + 1 : 1;
+    last_button_ = button;
+    last_place_ = cursor_;
+    last_time_ = now;
+    events_.emplace_back(Input(MousePress{button, cursor_, held, clicks_}));
+}
+
+namespace {
+
+GLFWwindow* create_window(int width, int height) {
+    if (!glfwInit())
+        throw Error(Trouble::usage, "",
+                    "there is no display to open a window on (" + last_trouble() +
+                        "); `knead replay` and `knead render` need none");
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    GLFWwindow* window = glfwCreateWindow(width, height, "knead", nullptr, nullptr);
+    if (window) return window;
+    const std::string trouble = last_trouble();
+    glfwTerminate();
+    throw Error(Trouble::usage, "",
+                "no window with OpenGL 4.1 could be opened (" + trouble +
+                    "); update the graphics driver, or set LIBGL_ALWAYS_SOFTWARE=1 to draw in software");
+}
+
+} // namespace
+
+Window::Window(int width, int height) : window_(create_window(width, height)) {
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(1);
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetWindowSizeLimits(window_, 640, 420, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwGetCursorPos(window_, &cursor_.x, &cursor_.y);
+    // Before ImGui's own, which pass everything on to these.
+    glfwSetCursorPosCallback(window_, Callbacks::cursor);
+    glfwSetMouseButtonCallback(window_, Callbacks::button);
+    glfwSetScrollCallback(window_, Callbacks::scroll);
+    glfwSetKeyCallback(window_, Callbacks::key);
+    glfwSetCharCallback(window_, Callbacks::character);
+    glfwSetDropCallback(window_, Callbacks::drop);
+    glfwSetWindowCloseCallback(window_, Callbacks::close);
+    glfwSetWindowFocusCallback(window_, Callbacks::focus);
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr; // nothing of the layout is kept
+    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    ImGui_ImplOpenGL3_Init("#version 410 core");
+}
+
+Window::~Window() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+Window::Size Window::size() const {
+    Size size;
+    glfwGetWindowSize(window_, &size.width, &size.height);
+    return size;
+}
+
+Window::Size Window::framebuffer() const {
+    Size size;
+    glfwGetFramebufferSize(window_, &size.width, &size.height);
+    return size;
+}
+
+float Window::content_scale() const {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window_, &x, &y);
+    // Where the framebuffer is finer than the window's coordinates (Wayland, macOS), ImGui scales by itself.
+    const Size outer = size(), inner = framebuffer();
+    const float finer = outer.width > 0 && inner.width > 0
+                            ? static_cast<float>(inner.width) / static_cast<float>(outer.width)
+                            : 1;
+    return std::max(1.0f, std::max(x, y) / finer);
+}
+
+void Window::take_in(double seconds) {
+    if (seconds > 0)
+        glfwWaitEventsTimeout(seconds);
+    else
+        glfwPollEvents();
+}
+
+// A key that went down and up again between two frames is shown to ImGui as down for one frame. ImGui checks
+// that its modifiers do not change within a frame, so it is let go when the next one begins.
+void Window::begin_frame() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGuiIO& io = ImGui::GetIO();
+    if (!shown_as_down_.empty()) {
+        for (const int key : shown_as_down_) io.KeysDown[key] = glfwGetKey(window_, key) == GLFW_PRESS;
+        shown_as_down_.clear();
+        const Modifiers held = held_now(window_);
+        io.KeyCtrl = held.ctrl;
+        io.KeyShift = held.shift;
+        io.KeyAlt = held.alt;
+    }
+    for (const Tapped& tapped : tapped_) {
+        io.KeysDown[tapped.key] = true;
+        io.KeyCtrl = (tapped.mods & GLFW_MOD_CONTROL) != 0;
+        io.KeyShift = (tapped.mods & GLFW_MOD_SHIFT) != 0;
+        io.KeyAlt = (tapped.mods & GLFW_MOD_ALT) != 0;
+        shown_as_down_.push_back(tapped.key);
+    }
+    tapped_.clear();
+    ImGui::NewFrame();
+}
+
+void Window::end_frame() {
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Window::swap() {
+    glfwSwapBuffers(window_);
+}
+
+std::string Window::drawn_by() const {
+    const auto* words = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return words ? words : "unknown";
+}
+
+void Window::set_title(const std::string& title) {
+    if (title == title_) return;
+    title_ = title;
+    glfwSetWindowTitle(window_, title.c_str());
+}
+
+} // namespace knead

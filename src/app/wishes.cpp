@@ -1,0 +1,208 @@
+#include "app/wishes.h"
+
+#include "app/recent_files.h"
+#include "app/remembered.h"
+#include "base/error.h"
+#include "edit/journal.h"
+
+#include <array>
+
+namespace knead {
+
+namespace {
+
+void begin_opening(Work& work, OpenRequest request) {
+    request.journal_folder = default_journal_folder();
+    request.device = work.options.device;
+    request.threads = work.options.threads;
+    request.settings = work.options.settings;
+    work.state.opening_demonstration = false;
+    open(work.editor, std::move(request));
+}
+
+// Asks what becomes of unsaved work, if there is any; `wish` comes after the answer.
+bool has_to_ask(Work& work, const Wish& wish) {
+    if (!has_unsaved_session(work.editor)) return false;
+    work.state.after = {.then = wish};
+    work.state.ask_unsaved = true;
+    return true;
+}
+
+// Beside the program, in its source, or where it was installed.
+std::optional<std::filesystem::path> data_file(const char* name) {
+    std::error_code ignored;
+    const std::filesystem::path program =
+        std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
+    const std::array folders{program / "data", program / ".." / "data", program / ".." / "share" / "knead",
+                             std::filesystem::path(KNEAD_SHARE_FOLDER),
+                             std::filesystem::path(KNEAD_SOURCE_DATA)};
+    for (const std::filesystem::path& folder : folders)
+        if (std::filesystem::is_regular_file(folder / name, ignored))
+            return std::filesystem::weakly_canonical(folder / name, ignored);
+    return std::nullopt;
+}
+
+void fulfil(Work& work, const WishOpen& wish) {
+    OpenRequest request;
+    request.file = wish.file;
+    begin_opening(work, std::move(request));
+}
+
+void fulfil(Work& work, const WishRestore& wish) {
+    OpenRequest request;
+    request.file = wish.work.cloud;
+    request.restore = wish.work.journal;
+    std::erase_if(work.state.lost, [&](const LostWork& lost) { return lost.journal == wish.work.journal; });
+    begin_opening(work, std::move(request));
+}
+
+void fulfil(Work& work, const WishDeleteLost& wish) {
+    try {
+        Journal::take_over(wish.work.journal).discard();
+    } catch (const Error& error) {
+        add_toast(work.state, {Notice::Kind::error, error.what()});
+    }
+    std::erase_if(work.state.lost, [&](const LostWork& lost) { return lost.journal == wish.work.journal; });
+}
+
+void fulfil(Work& work, const WishCancelOpening&) {
+    cancel_opening(work.editor);
+}
+
+void fulfil(Work& work, const WishBrowse& wish) {
+    FileBrowser& browser = work.state.browser;
+    browser.purpose = wish.purpose;
+    browser.open_now = true;
+    browser.typed.clear();
+    const std::filesystem::path& opened = work.editor.opened.file;
+    if (browser.folder.empty()) {
+        if (!opened.empty())
+            browser.folder = std::filesystem::absolute(opened).parent_path();
+        else if (!work.state.recent.empty())
+            browser.folder = work.state.recent.front().parent_path();
+    }
+    if (!work.editor.document) return;
+    if (wish.purpose == BrowseFor::save_session) browser.typed = opened.stem().string() + ".knead";
+    if (wish.purpose == BrowseFor::save_cloud)
+        browser.typed = opened.stem().string() + "-posed" + opened.extension().string();
+}
+
+void save(Work& work, const WishSaveTo& wish) {
+    if (wish.purpose == BrowseFor::save_session) {
+        work.editor.live->save_session(wish.file);
+        remember_file(work.state.recent, wish.file);
+    } else
+        work.editor.live->save_cloud(wish.file, wish.columns);
+    if (work.state.after.waiting_for_save) work.state.after.save_was_posted = true;
+}
+
+void fulfil(Work& work, const WishSaveSession&) {
+    if (!work.editor.document) return;
+    if (work.editor.document->session.empty())
+        fulfil(work, WishBrowse{BrowseFor::save_session});
+    else
+        save(work, {BrowseFor::save_session, work.editor.document->session, false});
+}
+
+void fulfil(Work& work, const WishSaveTo& wish) {
+    if (!work.editor.document) return;
+    std::error_code ignored;
+    const bool own_session =
+        wish.purpose == BrowseFor::save_session && wish.file == work.editor.document->session;
+    if (wish.ask && !own_session && std::filesystem::exists(wish.file, ignored))
+        work.state.overwriting = wish;
+    else
+        save(work, wish);
+}
+
+void fulfil(Work& work, const WishDemonstration& wish) {
+    const char* name = wish.posed ? "creature-wave.knead" : "creature.ply";
+    if (const auto file = data_file(name)) {
+        fulfil(work, WishOpen{*file});
+        work.state.opening_demonstration = true;
+    } else
+        add_toast(work.state, {Notice::Kind::error,
+                               std::string(name) + " is not installed beside knead; `knead make creature "
+                                                   "--points 30000 --out creature.ply` makes the creature"});
+}
+
+void fulfil(Work& work, const WishPress& wish) {
+    handle_input(work.editor, wish.press);
+}
+void fulfil(Work& work, const WishSelectTool& wish) {
+    work.editor.tools.select = wish.tool;
+    work.editor.tools.band.clear();
+}
+void fulfil(Work& work, const WishThrough& wish) {
+    work.editor.tools.through = wish.through;
+}
+void fulfil(Work& work, const WishMovePivot& wish) {
+    work.editor.tools.move_pivot = wish.pivot;
+}
+void fulfil(Work& work, const WishLocalAxes& wish) {
+    work.editor.local_axes = wish.local;
+}
+void fulfil(Work& work, const WishOrbiting& wish) {
+    work.editor.tools.orbiting = wish.style;
+}
+void fulfil(Work& work, const WishUpAxis& wish) {
+    work.state.display.up = wish.up;
+    set_up(work.editor.camera, wish.up);
+    remember_up_axis(wish.up);
+}
+void fulfil(Work& work, const WishBrowseLabels&) {
+    if (!work.editor.document) return;
+    LabelDialog& dialog = work.state.labels;
+    dialog.columns = label_columns(*work.editor.opened.cloud);
+    choose_column(dialog, 0);
+    dialog.open_now = true;
+}
+void fulfil(Work& work, const WishLabelHandles& wish) {
+    handles_from_labels(work.editor, wish.column, wish.choices);
+}
+void fulfil(Work& work, const WishTakeHandles& wish) {
+    handles_from_session(work.editor, wish.session);
+}
+void fulfil(Work& work, const WishForgetRecent&) {
+    forget_files(work.state.recent);
+}
+void fulfil(Work& work, const WishClose&) {
+    work.closing = true;
+}
+
+void fulfil(Work& work, const WishDiscard&) {
+    const std::optional<Wish> then = work.state.after.then;
+    work.state.after = {};
+    if (!then) return;
+    std::visit(
+        [&]<typename Other>(const Other& wish) {
+            if constexpr (!std::is_same_v<Other, WishDiscard>) fulfil(work, wish);
+        },
+        *then);
+}
+
+bool replaces_document(const Wish& wish) {
+    return std::holds_alternative<WishOpen>(wish) || std::holds_alternative<WishRestore>(wish) ||
+           std::holds_alternative<WishDemonstration>(wish) || std::holds_alternative<WishClose>(wish);
+}
+
+} // namespace
+
+void grant(Work& work, const Wish& wish) {
+    if (replaces_document(wish) && has_to_ask(work, wish)) return;
+    std::visit([&](const auto& wanted) { fulfil(work, wanted); }, wish);
+}
+
+void go_on_after_saving(Work& work) {
+    AfterSaving& after = work.state.after;
+    if (!after.waiting_for_save) return;
+    if (!has_unsaved_session(work.editor)) {
+        fulfil(work, WishDiscard{}); // nothing is unsaved any more
+        return;
+    }
+    const bool still_choosing =
+        work.state.browser.open_now || work.state.browser.is_open || work.state.overwriting.has_value();
+    if (!after.save_was_posted && !still_choosing) after = {}; // the user thought better of it
+}
+
+} // namespace knead

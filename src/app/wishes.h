@@ -1,0 +1,22 @@
+#pragma once
+// What the main loop does for the panels: opening and saving, with the questions that come before.
+
+#include "app/run_editor.h"
+#include "app/ui.h"
+
+namespace knead {
+
+// What lives as long as the window.
+struct Work {
+    const EditorOptions& options;
+    Editor& editor;
+    UiState& state;
+    bool closing = false; // the window is to close now
+};
+
+void grant(Work& work, const Wish& wish);
+
+// Goes on with what waited for a save, once that has succeeded or failed. Call it once a frame.
+void go_on_after_saving(Work& work);
+
+} // namespace knead

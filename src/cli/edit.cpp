@@ -1,0 +1,83 @@
+// knead edit [FILE]: the editor window.
+
+#include "base/error.h"
+#include "cli/commands.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+
+#ifdef KNEAD_HAS_EDITOR
+#include "app/run_editor.h"
+#endif
+
+namespace knead {
+
+namespace {
+
+struct Arguments {
+    std::string file, device, size, samples;
+    std::vector<std::string> settings;
+    unsigned threads = 0;
+};
+
+#ifdef KNEAD_HAS_EDITOR
+
+// "1440x900"
+void take_size(const std::string& text, EditorOptions& options) {
+    int width = 0, height = 0;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 640 || height < 420 ||
+        width > 16384 || height > 16384)
+        throw Error(Trouble::usage, "--size",
+                    "must be a width and a height of at least 640x420, as 1440x900");
+    options.width = width;
+    options.height = height;
+}
+
+int run_edit(const Arguments& arguments, const Terminal& terminal) {
+    EditorOptions options;
+    options.file = arguments.file;
+    options.device = arguments.device;
+    options.threads = arguments.threads;
+    if (!arguments.size.empty()) take_size(arguments.size, options);
+    for (const std::string& assignment : arguments.settings)
+        options.settings = merged(options.settings, parse_setting(assignment));
+    if (!arguments.samples.empty())
+        options.settings = merged(options.settings, parse_setting("samples=" + arguments.samples));
+    options.told_to_stop = [&terminal] { return terminal.cancelled(); };
+    run_editor(options);
+    return 0;
+}
+
+#else
+
+int run_edit(const Arguments& /*arguments*/, const Terminal& /*terminal*/) {
+    throw Error(Trouble::usage, "",
+                "this knead was built without its window (KNEAD_EDITOR=OFF); `knead info` looks at a cloud, "
+                "`knead replay` carries out a session");
+}
+
+#endif
+
+} // namespace
+
+void add_edit(CLI::App& app, Job& job) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("edit", "Open the editor window; `knead FILE` does the same");
+    command->add_option("FILE", arguments->file, "A cloud or a session; none: an empty window");
+    command->add_option("--set", arguments->settings, "A setting of a cloud, key=value; may be repeated")
+        ->allow_extra_args(false);
+    command->add_option("--samples", arguments->samples, "Short for --set samples=N, or all");
+    command->add_option("--device", arguments->device,
+                        "An OpenCL device by number or name, or \"reference\"");
+    command->add_option("--threads", arguments->threads, "How many threads to use (default: one a core)")
+        ->check(CLI::Range(1U, 1024U));
+    command->add_option("--size", arguments->size, "Of the window, WxH (default: 1440x900)");
+    command->callback([arguments, &job] {
+        job = [arguments](Terminal& terminal) { return run_edit(*arguments, terminal); };
+    });
+}
+
+} // namespace knead

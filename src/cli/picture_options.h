@@ -1,0 +1,23 @@
+#pragma once
+// What the options of a picture mean.
+
+#include "cli/pictures.h"
+#include "view/camera.h"
+
+namespace knead {
+
+// All throw Error (usage) that names the option.
+
+// "1280x800": 1 … `largest` each.
+Viewport parse_size(const std::string& text, int largest);
+
+// "front" … "bottom", or degrees "azimuth,elevation": 0,0 is the front; a larger azimuth goes round to the
+// right, a larger elevation up. Empty: a pleasant first view.
+// Framed on the bulk of `positions` (3n floats).
+Camera camera_for(const PictureOptions& options, std::span<const float> positions, Viewport viewport);
+
+ColorBy parse_color(const std::string& text);
+
+glm::vec3 parse_background(const std::string& text); // "#rrggbb"
+
+} // namespace knead

@@ -1,0 +1,43 @@
+#pragma once
+// The pictures of a replay: one of the last shape, one of every frame.
+
+#include "cli/pictures.h"
+#include "edit/replay.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace knead {
+
+struct ReplayPictureOptions {
+    std::string picture; // a PNG file, or empty
+    std::string frames;  // a folder, or empty
+    PictureOptions look;
+
+    bool wanted() const { return !picture.empty() || !frames.empty(); }
+};
+
+// Draws while a replay runs. Frames go into a temporary folder beside theirs until write(), so that a replay
+// that fails leaves nothing behind.
+class ReplayPictures {
+public:
+    // Throws Error as PictureMaker does, and (output) for targets that cannot be written to.
+    explicit ReplayPictures(const ReplayPictureOptions& options);
+    ~ReplayPictures();
+
+    // For ReplayOptions; they refer to this object.
+    ShapeSeen after_frame();
+    ShapeSeen after_last();
+
+    // Puts everything in its place: frame-000001.png and so on into the folder, which is made if it is not
+    // there; other files in it stay. Returns what was written: the picture, and the folder.
+    std::vector<std::filesystem::path> write();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace knead

@@ -1,0 +1,42 @@
+#pragma once
+// Private to this room: ranges of consecutive points and the boxes around them, so that what lies outside the
+// view is skipped without looking at its points.
+
+#include "view/camera.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace knead {
+
+inline constexpr std::size_t points_in_chunk = 1024;
+
+// The boxes of points 0 … 1023, 1024 … 2047 and so on; of finite points only. A chunk without any has lowest
+// > highest.
+struct Chunk {
+    glm::vec3 lowest{0.0f}, highest{0.0f};
+    bool empty() const { return !(lowest.x <= highest.x); }
+};
+void bound_chunks(std::span<const float> positions, std::vector<Chunk>& chunks);
+
+// The box around all of them; the unit box where all are empty.
+Box3 box_around(std::span<const Chunk> chunks);
+
+struct PointRange {
+    std::size_t first = 0, end = 0;
+};
+struct InView {
+    std::vector<PointRange> ranges; // a chunk each, the nearest first: what is hidden then costs less
+    std::size_t points = 0;
+    Box3 box;           // around their chunks
+    double nearest = 0; // smallest w of clip space of their boxes' corners; at least a tiny positive number
+    glm::dvec2 lowest{-1.0},
+        highest{1.0}; // of clip space's -1 … 1: nothing of them reaches beyond, but splats
+};
+// The chunks that reach into clip space. `margin` (of clip space's half width) keeps points whose splat
+// reaches in.
+InView chunks_in_view(std::span<const Chunk> chunks, std::size_t points, const glm::dmat4& to_clip,
+                      double margin);
+
+} // namespace knead

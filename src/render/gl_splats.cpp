@@ -1,0 +1,153 @@
+#include "render/shaders.h"
+#include "render/splats.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace knead {
+
+namespace {
+
+// A disc of up to three pixels covers the pixels of a square, for less.
+constexpr float widest_square = 3;
+enum class Shape { square, round, curved };
+
+struct PointProgram {
+    GlProgram program;
+    GLint to_clip, size, extremes, forward, key, pixel_size;
+};
+
+PointProgram make_point_program(bool shaded, Shape shape) {
+    std::string defines;
+    if (shaded) defines += "#define SHADED\n";
+    if (shape != Shape::square) defines += "#define ROUND\n";
+    if (shape == Shape::curved) defines += "#define CURVED\n";
+    GlProgram program = make_program(embedded::points_vert, embedded::points_frag, defines.c_str());
+    const auto find = [&](const char* name) { return glGetUniformLocation(program, name); };
+    const GLint to_clip = find("to_clip"), size = find("size"), extremes = find("extremes"),
+                forward = find("forward"), key = find("key"), pixel_size = find("pixel_size");
+    return {std::move(program), to_clip, size, extremes, forward, key, pixel_size};
+}
+
+void set_vector(GLint location, const glm::vec3& v) {
+    glUniform3f(location, v.x, v.y, v.z);
+}
+
+template<typename Item>
+void upload(GLuint buffer, std::span<const Item> items) {
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(items.size_bytes()), items.data());
+}
+
+void allocate(GLuint buffer, std::size_t bytes) {
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_DRAW);
+}
+
+void clear_bound_layer() {
+    const float nothing[4] = {0, 0, 0, 0}, far = 1;
+    glClearBufferfv(GL_COLOR, 0, nothing);
+    glClearBufferfv(GL_DEPTH, 0, &far);
+}
+
+class GlSplats final : public Splats {
+public:
+    void set_points(std::size_t n) override {
+        n_ = n;
+        has_normal_buffer_ = false;
+        allocate(positions_, 12 * n);
+        allocate(colors_, 4 * n);
+    }
+    void set_positions(std::span<const float> positions) override { upload(positions_, positions); }
+    void set_normals(std::span<const float> normals) override {
+        if (!has_normal_buffer_) allocate(normals_, 12 * n_);
+        has_normal_buffer_ = true;
+        upload(normals_, normals);
+    }
+    void set_tinted(std::span<const std::uint32_t> tinted) override { upload(colors_, tinted); }
+
+    std::size_t draw(std::span<const PointRange> ranges, std::size_t subset, std::size_t stride,
+                     const SplatView& view, Layer& layer, bool clear) override {
+        bind_layer(layer, view.viewport, true);
+        glViewport(0, 0, view.viewport.width, view.viewport.height);
+        if (clear) clear_bound_layer();
+        const std::size_t drawn = list_ranges(ranges, subset, stride);
+        if (drawn == 0) return 0;
+        use_program(view);
+        bind_attributes(subset, stride, view.shaded);
+        glEnable(GL_PROGRAM_POINT_SIZE);
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_LESS);
+        glDepthMask(GL_TRUE);
+        glMultiDrawArrays(GL_POINTS, firsts_.data(), counts_.data(), static_cast<GLsizei>(firsts_.size()));
+        glDisable(GL_DEPTH_TEST);
+        return drawn;
+    }
+
+private:
+    std::size_t list_ranges(std::span<const PointRange> ranges, std::size_t subset, std::size_t stride) {
+        firsts_.clear();
+        counts_.clear();
+        std::size_t drawn = 0;
+        for (const PointRange& range : ranges) {
+            const Elements elements = elements_of(range, subset, stride);
+            if (elements.first == elements.end) continue;
+            firsts_.push_back(static_cast<GLint>(elements.first));
+            counts_.push_back(static_cast<GLsizei>(elements.end - elements.first));
+            drawn += elements.end - elements.first;
+        }
+        return drawn;
+    }
+
+    void use_program(const SplatView& view) {
+        const Shape shape = view.widest <= widest_square ? Shape::square
+                            : view.widest <= view.curved ? Shape::round
+                                                         : Shape::curved;
+        std::optional<PointProgram>& with = programs_[view.shaded ? 1 : 0][static_cast<std::size_t>(shape)];
+        if (!with) with = make_point_program(view.shaded, shape);
+        glUseProgram(with->program);
+        glUniformMatrix4fv(with->to_clip, 1, GL_FALSE, &view.to_clip[0][0]);
+        glUniform2f(with->size, view.fixed, view.by_distance);
+        glUniform2f(with->extremes, view.smallest, view.largest);
+        glUniform1f(with->pixel_size, view.pixel_size);
+        set_vector(with->forward, view.forward);
+        set_vector(with->key, view.key);
+    }
+
+    // Every stride-th point, from `subset` on, without an index.
+    void bind_attributes(std::size_t subset, std::size_t stride, bool shaded) {
+        glBindVertexArray(array_);
+        const auto attribute = [&](GLuint location, GLuint buffer, GLint size, GLenum type,
+                                   std::size_t bytes) {
+            glBindBuffer(GL_ARRAY_BUFFER, buffer);
+            glVertexAttribPointer(location, size, type, type == GL_UNSIGNED_BYTE,
+                                  static_cast<GLsizei>(bytes * stride),
+                                  reinterpret_cast<const void*>(bytes * subset));
+            glEnableVertexAttribArray(location);
+        };
+        attribute(0, positions_, 3, GL_FLOAT, 12);
+        attribute(1, colors_, 4, GL_UNSIGNED_BYTE, 4);
+        if (shaded)
+            attribute(2, normals_, 3, GL_FLOAT, 12);
+        else
+            glDisableVertexAttribArray(2);
+    }
+
+    std::size_t n_ = 0;
+    bool has_normal_buffer_ = false;
+    GlBuffer positions_, normals_, colors_;
+    GlVertexArray array_;
+    std::array<std::array<std::optional<PointProgram>, 3>, 2> programs_; // [shaded][shape]
+    std::vector<GLint> firsts_;
+    std::vector<GLsizei> counts_;
+};
+
+} // namespace
+
+std::unique_ptr<Splats> make_gl_splats() {
+    return std::make_unique<GlSplats>();
+}
+
+} // namespace knead

@@ -1,0 +1,429 @@
+#include "render/point_renderer.h"
+
+#include "base/error.h"
+#include "base/require.h"
+#include "render/chunks.h"
+#include "render/layer.h"
+#include "render/shaders.h"
+#include "render/splats.h"
+#include "render/tinting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace knead {
+
+namespace {
+
+// Of a splat's diameter over the spacing of the points: what closes most scans' surfaces.
+constexpr double closing_factor = 2.0;
+// A subset of one in k is drawn √k larger, up to this.
+constexpr double largest_enlargement = 4;
+constexpr float largest_splat = 96; // pixels
+constexpr float widest_flat = 8;    // pixels; wider splats are curved, which costs
+
+// Where the light comes from, in the camera's axes: from above the left shoulder.
+constexpr glm::vec3 key_light(-0.35f, 0.55f, 0.9f);
+
+// Whether OpenGL runs on the processor.
+bool is_software() {
+    const std::string name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    for (const char* known : {"llvmpipe", "softpipe", "SwiftShader", "Software"})
+        if (name.find(known) != std::string::npos) return true;
+    return false;
+}
+
+void set_matrix(GLint location, const glm::dmat4& matrix) {
+    const glm::mat4 narrowed(matrix);
+    glUniformMatrix4fv(location, 1, GL_FALSE, &narrowed[0][0]);
+}
+
+void set_vector(GLint location, const glm::vec3& v) {
+    glUniform3f(location, v.x, v.y, v.z);
+}
+
+const void* offset(std::size_t bytes) {
+    return reinterpret_cast<const void*>(bytes);
+}
+
+} // namespace
+
+// What a picture shows; a picture of the same scene is not drawn again.
+struct Scene {
+    Camera camera;
+    Viewport viewport;
+    PointLook look;
+    std::uint64_t points_version = 0;
+};
+
+struct PointRenderer::State {
+    // --- The points ---
+    std::size_t n = 0;
+    double spacing = 0;
+    bool has_normals = false;
+    std::vector<std::uint32_t> colors, tinted;
+    std::vector<std::uint8_t> marks;
+    std::vector<HandleLook> looks;
+    bool tints_are_stale = false;
+    std::vector<Chunk> chunks;
+    std::unique_ptr<Splats> splats;
+    std::uint64_t points_version = 0;
+
+    // --- The overlay ---
+    std::size_t lines = 0;
+    Box3 lines_box;
+    GlBuffer line_buffer;
+    GlVertexArray line_array;
+    std::uint64_t overlay_version = 0;
+
+    // --- The programs ---
+    std::optional<GlProgram> compose_programs[2][2]; // [with relief][with patterns]
+    GlProgram background =
+        make_program(embedded::screen_vert, embedded::compose_frag, "#define BACKGROUND\n");
+    GlProgram line_program = make_program(embedded::lines_vert, embedded::lines_frag);
+    GlVertexArray nothing; // for the pass over the screen
+
+    // --- The picture in the making ---
+    Layer shown, growing; // what is on the screen, and the whole cloud as far as it has come
+    Layer finished;       // `shown` after the pass over the screen, with the overlay
+    std::optional<GlFramebuffer> overlay_target; // the colours of `finished` with the depth of `shown`
+    Scene scene;
+    bool is_drawn = false; // whether `shown` is of `scene`
+    glm::dmat4 projection{1.0}, to_clip{1.0};
+    InView in_view;
+    double widest_splat = 0, usual_splat = 0; // pixels; the widest in view, and one at the pivot
+    std::size_t one_in = 1;                   // the first subset is one in so many
+    std::size_t next_subset = 0;              // of one_in; all are drawn: complete
+    std::uint64_t finished_overlay = 0;
+
+    void refresh_tints();
+    bool matches(const Scene& other) const;
+    void project_onto(Box3 box);
+    void begin(const Scene& next, std::size_t budget);
+    SplatView view_of(double enlargement) const;
+    std::size_t draw_subset(std::size_t subset, double enlargement, Layer& layer, bool clear);
+    void finish();
+    GLuint compose_program();
+    void set_compose_uniforms(GLuint compose);
+    void draw_lines();
+    DrawResult draw(const Scene& next, std::size_t budget);
+};
+
+void PointRenderer::State::refresh_tints() {
+    if (!tints_are_stale) return;
+    tints_are_stale = false;
+    tinted.resize(n);
+    tint_colors(colors, marks, looks, tinted);
+    splats->set_tinted(tinted);
+}
+
+bool PointRenderer::State::matches(const Scene& other) const {
+    return is_drawn && scene.camera == other.camera && scene.viewport.width == other.viewport.width &&
+           scene.viewport.height == other.viewport.height && scene.look == other.look &&
+           scene.points_version == other.points_version;
+}
+
+// Takes the projection whose near and far planes enclose the box and the overlay.
+void PointRenderer::State::project_onto(Box3 box) {
+    if (lines > 0) {
+        box.lowest = glm::min(box.lowest, lines_box.lowest);
+        box.highest = glm::max(box.highest, lines_box.highest);
+    }
+    // Room for the splats, and for boxes that are flat.
+    const glm::dvec3 room(2 * spacing + 1e-3 * glm::length(box.highest - box.lowest));
+    projection = projection_matrix(scene.camera, scene.viewport, {box.lowest - room, box.highest + room});
+    to_clip = projection * view_matrix(scene.camera);
+}
+
+// Chooses what is drawn of a new scene.
+void PointRenderer::State::begin(const Scene& next, std::size_t budget) {
+    scene = next;
+    widest_splat = 0;
+    refresh_tints();
+    // First what is in view; then near and far planes that enclose no more than that, so that depths are
+    // fine.
+    project_onto(box_around(chunks));
+    const float margin = largest_splat * scene.look.pixel_scale /
+                         static_cast<float>(std::min(scene.viewport.width, scene.viewport.height));
+    in_view = chunks_in_view(chunks, n, to_clip, margin);
+    if (in_view.points > 0) project_onto(in_view.box);
+    const std::size_t most = std::max<std::size_t>(budget, 1);
+    one_in = std::max<std::size_t>(1, (in_view.points + most - 1) / most);
+}
+
+SplatView PointRenderer::State::view_of(double enlargement) const {
+    const PointLook& look = scene.look;
+    const double pixels_a_unit = 0.5 * projection[1][1] * scene.viewport.height; // at w = 1
+    const double fixed = look.size_by_distance ? 0 : look.pixels * look.pixel_scale * enlargement;
+    const double by_distance =
+        look.size_by_distance ? spacing * closing_factor * look.scale * enlargement * pixels_a_unit : 0;
+    SplatView view;
+    view.viewport = scene.viewport;
+    view.to_clip = glm::mat4(to_clip);
+    view.fixed = static_cast<float>(fixed);
+    view.by_distance = static_cast<float>(by_distance);
+    view.smallest = look.pixel_scale;
+    view.largest = largest_splat * look.pixel_scale;
+    view.curved = widest_flat * look.pixel_scale;
+    view.widest =
+        std::clamp(static_cast<float>(fixed + by_distance / in_view.nearest), view.smallest, view.largest);
+    view.pixel_size = static_cast<float>(1 / pixels_a_unit);
+    const glm::mat3 axes = glm::mat3_cast(glm::quat(scene.camera.orientation));
+    view.forward = -axes[2];
+    view.key = glm::normalize(axes * key_light);
+    view.shaded = look.shading && has_normals;
+    return view;
+}
+
+// Draws subset number `subset` of those in view; returns how many points it has.
+std::size_t PointRenderer::State::draw_subset(std::size_t subset, double enlargement, Layer& layer,
+                                              bool clear) {
+    const SplatView view = view_of(enlargement);
+    const double w = scene.camera.orthographic ? 1 : scene.camera.distance;
+    widest_splat = std::max<double>(widest_splat, view.widest);
+    usual_splat = std::clamp<double>(view.fixed + view.by_distance / w, view.smallest, view.largest);
+    return splats->draw(in_view.ranges, subset, one_in, view, layer, clear);
+}
+
+// The pass over the screen, and the overlay: from `shown` to `finished`.
+void PointRenderer::State::finish() {
+    bind_layer(finished, scene.viewport, false);
+    glViewport(0, 0, scene.viewport.width, scene.viewport.height);
+    glBindVertexArray(nothing);
+    const auto use = [this](GLuint with) {
+        glUseProgram(with);
+        set_vector(glGetUniformLocation(with, "top"), scene.look.background_top);
+        set_vector(glGetUniformLocation(with, "bottom"), scene.look.background_bottom);
+        glUniform1f(glGetUniformLocation(with, "height"), static_cast<float>(scene.viewport.height));
+    };
+    use(background);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    const GLuint compose = compose_program();
+    use(compose);
+    set_compose_uniforms(compose);
+    // In software every pixel of this pass costs as if it were the cloud's.
+    const glm::dvec2 screen(scene.viewport.width, scene.viewport.height), reach(widest_splat);
+    const glm::ivec2 from(glm::floor((0.5 + 0.5 * in_view.lowest) * screen - reach));
+    const glm::ivec2 to(glm::ceil((0.5 + 0.5 * in_view.highest) * screen + reach));
+    if (in_view.points > 0) {
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(from.x, from.y, to.x - from.x, to.y - from.y);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        glDisable(GL_SCISSOR_TEST);
+    }
+    if (lines > 0) draw_lines();
+    finished_overlay = overlay_version;
+}
+
+GLuint PointRenderer::State::compose_program() {
+    const bool relief = scene.look.shading && !has_normals, patterns = !marks.empty();
+    std::optional<GlProgram>& program = compose_programs[relief ? 1 : 0][patterns ? 1 : 0];
+    if (!program) {
+        const std::string defines =
+            std::string(relief ? "#define RELIEF\n" : "") + (patterns ? "#define PATTERNS\n" : "");
+        program = make_program(embedded::screen_vert, embedded::compose_frag, defines.c_str());
+    }
+    return *program;
+}
+
+void PointRenderer::State::set_compose_uniforms(GLuint compose) {
+    const PointLook& look = scene.look;
+    const auto at = [compose](const char* name) { return glGetUniformLocation(compose, name); };
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, *shown.depth);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, *shown.color);
+    glUniform1i(at("colors"), 0);
+    glUniform1i(at("depths"), 1);
+    const double pixel = 2 / (projection[1][1] * scene.viewport.height); // its length, at w = 1
+    const double a = projection[2][2], b = projection[3][2];
+    if (scene.camera.orthographic)
+        glUniform3f(at("depth_scale"), static_cast<float>(2 / (std::abs(a) * pixel)), 1, 0);
+    else // 1 / z = (2 depth - 1 + a) / b
+        glUniform3f(at("depth_scale"), static_cast<float>(2 / (std::abs(b) * pixel)),
+                    static_cast<float>((a - 1) / b), static_cast<float>(2 / b));
+    const int near = std::max(1, static_cast<int>(std::lround(look.pixel_scale)));
+    glUniform2i(at("taps"), near, 3 * near);
+    glUniform1f(at("strength"), look.eye_dome ? 1.0f : 0.0f);
+    glUniform1f(at("grain"), static_cast<float>(0.5 * usual_splat));
+    set_vector(at("key"), glm::normalize(key_light));
+    glUniform1f(at("pattern"), look.pixel_scale);
+    glUniform2i(at("last"), scene.viewport.width - 1, scene.viewport.height - 1);
+}
+
+void PointRenderer::State::draw_lines() {
+    overlay_target.emplace();
+    glBindFramebuffer(GL_FRAMEBUFFER, *overlay_target);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *finished.color, 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *shown.depth, 0);
+    glUseProgram(line_program);
+    const auto at = [&](const char* name) { return glGetUniformLocation(line_program, name); };
+    set_matrix(at("to_clip"), to_clip);
+    glUniform2f(at("screen"), static_cast<float>(scene.viewport.width),
+                static_cast<float>(scene.viewport.height));
+    glUniform1f(at("scale"), scene.look.pixel_scale);
+    // Three spacings at the pivot's distance, as a difference of depths.
+    const double z = scene.camera.distance;
+    const double slope =
+        scene.camera.orthographic ? std::abs(projection[2][2]) : std::abs(projection[3][2]) / (z * z);
+    glUniform1f(at("nearer"), static_cast<float>(3 * spacing * slope));
+    glBindVertexArray(line_array);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(lines));
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_DEPTH_TEST);
+    overlay_target.reset();
+}
+
+DrawResult PointRenderer::State::draw(const Scene& next, std::size_t budget) {
+    DrawResult result;
+    bool changed = true;
+    if (!matches(next)) {
+        begin(next, budget);
+        const double enlargement = std::min(std::sqrt(static_cast<double>(one_in)), largest_enlargement);
+        result.drawn = draw_subset(0, enlargement, shown, true);
+        next_subset = one_in == 1 ? 1 : 0;
+        is_drawn = true;
+    } else if (next_subset < one_in) {
+        result.drawn = draw_subset(next_subset, 1, growing, next_subset == 0);
+        ++next_subset;
+        if (next_subset == one_in)
+            std::swap(shown, growing);
+        else
+            changed = finished_overlay != overlay_version;
+    } else {
+        changed = finished_overlay != overlay_version;
+    }
+    if (changed) finish();
+    result.complete = next_subset == one_in;
+    result.in_view = in_view.points;
+    result.one_in = result.complete ? 1 : one_in;
+    return result;
+}
+
+PointRenderer::PointRenderer(Drawing drawing) {
+    if (epoxy_gl_version() < 41)
+        throw Error(Trouble::usage, "",
+                    std::string("knead draws with OpenGL 4.1, and here is only ") +
+                        reinterpret_cast<const char*>(glGetString(GL_VERSION)) + " (" +
+                        reinterpret_cast<const char*>(glGetString(GL_RENDERER)) + ")");
+    state_ = std::make_unique<State>();
+    State& s = *state_;
+    const bool in_software = drawing == Drawing::chosen ? is_software() : drawing == Drawing::by_processor;
+    s.splats = in_software ? make_software_splats() : make_gl_splats();
+    glBindVertexArray(s.line_array);
+    glBindBuffer(GL_ARRAY_BUFFER, s.line_buffer);
+    const auto attribute = [](GLuint location, GLint size, GLenum type, std::size_t at) {
+        glVertexAttribPointer(location, size, type, type == GL_UNSIGNED_BYTE, sizeof(OverlayLine),
+                              offset(at));
+        glVertexAttribDivisor(location, 1);
+        glEnableVertexAttribArray(location);
+    };
+    attribute(0, 3, GL_FLOAT, offsetof(OverlayLine, from));
+    attribute(1, 3, GL_FLOAT, offsetof(OverlayLine, to));
+    attribute(2, 4, GL_UNSIGNED_BYTE, offsetof(OverlayLine, rgba));
+    attribute(3, 1, GL_FLOAT, offsetof(OverlayLine, width));
+    glBindVertexArray(0);
+}
+
+PointRenderer::~PointRenderer() = default;
+
+void PointRenderer::set_points(std::size_t n, double spacing) {
+    State& s = *state_;
+    s.n = n;
+    s.spacing = spacing;
+    s.has_normals = false;
+    s.colors.assign(n, 0xffb8b8b8);
+    s.marks.clear();
+    s.tints_are_stale = true;
+    s.splats->set_points(n);
+    s.chunks.clear();
+    ++s.points_version;
+}
+
+std::size_t PointRenderer::points() const {
+    return state_->n;
+}
+
+void PointRenderer::set_positions(std::span<const float> positions) {
+    require(positions.size() == 3 * state_->n, "three coordinates a point");
+    state_->splats->set_positions(positions);
+    bound_chunks(positions, state_->chunks);
+    ++state_->points_version;
+}
+
+void PointRenderer::set_normals(std::span<const float> normals) {
+    State& s = *state_;
+    require(normals.empty() || normals.size() == 3 * s.n, "three numbers a normal");
+    if (!normals.empty()) s.splats->set_normals(normals);
+    s.has_normals = !normals.empty();
+    ++s.points_version;
+}
+
+void PointRenderer::set_colors(std::span<const std::uint32_t> rgba) {
+    require(rgba.size() == state_->n, "a colour a point");
+    state_->colors.assign(rgba.begin(), rgba.end());
+    state_->tints_are_stale = true;
+    ++state_->points_version;
+}
+
+void PointRenderer::set_marks(std::span<const std::uint8_t> marks) {
+    require(marks.empty() || marks.size() == state_->n, "a mark a point");
+    state_->marks.assign(marks.begin(), marks.end());
+    state_->tints_are_stale = true;
+    ++state_->points_version;
+}
+
+void PointRenderer::set_handle_looks(std::span<const HandleLook> looks) {
+    state_->looks.assign(looks.begin(), looks.end());
+    state_->tints_are_stale = true;
+    ++state_->points_version;
+}
+
+void PointRenderer::set_overlay(std::span<const OverlayLine> lines) {
+    State& s = *state_;
+    s.lines = lines.size();
+    glBindBuffer(GL_ARRAY_BUFFER, s.line_buffer);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(lines.size_bytes()), lines.data(), GL_DYNAMIC_DRAW);
+    Box3 box;
+    for (const OverlayLine& line : lines) {
+        const glm::dvec3 from(line.from), to(line.to);
+        if (&line == lines.data()) box = {from, from};
+        box.lowest = glm::min(box.lowest, glm::min(from, to));
+        box.highest = glm::max(box.highest, glm::max(from, to));
+    }
+    // The planes of the projection enclose the lines as well, so a larger overlay is a new scene.
+    if (!lines.empty() && (s.lines_box.lowest != box.lowest || s.lines_box.highest != box.highest)) {
+        s.lines_box = box;
+        ++s.points_version;
+    }
+    ++s.overlay_version;
+}
+
+DrawResult PointRenderer::draw(const Camera& camera, Viewport viewport, const PointLook& look,
+                               std::size_t budget, unsigned target_framebuffer) {
+    State& s = *state_;
+    for (const GLenum what : {GL_SCISSOR_TEST, GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST})
+        glDisable(what);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glViewport(0, 0, viewport.width, viewport.height);
+    const DrawResult result = s.draw({camera, viewport, look, s.points_version}, budget);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, *s.finished.framebuffer);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target_framebuffer);
+    glBlitFramebuffer(0, 0, viewport.width, viewport.height, 0, 0, viewport.width, viewport.height,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, target_framebuffer);
+    glBindVertexArray(0);
+    glUseProgram(0);
+    return result;
+}
+
+} // namespace knead

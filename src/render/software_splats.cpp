@@ -1,0 +1,279 @@
+#include "base/workers.h"
+#include "render/splats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+namespace knead {
+
+namespace {
+
+// A disc of up to three pixels covers the pixels of a square.
+constexpr float square_radius = 1.5f;
+constexpr int rows_in_band = 32;
+
+// A point on the screen. Pixels from the lower left corner.
+struct Splat {
+    float x, y, depth, radius;
+    std::uint32_t color;
+    float bulge; // how much deeper the rim is than the middle
+};
+
+// What is seen of a range of points.
+struct Batch {
+    std::size_t first = 0, count = 0; // of the splats
+    float lowest = 0, highest = 0;    // the rows that they reach
+};
+
+// Colours (as tinted) and depths (0 … 1), rows from the bottom as in OpenGL.
+struct Pixels {
+    int width = 0, height = 0;
+    std::vector<std::uint32_t> colors;
+    std::vector<float> depths;
+
+    // Rows are padded, so that several pixels at once may be looked at beyond their ends.
+    static constexpr std::size_t padding = 16;
+    std::size_t row() const { return static_cast<std::size_t>(width) + padding; }
+};
+
+struct Points {
+    std::vector<float> positions, normals;
+    std::vector<std::uint32_t> tinted;
+};
+
+std::uint32_t lit(std::uint32_t color, const float* normal, const SplatView& view) {
+    const glm::vec3 n(normal[0], normal[1], normal[2]);
+    const float side = glm::dot(n, view.forward) > 0 ? -0.5f : 0.5f; // both sides are lit
+    const float light = 0.5f + side * glm::dot(n, view.key);
+    const float brightness = 0.40f + 0.64f * light * light;
+    const auto part = [&](unsigned shift) {
+        const float value = static_cast<float>(color >> shift & 0xffU) * brightness + 0.5f;
+        return static_cast<std::uint32_t>(std::min(value, 255.0f)) << shift;
+    };
+    return part(0) | part(8) | part(16) | (color & 0xff000000U);
+}
+
+// Where a point lies on the screen; false if it does not.
+bool project(const Points& points, std::size_t i, const SplatView& view, const Pixels& layer, Splat& splat) {
+    const std::uint32_t color = points.tinted[i];
+    if (color == 0) return false; // hidden
+    const float* p = &points.positions[3 * i];
+    const glm::vec4 clip =
+        view.to_clip[0] * p[0] + view.to_clip[1] * p[1] + view.to_clip[2] * p[2] + view.to_clip[3];
+    if (!(clip.z >= -clip.w && clip.z < clip.w)) return false; // nor if not finite
+    const float part = 1 / clip.w;
+    const float width = static_cast<float>(layer.width), height = static_cast<float>(layer.height);
+    splat.x = (0.5f + 0.5f * clip.x * part) * width;
+    splat.y = (0.5f + 0.5f * clip.y * part) * height;
+    const float diameter = std::clamp(view.fixed + view.by_distance * part, view.smallest, view.largest);
+    splat.radius = 0.5f * diameter;
+    if (!(splat.x > -splat.radius && splat.x < width + splat.radius && splat.y > -splat.radius &&
+          splat.y < height + splat.radius))
+        return false;
+    splat.depth = 0.5f + 0.5f * clip.z * part;
+    splat.color = view.shaded ? lit(color, &points.normals[3 * i], view) : color;
+    splat.bulge = 0;
+    if (splat.radius > square_radius) {
+        // As in points.vert: the rim of a splat lies a third of its radius behind its middle.
+        const float back = 0.16f * diameter * view.pixel_size * clip.w;
+        const glm::vec3 f = view.forward * back;
+        const glm::vec4 rim = clip + view.to_clip[0] * f.x + view.to_clip[1] * f.y + view.to_clip[2] * f.z;
+        splat.bulge = 0.5f + 0.5f * rim.z / rim.w - splat.depth;
+    }
+    return true;
+}
+
+// The rows or columns whose middles lie between two places, from `least` to below `most`.
+struct Span {
+    int first, end;
+};
+Span middles_between(float low, float high, int least, int most) {
+    const int first = static_cast<int>(std::ceil(low - 0.5f)), end = static_cast<int>(std::ceil(high - 0.5f));
+    return {std::max(first, least), std::min(end, most)};
+}
+
+void draw_square(const Splat& splat, int bottom, int top, Pixels& layer) {
+    const Span rows = middles_between(splat.y - splat.radius, splat.y + splat.radius, bottom, top);
+    const Span columns = middles_between(splat.x - splat.radius, splat.x + splat.radius, 0, layer.width);
+    for (int y = rows.first; y < rows.end; ++y) {
+        const std::size_t row = static_cast<std::size_t>(y) * layer.row();
+        for (int x = columns.first; x < columns.end; ++x) {
+            const std::size_t at = row + static_cast<std::size_t>(x);
+            if (splat.depth >= layer.depths[at]) continue;
+            layer.depths[at] = splat.depth;
+            layer.colors[at] = splat.color;
+        }
+    }
+}
+
+// Compiled twice where the compiler can: once for processors of the last ten years, chosen when the program
+// starts. Both round alike.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&     \
+    !defined(__SANITIZE_THREAD__)
+#define KNEAD_FOR_NEW_PROCESSORS_TOO __attribute__((target_clones("avx2", "default")))
+#else
+#define KNEAD_FOR_NEW_PROCESSORS_TOO
+#endif
+
+// Eight pixels of a row at a time, in the vectors of GCC and Clang.
+constexpr int lanes = 8;
+using Floats = float __attribute__((vector_size(4 * lanes)));
+using Words = std::uint32_t __attribute__((vector_size(4 * lanes)));
+using Mask = std::int32_t __attribute__((vector_size(4 * lanes)));
+
+// `dx`: from the splat's middle to the first pixel's; `depth`: in this row's middle. Pixels farther than
+// √reach from the row's middle are left alone.
+[[gnu::always_inline]] inline void draw_lanes(float dx, float depth, float curve, float reach,
+                                              std::uint32_t color, float* depths, std::uint32_t* colors) {
+    constexpr Floats steps = {0, 1, 2, 3, 4, 5, 6, 7};
+    const Floats away = dx + steps, squared = away * away, here = depth + curve * squared;
+    Floats there;
+    Words before;
+    std::memcpy(&there, depths, sizeof there);
+    std::memcpy(&before, colors, sizeof before);
+    const Mask wins = (squared < reach) & (here < there);
+    there = wins ? here : there;
+    before = wins ? color - Words{} : before;
+    std::memcpy(depths, &there, sizeof there);
+    std::memcpy(colors, &before, sizeof before);
+}
+
+KNEAD_FOR_NEW_PROCESSORS_TOO
+void draw_disc(const Splat& splat, int bottom, int top, Pixels& layer) {
+    const float squared = splat.radius * splat.radius, curve = splat.bulge / squared;
+    const Span rows = middles_between(splat.y - splat.radius, splat.y + splat.radius, bottom, top);
+    const Span columns = middles_between(splat.x - splat.radius, splat.x + splat.radius, 0, layer.width);
+    const float dx = static_cast<float>(columns.first) + 0.5f - splat.x;
+    for (int y = rows.first; y < rows.end; ++y) {
+        const float dy = static_cast<float>(y) + 0.5f - splat.y;
+        const std::size_t at =
+            static_cast<std::size_t>(y) * layer.row() + static_cast<std::size_t>(columns.first);
+        const float depth = splat.depth + curve * dy * dy, reach = squared - dy * dy;
+        for (int x = 0; x < columns.end - columns.first; x += lanes)
+            draw_lanes(dx + static_cast<float>(x), depth, curve, reach, splat.color,
+                       layer.depths.data() + at + x, layer.colors.data() + at + x);
+    }
+}
+
+void draw_in_band(const Splat& splat, int bottom, int top, Pixels& layer) {
+    if (splat.y + splat.radius < static_cast<float>(bottom) ||
+        splat.y - splat.radius > static_cast<float>(top))
+        return;
+    if (splat.radius <= square_radius)
+        draw_square(splat, bottom, top, layer);
+    else
+        draw_disc(splat, bottom, top, layer);
+}
+
+class SoftwareSplats final : public Splats {
+public:
+    void set_points(std::size_t n) override {
+        points_.positions.resize(3 * n);
+        points_.tinted.resize(n);
+    }
+    void set_positions(std::span<const float> positions) override {
+        points_.positions.assign(positions.begin(), positions.end());
+    }
+    void set_normals(std::span<const float> normals) override {
+        points_.normals.assign(normals.begin(), normals.end());
+    }
+    void set_tinted(std::span<const std::uint32_t> tinted) override {
+        points_.tinted.assign(tinted.begin(), tinted.end());
+    }
+
+    // The result does not depend on the number of threads: every band of rows belongs to one, who draws all
+    // splats in their order.
+    std::size_t draw(std::span<const PointRange> ranges, std::size_t subset, std::size_t stride,
+                     const SplatView& view, Layer& layer, bool clear) override {
+        if (clear) clear_pixels(view.viewport);
+        const std::size_t drawn = make_room(ranges, subset, stride);
+        workers_.for_each(ranges.size(), 4, [&](std::size_t r) {
+            see(ranges[r], elements_of(ranges[r], subset, stride), subset, stride, view, batches_[r]);
+        });
+        const auto bands = static_cast<std::size_t>((pixels_.height + rows_in_band - 1) / rows_in_band);
+        workers_.for_each(bands, 1,
+                          [&](std::size_t band) { draw_band(static_cast<int>(band) * rows_in_band); });
+        send(view.viewport, layer);
+        return drawn;
+    }
+
+private:
+    void clear_pixels(Viewport size) {
+        pixels_.width = size.width;
+        pixels_.height = size.height;
+        const std::size_t count = pixels_.row() * static_cast<std::size_t>(size.height);
+        pixels_.colors.resize(count);
+        pixels_.depths.resize(count);
+        workers_.for_chunks(count, std::size_t{1} << 16U, [this](std::size_t begin, std::size_t end) {
+            std::fill(pixels_.colors.data() + begin, pixels_.colors.data() + end, 0U);
+            std::fill(pixels_.depths.data() + begin, pixels_.depths.data() + end, 1.0f);
+        });
+    }
+
+    // Room for a splat of every point; returns how many.
+    std::size_t make_room(std::span<const PointRange> ranges, std::size_t subset, std::size_t stride) {
+        batches_.resize(ranges.size());
+        std::size_t room = 0;
+        for (std::size_t r = 0; r < ranges.size(); ++r) {
+            const Elements elements = elements_of(ranges[r], subset, stride);
+            batches_[r].first = room;
+            room += elements.end - elements.first;
+        }
+        if (splats_.size() < room) splats_.resize(room);
+        return room;
+    }
+
+    void see(const PointRange& range, const Elements& elements, std::size_t subset, std::size_t stride,
+             const SplatView& view, Batch& batch) {
+        Splat* next = splats_.data() + batch.first;
+        batch.lowest = static_cast<float>(pixels_.height);
+        batch.highest = 0;
+        for (std::size_t i = subset + elements.first * stride; i < range.end; i += stride) {
+            if (!project(points_, i, view, pixels_, *next)) continue;
+            batch.lowest = std::min(batch.lowest, next->y - next->radius);
+            batch.highest = std::max(batch.highest, next->y + next->radius);
+            ++next;
+        }
+        batch.count = static_cast<std::size_t>(next - splats_.data()) - batch.first;
+    }
+
+    void draw_band(int bottom) {
+        const int top = std::min(bottom + rows_in_band, pixels_.height);
+        for (const Batch& batch : batches_) {
+            if (batch.highest < static_cast<float>(bottom) || batch.lowest > static_cast<float>(top))
+                continue;
+            for (std::size_t s = batch.first; s < batch.first + batch.count; ++s)
+                draw_in_band(splats_[s], bottom, top, pixels_);
+        }
+    }
+
+    void send(Viewport size, Layer& layer) const {
+        bind_layer(layer, size, true);
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(pixels_.row()));
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(GL_TEXTURE_2D, *layer.color);
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        pixels_.colors.data());
+        glBindTexture(GL_TEXTURE_2D, *layer.depth);
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.width, size.height, GL_DEPTH_COMPONENT, GL_FLOAT,
+                        pixels_.depths.data());
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    }
+
+    Workers workers_;
+    Points points_;
+    Pixels pixels_;
+    std::vector<Splat> splats_;
+    std::vector<Batch> batches_;
+};
+
+} // namespace
+
+std::unique_ptr<Splats> make_software_splats() {
+    return std::make_unique<SoftwareSplats>();
+}
+
+} // namespace knead

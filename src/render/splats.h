@@ -1,0 +1,61 @@
+#pragma once
+// Private to this room: who keeps the points and draws them as splats, on a graphics card or by the
+// processor.
+
+#include "render/chunks.h"
+#include "render/layer.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace knead {
+
+// How splats are sized and lit.
+struct SplatView {
+    Viewport viewport;
+    glm::mat4 to_clip{1.0f};
+    float fixed = 0, by_distance = 0; // diameter in pixels: fixed + by_distance / w
+    float smallest = 1, largest = 64; // pixels
+    float widest = 64;                // no splat in view is wider
+    float curved = 8;                 // beyond that they are curved, and part between their middles
+    float pixel_size = 0;             // the length of a pixel at w = 1
+    glm::vec3 forward{0, 0, -1};      // where the camera looks
+    glm::vec3 key{0, 0, 1};           // towards the light
+    bool shaded = false;              // by the normals
+};
+
+class Splats {
+public:
+    virtual ~Splats() = default;
+
+    virtual void set_points(std::size_t n) = 0; // the rest comes before draw()
+    virtual void set_positions(std::span<const float> positions) = 0;
+    virtual void set_normals(std::span<const float> normals) = 0; // not empty
+    virtual void set_tinted(std::span<const std::uint32_t> tinted) = 0;
+
+    // Draws points subset, subset + stride, … of these ranges into the layer, over what is there, or first
+    // clears it. Returns how many.
+    virtual std::size_t draw(std::span<const PointRange> ranges, std::size_t subset, std::size_t stride,
+                             const SplatView& view, Layer& layer, bool clear) = 0;
+};
+
+std::unique_ptr<Splats> make_gl_splats();
+
+// Mesa's software renderer takes half a microsecond and more for every point, of which a small splat needs a
+// few nanoseconds. Where OpenGL runs in software the processor draws the splats itself, on threads of its
+// own, into the same textures, and everything else is as always. One layer is drawn into at a time.
+std::unique_ptr<Splats> make_software_splats();
+
+// The elements of a range in a strided array: element e is point subset + e · stride.
+struct Elements {
+    std::size_t first = 0, end = 0;
+};
+inline Elements elements_of(const PointRange& range, std::size_t subset, std::size_t stride) {
+    const auto element = [&](std::size_t point) {
+        return point <= subset ? 0 : (point - subset + stride - 1) / stride;
+    };
+    return {element(range.first), element(range.end)};
+}
+
+} // namespace knead

@@ -1,0 +1,340 @@
+#include "headless_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace knead::test {
+namespace {
+
+constexpr Viewport screen{320, 200};
+constexpr Pixel black{0, 0, 0};
+
+Camera some_camera(bool orthographic) {
+    Camera camera = first_view({glm::dvec3(-1), glm::dvec3(1)}, screen);
+    camera.orthographic = orthographic;
+    return camera;
+}
+
+// Random points in a ball, in no special order.
+std::vector<float> ball(std::size_t n) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> coordinate(-1, 1);
+    std::vector<float> positions;
+    while (positions.size() < 3 * n) {
+        const glm::vec3 p(coordinate(random), coordinate(random), coordinate(random));
+        if (glm::length(p) < 1) positions.insert(positions.end(), {p.x, p.y, p.z});
+    }
+    return positions;
+}
+
+std::vector<std::uint32_t> many_colors(std::size_t n) {
+    std::vector<std::uint32_t> colors;
+    for (std::size_t i = 0; i < n; ++i)
+        colors.push_back(rgba(static_cast<unsigned>(i * 37 % 256), static_cast<unsigned>(i * 91 % 256), 200));
+    return colors;
+}
+
+class Drawing : public HeadlessScene {
+protected:
+    void put(std::span<const float> positions, std::span<const std::uint32_t> colors) {
+        renderer->set_points(colors.size(), 0.1);
+        renderer->set_positions(positions);
+        renderer->set_colors(colors);
+    }
+};
+
+TEST_P(Drawing, a_splat_covers_the_pixels_around_its_projection) {
+    const std::vector<float> point = {0.3f, -0.2f, 0.4f};
+    for (const bool orthographic : {false, true}) {
+        const Camera camera = some_camera(orthographic);
+        put(point, std::vector{rgba(10, 200, 30)});
+        flat.pixels = 9;
+        const std::vector<Pixel> pixels = draw(camera, screen, flat);
+        const glm::dvec2 middle = project(camera, screen, glm::dvec3(0.3f, -0.2f, 0.4f))->pixel;
+        for (int y = 0; y < screen.height; ++y) {
+            for (int x = 0; x < screen.width; ++x) {
+                const glm::dvec2 here(x + 0.5, y + 0.5);
+                const double distance = glm::distance(here, middle);
+                if (distance < 3.9) {
+                    EXPECT_EQ(at(pixels, screen, here), (Pixel{10, 200, 30})) << x << ' ' << y;
+                }
+                if (distance > 5.2) {
+                    EXPECT_EQ(at(pixels, screen, here), black) << x << ' ' << y;
+                }
+            }
+        }
+    }
+}
+
+TEST_P(Drawing, by_distance_a_splat_is_as_large_as_its_spacing_there) {
+    const std::vector<float> point = {0, 0, 0};
+    const Camera camera = some_camera(false);
+    flat.size_by_distance = true;
+    const auto area = [&](float scale) {
+        renderer->set_points(1, 0.2);
+        renderer->set_positions(point);
+        flat.scale = scale;
+        std::ptrdiff_t lit = 0;
+        for (const Pixel& pixel : draw(camera, screen, flat)) lit += pixel != black;
+        return static_cast<double>(lit);
+    };
+    const double once = area(1);
+    const double spacing = 0.2 / pixel_size_at(camera, screen, glm::dvec3(0));
+    EXPECT_GT(std::sqrt(once), spacing); // a little more than its own square, or the surface would have holes
+    EXPECT_LT(std::sqrt(once), 2.5 * spacing);
+    EXPECT_NEAR(area(2) / once, 4, 0.5);
+}
+
+TEST_P(Drawing, near_points_hide_far_ones_whichever_comes_first) {
+    const Camera camera = some_camera(false);
+    const glm::vec3 eye(eye_of(camera));
+    const glm::vec3 near = 0.3f * eye, far = -0.1f * eye;
+    const glm::dvec2 pixel = project(camera, screen, glm::dvec3(near))->pixel;
+    put(std::vector{near.x, near.y, near.z, far.x, far.y, far.z},
+        std::vector{rgba(255, 0, 0), rgba(0, 0, 255)});
+    EXPECT_EQ(at(draw(camera, screen, flat), screen, pixel), (Pixel{255, 0, 0}));
+    put(std::vector{far.x, far.y, far.z, near.x, near.y, near.z},
+        std::vector{rgba(0, 0, 255), rgba(255, 0, 0)});
+    EXPECT_EQ(at(draw(camera, screen, flat), screen, pixel), (Pixel{255, 0, 0}));
+}
+
+TEST_P(Drawing, hidden_points_are_not_there) {
+    const std::vector<float> points = {0, 0, 0, 0.5f, 0, 0};
+    const Camera camera = some_camera(false);
+    put(points, std::vector(2, rgba(255, 255, 255)));
+    renderer->set_marks(std::vector<std::uint8_t>{mark_hidden, 0});
+    const std::vector<Pixel> pixels = draw(camera, screen, flat);
+    const auto seen = [&](double x) { return at(pixels, screen, project(camera, screen, {x, 0, 0})->pixel); };
+    EXPECT_EQ(seen(0), black);
+    EXPECT_EQ(seen(0.5), (Pixel{255, 255, 255}));
+    renderer->set_marks({});
+    EXPECT_NE(at(draw(camera, screen, flat), screen, project(camera, screen, {0, 0, 0})->pixel), black);
+}
+
+TEST_P(Drawing, selected_points_differ_on_every_colour) {
+    const Camera camera = some_camera(false);
+    const std::vector<float> point = {0, 0, 0};
+    flat.pixels = 40;
+    for (const std::uint32_t color :
+         {rgba(255, 255, 255), rgba(0, 0, 0), rgba(255, 158, 20), rgba(30, 60, 200)}) {
+        put(point, std::vector{color});
+        const std::vector<Pixel> plain = draw(camera, screen, flat);
+        renderer->set_marks(std::vector{mark_selected});
+        const std::vector<Pixel> marked = draw(camera, screen, flat);
+        int largest = 0;
+        for (std::size_t i = 0; i < plain.size(); ++i)
+            for (std::size_t c = 0; c < 3; ++c)
+                largest = std::max(largest, std::abs(plain[i][c] - marked[i][c]));
+        EXPECT_GT(largest, 30) << std::hex << color;
+    }
+}
+
+TEST_P(Drawing, handles_are_told_apart_without_colour) {
+    const Camera camera = some_camera(false);
+    put(std::vector<float>{0, 0, 0}, std::vector{rgba(90, 90, 90)});
+    flat.pixels = 60;
+    using Pattern = HandleLook::Pattern;
+    const glm::vec3 color(0.2f, 0.6f, 1.0f);
+    renderer->set_handle_looks(
+        std::vector<HandleLook>{{color, Pattern::solid}, {color, Pattern::stripes}, {color, Pattern::dots}});
+    std::vector<std::vector<Pixel>> pictures;
+    for (std::size_t handle = 0; handle < 3; ++handle) {
+        renderer->set_marks(std::vector{handle_mark(handle)});
+        pictures.push_back(draw(camera, screen, flat));
+        const Pixel middle = at(pictures.back(), screen, project(camera, screen, {0, 0, 0})->pixel);
+        EXPECT_GT(middle[2], middle[0] + 20) << handle; // tinted
+    }
+    EXPECT_NE(pictures[0], pictures[1]);
+    EXPECT_NE(pictures[1], pictures[2]);
+    EXPECT_NE(pictures[0], pictures[2]);
+    renderer->set_marks(std::vector{handle_mark(63)}); // looks are used again
+    EXPECT_EQ(draw(camera, screen, flat), pictures[0]);
+}
+
+TEST_P(Drawing, a_budget_is_kept_and_the_rest_follows) {
+    constexpr std::size_t n = 20'000;
+    const std::vector<float> positions = ball(n);
+    const std::vector<std::uint32_t> colors = many_colors(n);
+    PointLook look;
+    for (const bool by_distance : {false, true}) {
+        look.size_by_distance = by_distance;
+        renderer->set_points(n, 0.02);
+        renderer->set_positions(positions);
+        renderer->set_colors(colors);
+        const Camera camera = some_camera(false);
+        const std::vector<Pixel> at_once = draw(camera, screen, look);
+        renderer->set_positions(positions); // anew
+        const GLuint to = target(screen);
+        std::size_t calls = 1, drawn = 0;
+        DrawResult result = renderer->draw(camera, screen, look, 3000, to);
+        EXPECT_EQ(result.one_in, 7U);
+        for (; !result.complete && calls < 100; ++calls) {
+            EXPECT_LE(result.drawn, 3000U);
+            if (calls > 1) drawn += result.drawn;
+            result = renderer->draw(camera, screen, look, 3000, to);
+        }
+        EXPECT_EQ(drawn + result.drawn, n);
+        EXPECT_EQ(calls, 8U);
+        EXPECT_EQ(read(screen), at_once);
+        EXPECT_EQ(renderer->draw(camera, screen, look, 3000, to).drawn, 0U);
+        EXPECT_EQ(read(screen), at_once);
+    }
+}
+
+TEST_P(Drawing, any_change_starts_again) {
+    constexpr std::size_t n = 4000;
+    put(ball(n), many_colors(n));
+    Camera camera = some_camera(false);
+    const GLuint to = target(screen);
+    const auto begins_again = [&] { return renderer->draw(camera, screen, flat, 1000, to).one_in == 4; };
+    const auto finish = [&] {
+        while (!renderer->draw(camera, screen, flat, 1000, to).complete) {
+        }
+    };
+    EXPECT_TRUE(begins_again());
+    finish();
+    EXPECT_FALSE(begins_again());
+    orbit(camera, Orbiting::turntable, {10, 0}, screen);
+    EXPECT_TRUE(begins_again());
+    finish();
+    flat.pixels += 1;
+    EXPECT_TRUE(begins_again());
+    finish();
+    renderer->set_marks(std::vector<std::uint8_t>(n, mark_selected));
+    EXPECT_TRUE(begins_again());
+}
+
+TEST_P(Drawing, what_lies_outside_the_view_is_skipped_and_changes_nothing) {
+    // Two clouds of whole chunks; the camera looks at one of them.
+    std::vector<float> positions = ball(4096);
+    std::vector<float> both = positions;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        both.push_back(positions[i] + (i % 3 == 0 ? 1000.0f : 0.0f));
+    Camera camera = some_camera(true);
+    put(positions, many_colors(4096));
+    const std::vector<Pixel> alone = draw(camera, screen, flat);
+    put(both, many_colors(8192));
+    const GLuint to = target(screen);
+    EXPECT_EQ(renderer->draw(camera, screen, flat, 1'000'000, to).in_view, 4096U);
+    EXPECT_EQ(read(screen), alone);
+}
+
+TEST_P(Drawing, fills_the_target_and_follows_its_size) {
+    put(ball(1000), many_colors(1000));
+    flat.background_top = flat.background_bottom = {0.2f, 0.4f, 0.6f};
+    for (const Viewport size : {Viewport{64, 48}, Viewport{300, 10}, Viewport{1, 1}, Viewport{64, 48}}) {
+        const std::vector<Pixel> pixels = draw(some_camera(false), size, flat);
+        EXPECT_EQ(std::ranges::count(pixels, Pixel{255, 0, 255}), 0);
+    }
+}
+
+TEST_P(Drawing, no_points_are_a_background) {
+    put({}, {});
+    for (const Pixel& pixel : draw(some_camera(false), screen, flat)) EXPECT_EQ(pixel, black);
+    renderer->set_marks({});
+    renderer->set_normals({});
+    EXPECT_TRUE(renderer->draw(some_camera(true), screen, {}, 0, target(screen)).complete);
+}
+
+TEST_P(Drawing, points_that_are_not_finite_are_left_out) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
+                    inf = std::numeric_limits<float>::infinity();
+    put(std::vector{nan, 0.f, 0.f, inf, 0.f, 0.f, 0.f, -inf, nan}, std::vector(3, rgba(255, 255, 255)));
+    for (const Pixel& pixel : draw(some_camera(false), screen, flat)) EXPECT_EQ(pixel, black);
+}
+
+TEST_P(Drawing, normals_shade_and_both_sides_alike) {
+    const Camera camera = some_camera(true);
+    const glm::vec3 towards = glm::normalize(glm::vec3(eye_of(camera) - camera.pivot));
+    const glm::vec3 across = glm::normalize(glm::cross(towards, glm::vec3(0, 0, 1)));
+    flat.shading = true;
+    const auto brightness = [&](const glm::vec3& n) {
+        put(std::vector<float>{0, 0, 0}, std::vector{rgba(200, 200, 200)});
+        renderer->set_normals(std::vector{n.x, n.y, n.z});
+        return at(draw(camera, screen, flat), screen, project(camera, screen, {0, 0, 0})->pixel)[0];
+    };
+    EXPECT_GT(brightness(towards), brightness(across) + 20);
+    EXPECT_NEAR(brightness(towards), brightness(-towards), 1);
+    EXPECT_GT(brightness(across), 40); // never black
+}
+
+TEST_P(Drawing, eye_dome_lighting_darkens_what_lies_behind_an_edge_only) {
+    // A near sheet over the left half of a far one, seen from the top.
+    std::vector<float> positions;
+    for (int x = -60; x <= 60; ++x)
+        for (int y = -40; y <= 40; ++y)
+            for (const float value :
+                 {0.02f * static_cast<float>(x), 0.02f * static_cast<float>(y), x < 0 ? 0.5f : 0.0f})
+                positions.push_back(value);
+    put(positions, std::vector(positions.size() / 3, rgba(200, 200, 200)));
+    Camera camera = some_camera(true);
+    look_at_side(camera, Side::top);
+    camera.pivot = glm::dvec3(0);
+    flat.eye_dome = true;
+    const std::vector<Pixel> pixels = draw(camera, screen, flat);
+    const auto row = [&](double x) {
+        const glm::dvec2 edge = project(camera, screen, {0, 0, 0})->pixel;
+        return at(pixels, screen, edge + glm::dvec2(x, 0))[0];
+    };
+    EXPECT_EQ(row(-30), 200);
+    EXPECT_EQ(row(30), 200);
+    int darkest = 255;
+    for (int x = -8; x <= 8; ++x) darkest = std::min(darkest, row(x));
+    EXPECT_LT(darkest, 140);
+}
+
+TEST_P(Drawing, overlay_lines_are_hidden_by_nearer_points_only) {
+    const Camera camera = some_camera(true);
+    const glm::vec3 towards = glm::normalize(glm::vec3(eye_of(camera) - camera.pivot));
+    put(std::vector<float>{0, 0, 0}, std::vector{rgba(255, 255, 255)});
+    flat.pixels = 20;
+    const glm::dvec2 middle = project(camera, screen, {0, 0, 0})->pixel;
+    const auto line_at = [&](float depth) {
+        const glm::vec3 a = depth * towards;
+        renderer->set_overlay(
+            std::vector<OverlayLine>{{a - glm::vec3(0, 0, 1), a + glm::vec3(0, 0, 1), rgba(0, 255, 0), 3}});
+        return at(draw(camera, screen, flat), screen, middle);
+    };
+    EXPECT_EQ(line_at(0.9f), (Pixel{0, 255, 0}));
+    EXPECT_EQ(line_at(-0.9f), (Pixel{255, 255, 255}));
+    renderer->set_overlay({});
+    EXPECT_EQ(at(draw(camera, screen, flat), screen, middle), (Pixel{255, 255, 255}));
+    renderer->set_overlay(
+        std::vector<OverlayLine>{{0.9f * towards, 0.9f * towards, rgba(0, 0, 255), 7}}); // a point
+    EXPECT_EQ(at(draw(camera, screen, flat), screen, middle), (Pixel{0, 0, 255}));
+}
+
+TEST_P(Drawing, both_ways_draw_the_same) {
+    constexpr std::size_t n = 3000;
+    const std::vector<float> positions = ball(n);
+    PointRenderer other(GetParam() == PointRenderer::Drawing::by_opengl ? PointRenderer::Drawing::by_processor
+                                                                        : PointRenderer::Drawing::by_opengl);
+    PointLook look; // as an artist sees it
+    for (const double spacing : {0.005, 0.03, 0.2}) {
+        std::vector<std::vector<Pixel>> pictures;
+        for (PointRenderer* const one : {&*renderer, &other}) {
+            one->set_points(n, spacing);
+            one->set_positions(positions);
+            one->set_colors(many_colors(n));
+            one->set_normals(positions); // not of unit length, but alike
+            one->draw(some_camera(false), screen, look, n, target(screen));
+            pictures.push_back(read(screen));
+        }
+        // A pixel at a rim may fall to either side.
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < pictures[0].size(); ++i)
+            for (std::size_t c = 0; c < 3; ++c)
+                if (std::abs(pictures[0][i][c] - pictures[1][i][c]) > 3) {
+                    ++different;
+                    break;
+                }
+        EXPECT_LT(different, pictures[0].size() / 50) << spacing;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Splats, Drawing, both_ways, name_of_way);
+
+} // namespace
+} // namespace knead::test

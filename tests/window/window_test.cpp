@@ -1,0 +1,203 @@
+// The real window, worked by a real hand: real X events on a display of the test's own.
+
+#include "edit/session.h"
+#include "io/cloud_file.h"
+#include "support/run_knead.h"
+#include "support/scratch_folder.h"
+#include "view/framing.h"
+#include "window/desktop.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace knead::test {
+
+namespace {
+
+// Where the cloud is drawn in a window of 1280 x 800 (src/app/run_editor.cpp lays it out); a few pixels more
+// or less do not matter here.
+constexpr double view_left = 52, view_top = 30;
+constexpr Viewport viewport{1280 - 52 - 310, 800 - 30 - 28};
+
+using Path = std::vector<std::pair<double, double>>;
+
+class WindowTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string why;
+        desktop_ = Desktop::start(folder_.path(), why);
+        if (!desktop_) GTEST_SKIP() << why;
+        const Outcome made = run_knead({"make", "creature", "--points", "8000", "--outliers", "0", "--out",
+                                        (folder_ / "cat.ply").string()});
+        ASSERT_EQ(made.code, 0) << made.err;
+        SilentProgress silent;
+        cloud_ = read_cloud(folder_ / "cat.ply", silent);
+        // As the keys 3 and Home make it: it looks the cat in the face.
+        look_at_side(camera_, Side::right);
+        frame(camera_, bulk_box(cloud_.positions), viewport);
+    }
+
+    void open_cat() {
+        editor_ = desktop_->open_editor({(folder_ / "cat.ply").string()});
+        ASSERT_TRUE(desktop_->wait_for_title("cat.ply")) << read_text(folder_ / "editor.log");
+        desktop_->focus();
+        pause(0.5);
+    }
+
+    // Where a point of the cloud, in the file's coordinates, is on the screen.
+    std::pair<double, double> on_screen(double x, double y, double z) const {
+        const Vec3d p = Vec3d(x, y, z) - cloud_.origin;
+        const glm::dvec2 pixel = project(camera_, viewport, {p.x(), p.y(), p.z()})->pixel;
+        return {view_left + pixel.x, view_top + pixel.y};
+    }
+
+    // Round a rectangle of the plane through the cat's middle.
+    Path round(double y_from, double y_to, double z_from, double z_to) const {
+        return {on_screen(0, y_from, z_from), on_screen(0, y_to, z_from), on_screen(0, y_to, z_to),
+                on_screen(0, y_from, z_to), on_screen(0, y_from, z_from)};
+    }
+
+    // Head and feet become handles, as an artist would do it.
+    void make_handles() {
+        desktop_->drag(2, {{500, 400}, {560, 420}, {640, 400}}); // looks round first
+        desktop_->keys({"3", "Home", "t"});
+        desktop_->drag(1, round(-0.55, 0.55, 1.2, 1.85));
+        desktop_->keys({"h"});
+        ASSERT_TRUE(wait_for_act("handle", 1));
+        desktop_->drag(1, round(-0.6, 0.6, -0.1, 0.25));
+        desktop_->keys({"shift+h"});
+        ASSERT_TRUE(wait_for_act("handle", 2));
+    }
+
+    // What has been recorded so far.
+    std::string recording() const {
+        std::error_code none;
+        for (const auto& entry : std::filesystem::directory_iterator(desktop_->state_folder(), none))
+            if (entry.path().extension() == ".knead") return read_text(entry.path());
+        return {};
+    }
+    std::size_t acts(const std::string& op) const {
+        const std::string text = recording(), key = "{\"op\":\"" + op + "\"";
+        std::size_t count = 0;
+        for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) ++count;
+        return count;
+    }
+    bool wait_for_act(const std::string& op, std::size_t count) const {
+        return wait_until([&] { return acts(op) >= count; });
+    }
+
+    void save(const char* shortcut, const std::filesystem::path& target) {
+        desktop_->keys({shortcut});
+        pause(1);
+        desktop_->type(target.string());
+        desktop_->keys({"Return"});
+        ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(target); })) << target;
+        pause(0.3);
+    }
+
+    void expect_equal_shapes(const std::filesystem::path& session, const std::filesystem::path& saved) {
+        const std::string replayed = (folder_ / "replayed.ply").string();
+        const Outcome replay = run_knead({"replay", session.string(), "--out", replayed});
+        ASSERT_EQ(replay.code, 0) << replay.err;
+        const Outcome diff = run_knead({"diff", saved.string(), replayed, "--json"});
+        ASSERT_EQ(diff.code, 0) << diff.err;
+        EXPECT_LE(nlohmann::json::parse(diff.out).at("largest").get<double>(), 1e-6);
+        const Outcome moved = run_knead({"diff", saved.string(), (folder_ / "cat.ply").string(), "--json"});
+        EXPECT_GT(nlohmann::json::parse(moved.out).at("largest").get<double>(), 0.01);
+    }
+
+    ScratchFolder folder_;
+    std::optional<Desktop> desktop_;
+    Process editor_;
+    PointCloud cloud_;
+    Camera camera_;
+};
+
+} // namespace
+
+TEST_F(WindowTest, PosesSavesAndRecordsWhatReplaysToTheSameShape) {
+    open_cat();
+    make_handles();
+    desktop_->move(500, 300);
+    desktop_->keys({"r", "x", "4", "5", "Return"});
+    ASSERT_TRUE(wait_for_act("settle", 1));
+    EXPECT_EQ(acts("drag"), 1U);
+    EXPECT_NE(desktop_->title().find("*"), std::string::npos);
+    desktop_->keys({"Return"});
+    ASSERT_TRUE(wait_for_act("commit", 1));
+    desktop_->keys({"ctrl+z", "ctrl+z"});
+    ASSERT_TRUE(wait_for_act("undo", 3)); // the commit; the drag with its settling
+    desktop_->keys({"ctrl+shift+z"});
+    ASSERT_TRUE(wait_for_act("redo", 2));
+
+    // And a second drag, by the gizmo's middle of the mouse's own way: G with the cursor, a click to confirm.
+    desktop_->move(500, 300);
+    desktop_->keys({"g"});
+    for (int step = 1; step <= 10; ++step) desktop_->move(500 + 6 * step, 300 - 3 * step);
+    desktop_->drag(1, {{560, 270}});
+    ASSERT_TRUE(wait_for_act("drag", 2));
+    ASSERT_TRUE(wait_for_act("settle", 2));
+
+    save("ctrl+s", folder_ / "kept.knead");
+    save("ctrl+e", folder_ / "kept.ply");
+    EXPECT_EQ(desktop_->title().find("*"), std::string::npos);
+    desktop_->keys({"ctrl+q"});
+    EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+    EXPECT_TRUE(recording().empty()) << "nothing is left to restore";
+
+    const Session session = read_session(folder_ / "kept.knead");
+    const auto& head = std::get<HandleLine>(session.lines.at(0).action);
+    std::size_t points = 0;
+    for (const IndexRange& range : std::get<std::vector<IndexRange>>(head.points))
+        for (std::size_t i = range.first; i <= range.last; ++i, ++points)
+            EXPECT_GT(cloud_.file_position(i).z(), 1.1) << "the lasso went round the head alone";
+    EXPECT_GT(points, 500U);
+    expect_equal_shapes(folder_ / "kept.knead", folder_ / "kept.ply");
+}
+
+TEST_F(WindowTest, WhatAKillLeavesIsRestored) {
+    open_cat();
+    make_handles();
+    desktop_->move(500, 300);
+    desktop_->keys({"r", "3", "0", "Return"});
+    ASSERT_TRUE(wait_for_act("settle", 1));
+    desktop_->keys({"g"}); // and is killed in mid-drag
+    for (int step = 1; step <= 5; ++step) desktop_->move(500 + 10 * step, 300);
+    editor_.kill_hard();
+    const std::string left = recording();
+    EXPECT_EQ(acts("drag"), 1U);
+    write_text(folder_ / "left.knead", left);
+
+    editor_ = desktop_->open_editor({});
+    ASSERT_TRUE(desktop_->wait_for_title("knead"));
+    desktop_->focus();
+    pause(1);
+    desktop_->keys({"Return"}); // Restore
+    ASSERT_TRUE(desktop_->wait_for_title("cat.ply*")) << read_text(folder_ / "editor.log");
+    pause(0.5);
+    save("ctrl+e", folder_ / "restored.ply");
+    expect_equal_shapes(folder_ / "left.knead", folder_ / "restored.ply");
+    desktop_->keys({"ctrl+q"});
+    EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+}
+
+TEST_F(WindowTest, SaysWhyAFileCannotBeOpenedAndStaysUsable) {
+    editor_ = desktop_->open_editor({(folder_ / "nothing.ply").string()});
+    ASSERT_TRUE(desktop_->wait_for_title("knead"));
+    pause(1);
+    desktop_->focus();
+    EXPECT_TRUE(editor_.runs());
+    desktop_->keys({"ctrl+q"});
+    EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+}
+
+TEST(Window, WithoutADisplayItSaysSo) {
+    const ScratchFolder folder;
+    Process editor({knead_binary().string(), "edit"}, {"DISPLAY="}, folder / "log");
+    EXPECT_EQ(editor.exit_code(20), 2);
+    EXPECT_NE(read_text(folder / "log").find("display"), std::string::npos) << read_text(folder / "log");
+}
+
+} // namespace knead::test

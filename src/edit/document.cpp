@@ -15,6 +15,9 @@ namespace {
 // A sample that goes less far than this in an iteration, in units of the cloud's size, is at rest.
 constexpr double at_rest = 1e-8;
 
+// Committed shapes that history keeps; of others it keeps how they were made.
+constexpr std::size_t kept_shapes = 4;
+
 // How far a handle may send its points: so many diagonals of the cloud, and not beyond what floats can hold.
 constexpr double most_diagonals = 1e12;
 constexpr double farthest = 1e30;
@@ -183,8 +186,13 @@ void Document::abandon() noexcept {
 
 void Document::commit(Progress& progress) {
     State next = now_;
-    if (now_.samples)
-        next.rest = std::make_shared<const RestShape>(mode_ == Mode::real ? shape(progress) : RestShape{});
+    if (now_.samples) {
+        next.rest = std::make_shared<Committed>();
+        next.rest->shape =
+            std::make_shared<const RestShape>(mode_ == Mode::real ? shape(progress) : RestShape{});
+        next.rest->made_from = std::make_unique<const State>(now_);
+        keep(next.rest);
+    }
     next.samples = nullptr;
     next.motions.assign(next.handles.size(), HandleMotion{});
     take(std::move(next));
@@ -259,7 +267,7 @@ std::vector<float> Document::normals(Progress& progress) {
 double Document::handle_error(Progress& progress) {
     if (mode_ == Mode::rehearsal || !now_.samples) return 0;
     const RestShape& posed = shape(progress);
-    const RestShape& rest = now_.rest ? *now_.rest : pipeline_.opened();
+    const RestShape& rest = now_.rest ? *now_.rest->shape : pipeline_.opened();
     double largest = 0;
     for (std::size_t i = 0; i < pipeline_.order().points(); ++i) {
         const Index label = pipeline_.labels().point[i];
@@ -324,7 +332,7 @@ void Document::prepare_ahead(Progress& progress) {
 }
 
 void Document::prepare(Progress& progress) {
-    pipeline_.prepare({now_.settings, now_.handles, now_.rest}, progress);
+    pipeline_.prepare({now_.settings, now_.handles, rest_of(now_, progress)}, progress);
 }
 
 // Returns the longest way that a sample went, over the cloud's size.
@@ -342,11 +350,36 @@ void Document::upsample(const std::vector<HandleMotion>& motions, const SampleSt
     log_.upsample.push_back(clock.seconds());
 }
 
+std::shared_ptr<const RestShape> Document::rest_of(const State& state, Progress& progress) {
+    if (!state.rest) return nullptr;
+    Committed& committed = *state.rest;
+    if (!committed.shape) {
+        const State& from = *committed.made_from;
+        posed_is_now_ = false;
+        pipeline_.prepare({from.settings, from.handles, rest_of(from, progress)}, progress);
+        pipeline_.upsample(from.motions, *from.samples);
+        committed.shape = std::make_shared<const RestShape>(pipeline_.posed());
+    }
+    const std::shared_ptr<const RestShape> shape = committed.shape;
+    keep(state.rest);
+    return shape;
+}
+
+// The shape of `committed` was used just now: those that were not for longest are dropped.
+void Document::keep(const std::shared_ptr<Committed>& committed) {
+    std::erase(kept_, committed);
+    kept_.push_back(committed);
+    while (mode_ == Mode::real && kept_.size() > kept_shapes) {
+        if (kept_.front() != now_.rest) kept_.front()->shape.reset();
+        kept_.erase(kept_.begin());
+    }
+}
+
 // The posed shape, or the rest shape where nothing is posed. After an undo it is computed again from the
 // samples.
 const RestShape& Document::shape(Progress& progress) {
     if (!now_.rest && !now_.samples) pipeline_.prepare_order(progress);
-    if (!now_.samples) return now_.rest ? *now_.rest : pipeline_.opened();
+    if (!now_.samples) return now_.rest ? *rest_of(now_, progress) : pipeline_.opened();
     if (!posed_is_now_) {
         prepare(progress);
         pipeline_.upsample(now_.motions, *now_.samples);

@@ -102,13 +102,21 @@ public:
     double handle_error(Progress& progress);
 
 private:
+    // A committed shape. History costs poses and not points: only a few shapes are kept, and another is made
+    // again, to the bit, from the state that was committed.
+    struct State;
+    struct Committed {
+        std::shared_ptr<const RestShape> shape; // null: dropped
+        std::unique_ptr<const State> made_from; // posed
+    };
+
     // Everything that undo takes back; arrays are shared between states, and never changed once they are
     // here.
     struct State {
         Settings settings;
         std::vector<Handle> handles;
         std::vector<HandleMotion> motions;          // one a handle, in this edit
-        std::shared_ptr<const RestShape> rest;      // null: as opened
+        std::shared_ptr<Committed> rest;            // null: as opened
         std::shared_ptr<const SampleState> samples; // null: nothing was dragged in this edit
     };
 
@@ -129,6 +137,8 @@ private:
     Index movable_handle(const std::string& name, const std::string& place) const;
     double iterate_once(UnderWay& act);
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
+    std::shared_ptr<const RestShape> rest_of(const State& state, Progress& progress);
+    void keep(const std::shared_ptr<Committed>& committed);
     std::vector<Index> resolve(const HandleLine& line, const std::string& place);
 
     Mode mode_;
@@ -137,6 +147,7 @@ private:
     Pipeline pipeline_;
     State now_;
     std::vector<State> past_, future_;
+    std::vector<std::shared_ptr<Committed>> kept_; // those with a shape, the one used last at the end
     std::optional<UnderWay> under_way_;
     bool posed_is_now_ = false; // whether the pipeline's posed points are those of now_
     FrameLog log_;

@@ -100,7 +100,8 @@ std::optional<Box3> box_of_selection(const Editor& editor) {
 
 bool has_unsaved_session(const Editor& editor) {
     if (!editor.document) return false;
-    return editor.document->acts > std::max(editor.saved.session_acts, editor.saved.cloud_acts);
+    const std::uint64_t now = editor.document->state;
+    return now != editor.saved.session_state && now != editor.saved.cloud_state;
 }
 
 bool can_undo(const Editor& editor) {

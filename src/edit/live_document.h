@@ -37,6 +37,7 @@ struct DocumentView {
     std::vector<HandleMotion> motions; // of each handle, in this edit, about the cloud's origin
     bool posed = false;
     std::size_t acts = 0;     // that were recorded so far: what was saved is what had as many
+    std::uint64_t state = 0;  // names what the acts so far make; undone and done again it is the same
     StepNumber last_step = 0; // the newest that was carried out
     std::size_t undoable_steps = 0, redoable_steps = 0;
     std::size_t samples = 0; // 0: not chosen yet
@@ -148,10 +149,9 @@ public:
     std::vector<Notice> take_notices();
     std::vector<StepNumber> take_refused();
 
-    // Whether the journal holds acts that no saved session has.
+    // The states (DocumentView::state) that a session and a cloud on disk have; nothing where there is none.
     struct Saved {
-        std::size_t session_acts = 0; // acts in the session as saved last
-        std::size_t cloud_acts = 0;   // acts behind the cloud as saved last
+        std::optional<std::uint64_t> session_state, cloud_state;
     };
     Saved saved() const;
 

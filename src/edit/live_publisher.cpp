@@ -29,6 +29,7 @@ void LivePublisher::view(const Document& document, const LiveRecording& recordin
     view->motions = document.motions();
     view->posed = document.is_posed() || facts.dragging;
     view->acts = recording.acts();
+    view->state = recording.state();
     view->last_step = facts.last_step;
     view->undoable_steps = recording.undoable_steps();
     view->redoable_steps = recording.redoable_steps();

@@ -56,7 +56,7 @@ void LiveRecording::discard() {
 }
 
 void LiveRecording::add(const SessionAction& act, bool joins_step) {
-    past_.push_back({joins_step && !past_.empty(), std::holds_alternative<SetLine>(act)});
+    past_.push_back({joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), ++last_number_});
     future_.clear();
     write_down(act);
 }

@@ -50,6 +50,9 @@ public:
     std::size_t undoable_steps() const;
     std::size_t redoable_steps() const;
 
+    // Names what the acts that were not undone make: the number of the last of them; 0 at the beginning.
+    std::uint64_t state() const { return past_.empty() ? 0 : past_.back().number; }
+
     std::size_t acts() const { return lines_.size(); }
     const std::filesystem::path& cloud() const { return cloud_; } // absolute
 
@@ -65,8 +68,10 @@ private:
     struct Act {
         bool joins = false; // the step of the act before it
         bool of_settings = false;
+        std::uint64_t number = 0; // from 1
     };
     std::vector<Act> past_, future_;
+    std::uint64_t last_number_ = 0;
     std::filesystem::path folder_; // of the journal; empty: none is kept
     std::optional<Journal> journal_;
     std::size_t written_ = 0; // lines that the journal has; a restored one has more than were replayed so far

@@ -64,7 +64,7 @@ public:
         if (!request_.restore && !is_plain_cloud) session_file_ = std::filesystem::absolute(request_.file);
         document_->shape(progress_); // the order of the points
         replay_session(session, *document_, *recording_, progress_);
-        if (!request_.restore) saved_ = {recording_->acts(), recording_->acts()};
+        if (!request_.restore) saved_.session_state = recording_->state();
         publish_opened(clock);
         if (!request_.restore) recording_->keep_journal(request_.journal_folder);
     }
@@ -240,7 +240,7 @@ private:
         if (task.columns.displacement) shape.added.push_back({"displacement", far});
         if (task.columns.stretch) shape.added.push_back({"stretch", stretch});
         write_cloud(task.target, document_->cloud(), shape, progress_);
-        saved_.cloud_acts = recording_->acts();
+        saved_.cloud_state = recording_->state();
         say(Notice::Kind::information, "Saved the cloud as " + task.target.string());
         publish_view();
     }
@@ -249,7 +249,7 @@ private:
         finish_settling();
         recording_->save(task.target);
         recording_->discard(); // the journal: a crash loses nothing of this any more
-        saved_.session_acts = recording_->acts();
+        saved_.session_state = recording_->state();
         session_file_ = task.target;
         say(Notice::Kind::information, "Saved the session as " + task.target.string());
         publish_view();

@@ -344,6 +344,13 @@ TEST_F(BarEditor, KnowsWhatIsUnsaved) {
     editor_.live->save_session(folder_ / "a.knead");
     calm();
     EXPECT_FALSE(has_unsaved_session(editor_));
+    apply(editor_, UndoStep{}); // looking back, as the timeline does
+    calm();
+    EXPECT_TRUE(has_unsaved_session(editor_));
+    apply(editor_, RedoStep{});
+    calm();
+    EXPECT_FALSE(has_unsaved_session(editor_));
+    apply(editor_, ChooseHandle{"high"});
     press('R');
     type("30");
     press(Key::enter);

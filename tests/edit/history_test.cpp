@@ -168,5 +168,37 @@ TEST(History, ACancelledPreparationOfOtherHandlesStartsAgain) {
     }
 }
 
+TEST(History, ShapesThatWereDroppedAreMadeAgainToTheBit) {
+    Desk desk(bar());
+    desk.play(
+        R"({"op":"handle","name":"low","role":"fixed","region":{"halfspace":{"point":[0,0,-2],"normal":[0,0,-1]}}}
+{"op":"handle","name":"high","role":"moving","region":{"halfspace":{"point":[0,0,2],"normal":[0,0,1]}}})");
+    // More commits than shapes are kept; the handles and the settings change on the way.
+    std::vector<std::vector<float>> shapes{desk.shape()};
+    constexpr int commits = 12;
+    for (int k = 0; k < commits; ++k) {
+        desk.play(
+            R"({"op":"drag","handle":"high","pivot":[0,0,2],"frames":[{"rotate":[1,0.1,0,0]},{"translate":[0.1,0,0.05],"rotate":[1,0.1,0.1,0]}]}
+{"op":"commit"})");
+        if (k == 5) desk.play(R"({"op":"set","stiffness":0.03,"samples":500})");
+        if (k == 8)
+            desk.play(
+                R"({"op":"handle","name":"middle","role":"fixed","region":{"box":{"min":[-2,-2,-0.2],"max":[2,2,0.2]}}})");
+        shapes.push_back(desk.shape());
+    }
+    const auto undo_one = [&](int k) {
+        desk.play(k == 5 || k == 8 ? "{\"op\":\"undo\"}\n{\"op\":\"undo\"}\n{\"op\":\"undo\"}"
+                                   : "{\"op\":\"undo\"}\n{\"op\":\"undo\"}");
+    };
+    for (int k = commits - 1; k >= 0; --k) {
+        undo_one(k);
+        EXPECT_EQ(desk.shape(), shapes[static_cast<std::size_t>(k)]) << "back to " << k;
+    }
+    for (int k = 0; k < commits; ++k)
+        desk.play(k == 5 || k == 8 ? "{\"op\":\"redo\"}\n{\"op\":\"redo\"}\n{\"op\":\"redo\"}"
+                                   : "{\"op\":\"redo\"}\n{\"op\":\"redo\"}");
+    EXPECT_EQ(desk.shape(), shapes.back()) << "and forth without looking on the way";
+}
+
 } // namespace
 } // namespace knead

@@ -212,7 +212,7 @@ TEST_F(LiveBar, GoesOnFromASavedSession) {
     ASSERT_TRUE(again.take_frame(frame));
     EXPECT_EQ(frame.positions, posed);
     EXPECT_EQ(again.view()->undoable_steps, 3U);
-    EXPECT_EQ(again.saved().session_acts, again.view()->acts) << "there is nothing to save yet";
+    EXPECT_EQ(again.saved().session_state, again.view()->state) << "there is nothing to save yet";
 }
 
 TEST_F(LiveBar, WhatACrashLeavesIsRestored) {
@@ -247,7 +247,7 @@ TEST_F(LiveBar, WhatACrashLeavesIsRestored) {
     PosedFrame frame;
     ASSERT_TRUE(live.take_frame(frame));
     EXPECT_EQ(frame.positions, posed.positions);
-    EXPECT_EQ(live.saved().session_acts, 0U);
+    EXPECT_FALSE(live.saved().session_state);
     live.post(++step_, {CommitLine{}});
     wait_until_idle(live);
     EXPECT_EQ(read_session(lost[0].journal).lines.size(), 5U) << "the same recording goes on";

@@ -88,6 +88,10 @@ Legend color_points(const Display& display, Editor& editor, std::vector<std::uin
     if (display.coloring == Coloring::displacement) {
         values = displacements(editor);
         by.title = "Displacement";
+        // From zero, so that what did not move is at the foot of the scale.
+        const double largest = values.empty() ? 0 : static_cast<double>(std::ranges::max(values));
+        const double high = largest > 0 ? largest : editor.opened.bounds.diagonal() / 100;
+        if (display.automatic_range) by.range = ValueRange{0, high > 0 ? high : 1};
     } else if (display.coloring == Coloring::stretch) {
         values = local_stretch(editor);
         by.title = "Local stretch";

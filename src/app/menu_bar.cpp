@@ -71,7 +71,9 @@ void draw_menu_bar(const Ui& ui) {
     }
     ImGui::PopStyleVar();
     if (ui.has_cloud()) { // what is open, at the right
-        const std::string name = ui.editor.opened.file.filename().string();
+        const std::filesystem::path& session = ui.editor.document->session;
+        const std::string name = (session.empty() ? ui.editor.opened.file : session).filename().string() +
+                                 (has_unsaved_session(ui.editor) ? " *" : "");
         const float width = ImGui::CalcTextSize(name.c_str()).x;
         ImGui::SameLine(ImGui::GetWindowWidth() - width - ui.scaled(22));
         ImGui::PushStyleColor(ImGuiCol_Text, palette::faint);

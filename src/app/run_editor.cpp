@@ -7,6 +7,7 @@
 #include "app/recent_files.h"
 #include "app/remembered.h"
 #include "app/scene.h"
+#include "app/timeline.h"
 #include "app/window.h"
 #include "app/wishes.h"
 #include "base/stopwatch.h"
@@ -149,6 +150,8 @@ void take(Loop& loop, const KeyPress& event) {
         loop.close_menus = true;
     if (ImGui::GetIO().WantTextInput || popup_is_open()) return;
     if (event.key == Key::escape && loop.state.show_help) return; // closes that
+    if (event.key == Key::escape && loop.state.playback.shown && !loop.editor.tools.drag)
+        return close_timeline(loop.ui);
     if (loop.editor.document && handle_input(loop.editor, event)) return;
     press_shortcut(loop.ui, event);
 }

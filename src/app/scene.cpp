@@ -16,6 +16,8 @@ struct Scene::State {
 
     // As handed to the renderer last.
     Coloring coloring{};
+    std::vector<std::uint8_t> marks; // as drawn
+    bool tints = true;               // handles are tinted
     std::string attribute;
     bool automatic_range = true;
     ValueRange range;
@@ -110,7 +112,15 @@ void Scene::take_in(Editor& editor, UiState& state) {
         if (!editor.frame.normals.empty()) own.renderer.set_normals(editor.frame.normals);
         if (follows_pose(display.coloring)) own.colored = false;
     }
-    if (changes.cloud || changes.marks) own.renderer.set_marks(editor.marks);
+    // Where colours tell a value, a handle's tint would tell another.
+    const bool tints = !tells_number(display.coloring) && display.coloring != Coloring::parts;
+    if (changes.cloud || changes.marks || tints != own.tints) {
+        own.tints = tints;
+        own.marks = editor.marks;
+        if (!tints)
+            for (std::uint8_t& mark : own.marks) mark = static_cast<std::uint8_t>(mark & ~mark_handle);
+        own.renderer.set_marks(own.marks);
+    }
     changes = {false, false, false};
     if (std::vector<HandleLook> looks = looks_of(editor, state); !same(looks, own.looks)) {
         own.looks = std::move(looks);

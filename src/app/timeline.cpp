@@ -61,6 +61,13 @@ void play_to(const Ui& ui, std::size_t position) {
     ui.state.playback.wanted = position;
 }
 
+// Whoever only looked is back where they were: what was done is not lost by the next act.
+void close_timeline(const Ui& ui) {
+    ui.state.playback.shown = false;
+    ui.state.playback.playing = false;
+    if (can_play(ui.editor)) play_to(ui, playback_steps(ui.editor));
+}
+
 void play_on(const Ui& ui) {
     Playback& playback = ui.state.playback;
     if (!can_play(ui.editor) || (playback.playing && playback_steps(ui.editor) != playback.steps)) {
@@ -192,10 +199,8 @@ void draw_timeline(const Ui& ui, Rectangle where) {
     ImGui::SameLine();
     speed_choice(ui, speed_width);
     ImGui::SameLine();
-    if (icon_button("close", Icon::close, side, false, "Close the timeline")) {
-        ui.state.playback.shown = false;
-        ui.state.playback.playing = false;
-    }
+    if (icon_button("close", Icon::close, side, false, "Back to the end, and close the timeline"))
+        close_timeline(ui);
     ImGui::End();
     ImGui::PopStyleVar(4);
 }

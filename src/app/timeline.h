@@ -32,4 +32,7 @@ void play_to(const Ui& ui, std::size_t position);
 // Takes the step that is due. Call it once a frame.
 void play_on(const Ui& ui);
 
+// Goes to the end and takes the timeline away.
+void close_timeline(const Ui& ui);
+
 } // namespace knead

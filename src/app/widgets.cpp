@@ -20,7 +20,7 @@ constexpr float patience = 0.4f;
 } // namespace
 
 void explain(const char* words) {
-    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsAnyItemActive()) return;
     const ImGuiContext& context = *ImGui::GetCurrentContext();
     if (context.HoveredId != 0 && context.HoveredIdTimer < patience) return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(11, 8));

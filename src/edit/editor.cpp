@@ -181,6 +181,9 @@ std::vector<std::uint8_t> hidden_points(const Editor& editor) {
     return hidden;
 }
 
+// Settings that change so soon after one another are one movement of a slider.
+constexpr std::chrono::seconds one_gesture{1};
+
 constexpr double click_radius = 8; // pixels
 
 void carry_out(Editor& editor, const SelectRegion& command) {
@@ -254,12 +257,18 @@ void carry_out(Editor& editor, const ChangeHidden& command) {
 void carry_out(Editor& editor, const ChangeSettings& command) {
     if (!needs_document(editor)) return;
     // A slider that goes on being moved is one step.
-    if (!editor.past.empty() && editor.past.back().of_settings && editor.future.empty())
-        return editor.live->post(++editor.last_step, {SetLine{command.change}}, true);
+    const auto now = std::chrono::steady_clock::now();
+    if (!editor.past.empty() && editor.future.empty()) {
+        auto& changed = editor.past.back().settings_changed;
+        if (changed && now - *changed < one_gesture) {
+            changed = now;
+            return editor.live->post(++editor.last_step, {SetLine{command.change}}, true);
+        }
+    }
     const StepNumber step = ++editor.last_step;
     editor.live->post(step, {SetLine{command.change}});
     add_step(editor, step, nullptr);
-    editor.past.back().of_settings = true;
+    editor.past.back().settings_changed = now;
 }
 
 void carry_out(Editor& editor, const CommitPose& /*command*/) {

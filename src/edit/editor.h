@@ -11,8 +11,10 @@
 #include "edit/selecting.h"
 #include "edit/tools.h"
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +33,8 @@ struct EditorStep {
     std::shared_ptr<const std::vector<std::uint8_t>> before =
         {}; // marks, of a step that changed them; else null
     std::shared_ptr<const std::vector<std::uint8_t>> after = {};
-    bool of_settings = false; // further settings join it
+    // Of settings: when they were changed last. Those that change within a second join it.
+    std::optional<std::chrono::steady_clock::time_point> settings_changed = {};
 };
 
 // The drag that goes on, or that ended and that the document has not answered yet.
@@ -103,10 +106,10 @@ bool handle_input(Editor& editor, const Input& input);
 // --- What follows from the state ---
 
 Box3 box_of(const Editor& editor); // of all points as they are now, relative to the cloud's origin
-std::optional<Box3> box_of_selection(const Editor& editor); // nothing when nothing is selected
-const Handle* chosen_handle(const Editor& editor);          // null: none
-std::optional<Gizmo> gizmo_of(const Editor& editor);        // of the chosen moving handle, where it is now
-bool has_unsaved_session(const Editor& editor); // acts that neither a session nor a cloud on disk has
+std::optional<Box3> box_of_selection(const Editor& editor);   // nothing when nothing is selected
+const Handle* chosen_handle(const Editor& editor);            // null: none
+std::optional<Gizmo> gizmo_of(const Editor& editor);          // of the chosen moving handle, where it is now
+bool has_unsaved_session(const Editor& editor);               // an exported cloud is no saved session
 std::string free_name(const Editor& editor, HandleRole role); // for the next handle: "handle 2"
 bool can_undo(const Editor& editor);
 bool can_redo(const Editor& editor);

@@ -100,8 +100,7 @@ std::optional<Box3> box_of_selection(const Editor& editor) {
 
 bool has_unsaved_session(const Editor& editor) {
     if (!editor.document) return false;
-    const std::uint64_t now = editor.document->state;
-    return now != editor.saved.session_state && now != editor.saved.cloud_state;
+    return editor.document->state != editor.saved.session_state;
 }
 
 bool can_undo(const Editor& editor) {

@@ -142,6 +142,9 @@ private:
                 if (needs_commit(line) && document_->is_posed()) {
                     carry_out_act(*document_, CommitLine{}, "", progress_);
                     add_act(CommitLine{}, done++ > 0 || joins);
+                    say(Notice::Kind::information,
+                        "The pose was committed first, since this cannot change while one stands. Ctrl+Z "
+                        "takes both back.");
                 }
                 carry_out_act(*document_, line, "", progress_);
                 add_act(line, done++ > 0 || joins);
@@ -216,6 +219,7 @@ private:
         finish_settling();
         if (refused_.contains(task.step) || !recording_->can_undo()) return;
         take_back_step();
+        ahead_ = true; // other samples, perhaps
         show_document();
     }
 
@@ -226,6 +230,7 @@ private:
             document_->redo("");
             record([&] { recording_->step_forward(RedoLine{}); });
         } while (recording_->next_joins());
+        ahead_ = true;
         show_document();
     }
 

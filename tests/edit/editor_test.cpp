@@ -358,6 +358,9 @@ TEST_F(BarEditor, KnowsWhatIsUnsaved) {
     EXPECT_TRUE(has_unsaved_session(editor_));
     editor_.live->save_cloud(folder_ / "b.ply");
     calm();
+    EXPECT_TRUE(has_unsaved_session(editor_)) << "an exported cloud is no session";
+    editor_.live->save_session(folder_ / "a.knead");
+    calm();
     EXPECT_FALSE(has_unsaved_session(editor_));
 }
 

@@ -140,8 +140,9 @@ TEST_F(WindowTest, PosesSavesAndRecordsWhatReplaysToTheSameShape) {
     ASSERT_TRUE(wait_for_act("drag", 2));
     ASSERT_TRUE(wait_for_act("settle", 2));
 
-    save("ctrl+s", folder_ / "kept.knead");
     save("ctrl+e", folder_ / "kept.ply");
+    EXPECT_NE(desktop_->title().find("*"), std::string::npos) << "an exported cloud is no session";
+    save("ctrl+s", folder_ / "kept.knead");
     EXPECT_EQ(desktop_->title().find("*"), std::string::npos);
     desktop_->keys({"ctrl+q"});
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
@@ -179,6 +180,7 @@ TEST_F(WindowTest, WhatAKillLeavesIsRestored) {
     pause(0.5);
     save("ctrl+e", folder_ / "restored.ply");
     expect_equal_shapes(folder_ / "left.knead", folder_ / "restored.ply");
+    save("ctrl+s", folder_ / "restored.knead");
     desktop_->keys({"ctrl+q"});
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
 }

@@ -89,17 +89,17 @@ public:
         if (editor.frame.version != last_version_) ++result_.poses;
         last_version_ = editor.frame.version;
         ages_.push_back(seconds_between(editor.frame.pose_set, now));
-        if (ages_.back() == *std::ranges::max_element(ages_))
-            result_.largest_at = seconds_between(first_picture_, now);
         solves_.push_back(editor.frame.solve);
         if (editor.document) result_.samples = editor.document->samples;
+        if (ages_.back() < result_.age_largest) return;
+        result_.age_largest = ages_.back();
+        result_.largest_at = seconds_between(first_picture_, now);
     }
 
     DragBenchmark result() {
         result_.seconds = seconds_between(first_picture_, last_picture_);
         result_.age_median = quantile(ages_, 0.5);
         result_.age_95 = quantile(ages_, 0.95);
-        result_.age_largest = quantile(ages_, 1);
         result_.frame_median = quantile(frames_, 0.5);
         result_.frame_95 = quantile(frames_, 0.95);
         result_.solve_median = quantile(solves_, 0.5);

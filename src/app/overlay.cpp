@@ -19,23 +19,6 @@ ImVec2 in_window(const Ui& ui, glm::dvec2 pixel) {
             ui.state.view.y + static_cast<float>(pixel.y) / ui.state.pixel_ratio};
 }
 
-std::optional<glm::dvec3> middle_of_handle(const Editor& editor, const Handle& handle) {
-    constexpr std::size_t enough = 512;
-    const std::vector<Index>& points = *handle.points;
-    const std::size_t stride = std::max<std::size_t>(1, points.size() / enough);
-    glm::dvec3 sum(0.0);
-    double count = 0;
-    for (std::size_t i = 0; i < points.size(); i += stride) {
-        const Index at = editor.ordered[points[i]];
-        if (at == no_index) continue;
-        const float* p = &editor.frame.positions[3 * std::size_t{at}];
-        sum += glm::dvec3(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
-        ++count;
-    }
-    if (count == 0) return std::nullopt;
-    return sum / count;
-}
-
 namespace {
 
 constexpr std::array axis_colors{palette::rgb(0xf2545b), palette::rgb(0x7fc94d), palette::rgb(0x4b93f7),
@@ -137,7 +120,7 @@ ImVec2 free_place(std::vector<ImRect>& taken, ImVec2 corner, ImVec2 size) {
 
 void draw_name(const Ui& ui, ImDrawList& list, const Handle& handle, std::size_t number,
                std::vector<ImRect>& taken) {
-    const std::optional<glm::dvec3> middle = middle_of_handle(ui.editor, handle);
+    const std::optional<glm::dvec3> middle = middle_of(ui.editor, handle);
     if (!middle) return;
     const auto projected = project(ui.editor.camera, ui.editor.viewport, *middle);
     if (!projected) return;

@@ -14,6 +14,10 @@ glm::dvec3 to_glm(const Vec3d& v) {
     return {v.x(), v.y(), v.z()};
 }
 
+glm::dquat to_glm(const Quatd& q) {
+    return {q.w(), q.x(), q.y(), q.z()};
+}
+
 Vec3d to_eigen(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
@@ -123,7 +127,8 @@ bool refresh(Editor& editor) {
         changed = true;
     }
     if (changed && !editor.drag)
-        if (const Handle* handle = chosen_handle(editor)) editor.handle_middle = middle_of(editor, *handle);
+        if (const Handle* handle = chosen_handle(editor))
+            editor.handle_middle = middle_of(editor, *handle).value_or(glm::dvec3(0.0));
     for (Notice& notice : editor.live->take_notices()) {
         editor.notices.push_back(std::move(notice));
         changed = true;
@@ -141,6 +146,14 @@ void add_step(Editor& editor, StepNumber document, std::shared_ptr<const std::ve
     editor.future.clear();
     const auto after = before ? snapshot(editor) : nullptr;
     editor.past.push_back({document, std::move(before), after});
+}
+
+StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
+                     std::shared_ptr<const std::vector<std::uint8_t>> marks_before) {
+    const StepNumber step = ++editor.last_step;
+    editor.live->post(step, std::move(lines));
+    add_step(editor, step, std::move(marks_before));
+    return step;
 }
 
 void restore_selection(Editor& editor, const std::vector<std::uint8_t>& from) {
@@ -265,9 +278,7 @@ void carry_out(Editor& editor, const ChangeSettings& command) {
             return editor.live->post(++editor.last_step, {SetLine{command.change}}, true);
         }
     }
-    const StepNumber step = ++editor.last_step;
-    editor.live->post(step, {SetLine{command.change}});
-    add_step(editor, step, nullptr);
+    post_step(editor, {SetLine{command.change}});
     editor.past.back().settings_changed = now;
 }
 
@@ -275,9 +286,7 @@ void carry_out(Editor& editor, const CommitPose& /*command*/) {
     if (!needs_document(editor) || editor.drag) return;
     if (!editor.document->posed)
         return say(editor, Notice::Kind::information, "Nothing is posed, so there is nothing to commit.");
-    const StepNumber step = ++editor.last_step;
-    editor.live->post(step, {CommitLine{}});
-    add_step(editor, step, nullptr);
+    post_step(editor, {CommitLine{}});
 }
 
 void carry_out(Editor& editor, const UndoStep& /*command*/) {
@@ -343,10 +352,8 @@ bool handle_input(Editor& editor, const Input& input) {
     if (context.gizmo && editor.drag) context.local_axes = editor.drag->local_axes;
     if (context.gizmo && !editor.drag)
         for (std::size_t h = 0; h < editor.document->handles.size(); ++h)
-            if (editor.document->handles[h].name == editor.chosen) {
-                const Quatd& turn = editor.document->motions[h].rotation;
-                context.local_axes = glm::dquat(turn.w(), turn.x(), turn.y(), turn.z());
-            }
+            if (editor.document->handles[h].name == editor.chosen)
+                context.local_axes = to_glm(editor.document->motions[h].rotation);
     std::vector<Command> commands;
     const bool used = handle_input(editor.tools, context, input, commands);
     for (const Command& command : commands) apply(editor, command);

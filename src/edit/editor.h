@@ -106,8 +106,10 @@ bool handle_input(Editor& editor, const Input& input);
 // --- What follows from the state ---
 
 Box3 box_of(const Editor& editor); // of all points as they are now, relative to the cloud's origin
-std::optional<Box3> box_of_selection(const Editor& editor);   // nothing when nothing is selected
-const Handle* chosen_handle(const Editor& editor);            // null: none
+std::optional<Box3> box_of_selection(const Editor& editor); // nothing when nothing is selected
+const Handle* chosen_handle(const Editor& editor);          // null: none
+// The middle of a handle's points as they are now; nothing for one without a finite point.
+std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle);
 std::optional<Gizmo> gizmo_of(const Editor& editor);          // of the chosen moving handle, where it is now
 bool has_unsaved_session(const Editor& editor);               // an exported cloud is no saved session
 std::string free_name(const Editor& editor, HandleRole role); // for the next handle: "handle 2"

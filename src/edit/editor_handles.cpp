@@ -34,22 +34,9 @@ std::optional<std::size_t> number_of(const Editor& editor, const std::string& na
     return static_cast<std::size_t>(found - handles.begin());
 }
 
-// Posts lines as one step.
-StepNumber post(Editor& editor, std::vector<SessionAction> lines,
-                std::shared_ptr<const std::vector<std::uint8_t>> marks_before = nullptr) {
-    const StepNumber step = ++editor.last_step;
-    editor.live->post(step, std::move(lines));
-    add_step(editor, step, std::move(marks_before));
-    return step;
-}
-
 std::vector<IndexRange> ranges_of(const std::vector<Index>& points) {
     std::vector<IndexRange> ranges;
-    for (const Index i : points)
-        if (!ranges.empty() && ranges.back().last + 1 == i)
-            ranges.back().last = i;
-        else
-            ranges.push_back({i, i});
+    for (const Index i : points) append_point(ranges, i);
     return ranges;
 }
 
@@ -78,7 +65,7 @@ void carry_out(Editor& editor, const MakeHandle& command) {
     select_none(editor.marks, editor.workers);
     marks_changed(editor);
     const std::string name = line.name;
-    const StepNumber step = post(editor, {std::move(line)}, std::move(before));
+    const StepNumber step = post_step(editor, {std::move(line)}, std::move(before));
     editor.posted_names.emplace_back(step, name);
     if (command.role != HandleRole::moving) return;
     editor.chosen = name;
@@ -89,14 +76,15 @@ void carry_out(Editor& editor, const MakeHandle& command) {
 void carry_out(Editor& editor, const ChooseHandle& command) {
     editor.chosen = command.handle;
     editor.pivot.reset();
-    if (const Handle* handle = chosen_handle(editor)) editor.handle_middle = middle_of(editor, *handle);
+    if (const Handle* handle = chosen_handle(editor))
+        editor.handle_middle = middle_of(editor, *handle).value_or(glm::dvec3(0.0));
 }
 
 void carry_out(Editor& editor, const RenameHandle& command) {
     if (!number_of(editor, command.handle) || command.to.empty() || command.to == command.handle) return;
     if (number_of(editor, command.to))
         return say(editor, Notice::Kind::error, "There is a handle \"" + command.to + "\" already.");
-    const StepNumber step = post(editor, {RenameLine{command.handle, command.to}});
+    const StepNumber step = post_step(editor, {RenameLine{command.handle, command.to}});
     editor.posted_names.emplace_back(step, command.to);
     if (editor.chosen != command.handle) return;
     editor.chosen = command.to;
@@ -112,11 +100,11 @@ void carry_out(Editor& editor, const ChangeRole& command) {
     line.name = handle.name;
     line.role = command.role;
     line.points = ranges_of(*handle.points);
-    post(editor, {std::move(line)});
+    post_step(editor, {std::move(line)});
 }
 
 void carry_out(Editor& editor, const DeleteHandle& command) {
-    if (number_of(editor, command.handle)) post(editor, {DeleteLine{command.handle}});
+    if (number_of(editor, command.handle)) post_step(editor, {DeleteLine{command.handle}});
 }
 
 void carry_out(Editor& editor, const SelectHandlePoints& command) {
@@ -271,7 +259,7 @@ void carry_out(Editor& editor, const ResetPose& command) {
     std::ranges::reverse(back.frames);
     back.frames.erase(back.frames.begin());
     back.frames.emplace_back();
-    post(editor, {std::move(back)});
+    post_step(editor, {std::move(back)});
 }
 
 void carry_out(Editor& editor, const MirrorHandle& command) {
@@ -297,7 +285,7 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
             drag_towards(line.name, motion, rest_middle(editor, points), editor.opened.cloud->origin));
     }
     editor.chosen = line.name;
-    editor.chosen_by = post(editor, std::move(lines));
+    editor.chosen_by = post_step(editor, std::move(lines));
     editor.posted_names.emplace_back(editor.chosen_by, line.name);
 }
 
@@ -308,11 +296,10 @@ void carry_out(Editor& editor, const BeginDrag& command) {
     const auto number = number_of(editor, editor.chosen);
     if (!number || editor.document->handles[*number].role != HandleRole::moving) return;
     const std::optional<Gizmo> gizmo = gizmo_of(editor);
-    const Quatd& turn = editor.document->motions[*number].rotation;
     EditorDrag drag;
     drag.step = ++editor.last_step;
     drag.middle = gizmo ? gizmo->center : command.pivot;
-    drag.local_axes = glm::dquat(turn.w(), turn.x(), turn.y(), turn.z());
+    drag.local_axes = to_glm(editor.document->motions[*number].rotation);
     if (editor.drag) // the last one is not answered yet
         drag.local_axes = glm::angleAxis(editor.drag->transform.angle, editor.drag->transform.axis) *
                           editor.drag->local_axes;

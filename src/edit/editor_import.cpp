@@ -34,18 +34,9 @@ std::optional<std::vector<LabelColumn::Value>> values_of(const Attribute& attrib
 // Posts handles as one step.
 void post_handles(Editor& editor, std::vector<SessionAction> lines) {
     const std::size_t count = lines.size();
-    const StepNumber step = ++editor.last_step;
-    editor.live->post(step, std::move(lines));
-    add_step(editor, step, nullptr);
+    post_step(editor, std::move(lines));
     say(editor, Notice::Kind::information,
         count == 1 ? "Made one handle." : "Made " + std::to_string(count) + " handles.");
-}
-
-void extend(std::vector<IndexRange>& ranges, std::size_t point) {
-    if (!ranges.empty() && ranges.back().last + 1 == point)
-        ranges.back().last = point;
-    else
-        ranges.push_back({point, point});
 }
 
 // The handles that stand at the end of a session, in the order of their last lines.
@@ -94,7 +85,8 @@ std::vector<SessionAction> with_points(const Editor& editor, const Session& sess
     std::vector<SessionAction> lines;
     for (auto& [number, line] : handles) {
         std::vector<IndexRange> ranges;
-        for (const Index i : resolve_points(line, cloud, place_of, session.place(number))) extend(ranges, i);
+        for (const Index i : resolve_points(line, cloud, place_of, session.place(number)))
+            append_point(ranges, i);
         line.points = std::move(ranges);
         lines.emplace_back(std::move(line));
     }
@@ -131,7 +123,7 @@ void handles_from_labels(Editor& editor, const std::string& column, std::span<co
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         if (editor.ordered[i] == no_index) continue;
         const auto found = points.find(label_at(cloud.attributes[*number], i));
-        if (found != points.end()) extend(found->second, i);
+        if (found != points.end()) append_point(found->second, i);
     }
     std::vector<SessionAction> lines;
     for (const LabelChoice& choice : choices) {

@@ -50,7 +50,7 @@ void mark_handles(Editor& editor) {
     marks_changed(editor);
 }
 
-glm::dvec3 middle_of(const Editor& editor, const Handle& handle) {
+std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle) {
     const std::vector<Index>& points = *handle.points;
     const std::size_t stride = std::max<std::size_t>(1, points.size() / enough_for_middle);
     glm::dvec3 sum(0.0);
@@ -62,7 +62,8 @@ glm::dvec3 middle_of(const Editor& editor, const Handle& handle) {
         sum += glm::dvec3(p[0], p[1], p[2]);
         ++count;
     }
-    return count > 0 ? sum / count : sum;
+    if (count == 0) return std::nullopt;
+    return sum / count;
 }
 
 std::optional<Gizmo> gizmo_of(const Editor& editor) {
@@ -71,8 +72,7 @@ std::optional<Gizmo> gizmo_of(const Editor& editor) {
     Gizmo gizmo;
     gizmo.local = editor.local_axes;
     const auto number = static_cast<std::size_t>(handle - editor.document->handles.data());
-    const Quatd& turn = editor.document->motions[number].rotation;
-    glm::dquat axes(turn.w(), turn.x(), turn.y(), turn.z());
+    glm::dquat axes = to_glm(editor.document->motions[number].rotation);
     gizmo.center = editor.pivot ? *editor.pivot : editor.handle_middle;
     if (editor.drag) {
         const Transform& transform = editor.drag->transform;

@@ -7,6 +7,7 @@
 namespace knead {
 
 glm::dvec3 to_glm(const Vec3d& v);
+glm::dquat to_glm(const Quatd& q);
 Vec3d to_eigen(const glm::dvec3& v);
 
 void say(Editor& editor, Notice::Kind kind, std::string words);
@@ -18,6 +19,10 @@ std::shared_ptr<const std::vector<std::uint8_t>> snapshot(const Editor& editor);
 // them.
 void add_step(Editor& editor, StepNumber document, std::shared_ptr<const std::vector<std::uint8_t>> before);
 
+// Posts lines as one step of undo; returns its number.
+StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
+                     std::shared_ptr<const std::vector<std::uint8_t>> marks_before = nullptr);
+
 // Selection and hiding as in `from`; the bits of the handles stay.
 void restore_selection(Editor& editor, const std::vector<std::uint8_t>& from);
 
@@ -26,9 +31,6 @@ void marks_changed(Editor& editor);
 
 // The bits that say which handle a point belongs to, from the document's handles.
 void mark_handles(Editor& editor);
-
-// Where the middle of a handle's points is now.
-glm::dvec3 middle_of(const Editor& editor, const Handle& handle);
 
 // Whether a document is open; tells the user if not.
 bool needs_document(Editor& editor);

@@ -65,6 +65,13 @@ bool hold_the_same(const std::vector<Handle>& a, const std::vector<Handle>& b) {
         a, b, [](const Handle& x, const Handle& y) { return x.role == y.role && x.points == y.points; });
 }
 
+void append_point(std::vector<IndexRange>& ranges, std::uint64_t point) {
+    if (!ranges.empty() && ranges.back().last + 1 == point)
+        ranges.back().last = point;
+    else
+        ranges.push_back({point, point});
+}
+
 std::vector<Index> resolve_points(const HandleLine& line, const PointCloud& cloud,
                                   const std::function<Vec3d(std::size_t)>& file_position,
                                   const std::string& place) {

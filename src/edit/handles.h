@@ -23,6 +23,9 @@ struct Handle {
 // are the same array: handles share theirs when they are copied.)
 bool hold_the_same(const std::vector<Handle>& a, const std::vector<Handle>& b);
 
+// Puts a point behind ranges that name only points before it.
+void append_point(std::vector<IndexRange>& ranges, std::uint64_t point);
+
 // The points that a handle line means. `file_position(i)` is where point i lies now, in the file's
 // coordinates; points that are not finite belong to no region. Throws Error (input) at `place` for an index
 // beyond the cloud and for a handle without any finite point.

@@ -75,7 +75,6 @@ struct OpenedCloud {
     const RestShape* opened = nullptr;
     Bounds bounds;      // in the file's coordinates
     double spacing = 0; // the usual distance between neighbouring points
-    double read_seconds = 0;
 };
 
 // What is saved with a cloud beside its own attributes.
@@ -149,9 +148,9 @@ public:
     std::vector<Notice> take_notices();
     std::vector<StepNumber> take_refused();
 
-    // The states (DocumentView::state) that a session and a cloud on disk have; nothing where there is none.
+    // The state (DocumentView::state) that a session on disk has; nothing where there is none.
     struct Saved {
-        std::optional<std::uint64_t> session_state, cloud_state;
+        std::optional<std::uint64_t> session_state;
     };
     Saved saved() const;
 

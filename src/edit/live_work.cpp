@@ -49,7 +49,6 @@ public:
           workers_(request_.threads) {}
 
     void open() {
-        const Stopwatch clock;
         Session session = session_to_open(request_, progress_);
         const bool is_plain_cloud = session.file.empty();
         PointCloud cloud = read_session_cloud(
@@ -65,7 +64,7 @@ public:
         document_->shape(progress_); // the order of the points
         replay_session(session, *document_, *recording_, progress_);
         if (!request_.restore) saved_.session_state = recording_->state();
-        publish_opened(clock);
+        publish_opened();
         if (!request_.restore) recording_->keep_journal(request_.journal_folder);
     }
 
@@ -110,7 +109,7 @@ public:
 private:
     // --- Opening ---
 
-    void publish_opened(const Stopwatch& clock) {
+    void publish_opened() {
         OpenedCloud opened;
         opened.file = recording_->cloud();
         opened.cloud = &document_->cloud();
@@ -120,7 +119,6 @@ private:
         opened.spacing = usual_spacing(opened.opened->positions);
         publish_shape(document_->shape(progress_), false);
         publish_view();
-        opened.read_seconds = clock.seconds();
         shared_.with([&](LiveShared& s) {
             if (s.stop) throw Cancelled(); // or the window would look at what is about to go
             s.opened = opened;
@@ -245,7 +243,6 @@ private:
         if (task.columns.displacement) shape.added.push_back({"displacement", far});
         if (task.columns.stretch) shape.added.push_back({"stretch", stretch});
         write_cloud(task.target, document_->cloud(), shape, progress_);
-        saved_.cloud_state = recording_->state();
         say(Notice::Kind::information, "Saved the cloud as " + task.target.string());
         publish_view();
     }

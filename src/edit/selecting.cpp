@@ -1,5 +1,7 @@
 #include "edit/selecting.h"
 
+#include "edit/handles.h"
+
 #include <algorithm>
 
 namespace knead {
@@ -110,11 +112,7 @@ std::vector<IndexRange> selected_ranges(std::span<const std::uint8_t> marks, con
         if (marks[i] & mark_selected) selected[order.file_index[i]] = true;
     std::vector<IndexRange> ranges;
     for (std::size_t i = 0; i < file_points; ++i) {
-        if (!selected[i]) continue;
-        if (!ranges.empty() && ranges.back().last + 1 == i)
-            ranges.back().last = i;
-        else
-            ranges.push_back({i, i});
+        if (selected[i]) append_point(ranges, i);
     }
     return ranges;
 }

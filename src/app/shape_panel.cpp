@@ -44,6 +44,36 @@ void stiffness_slider(const Ui& ui, const Settings& settings) {
         "α, a plain number; 0.01 suits most shapes.");
 }
 
+// Names for what a hand may want; the numbers are Poisson's ratios.
+struct Material {
+    const char* name;
+    double poisson;
+};
+constexpr Material materials[] = {{"Auxetic", -0.7}, {"Cork", 0}, {"Rubber", 0.49}};
+
+void material_choice(const Ui& ui, const Settings& settings) {
+    auto poisson = static_cast<float>(settings.poisson);
+    if (bar_slider("Elasticity", poisson, -0.9f, 0.49f, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
+        SettingsChange wanted;
+        wanted.poisson = std::round(static_cast<double>(poisson) * 100) / 100;
+        change(ui, wanted);
+    }
+    explain(
+        "Poisson's ratio: how much the cloud thins across where it is stretched, as a part of the stretch "
+        "(of their logarithms). 0.49 keeps the volume, 0 the width; below 0 it swells.");
+    int chosen = -1;
+    for (int m = 0; m < static_cast<int>(std::size(materials)); ++m)
+        if (settings.poisson == materials[m].poisson) chosen = m;
+    const int clicked =
+        segmented("material", {materials[0].name, materials[1].name, materials[2].name}, chosen);
+    explain("Auxetic swells across where it is pulled (-0.7), cork keeps its width (0), rubber its volume "
+            "(0.49)");
+    if (clicked < 0 || clicked == chosen) return;
+    SettingsChange wanted;
+    wanted.poisson = materials[clicked].poisson;
+    ui.tell(ChangeSettings{wanted});
+}
+
 void samples_slider(const Ui& ui, const Settings& settings) {
     bool all = !settings.samples;
     const float box = ImGui::GetFrameHeight() + ImGui::CalcTextSize("All").x + ui.scaled(18);
@@ -119,6 +149,7 @@ void shape_panel(const Ui& ui) {
     Settings settings = document.settings;
     if (ui.state.sliding.change) settings = changed(settings, *ui.state.sliding.change);
     stiffness_slider(ui, settings);
+    material_choice(ui, settings);
     samples_slider(ui, settings);
     iterations_slider(ui, settings);
     weights_choice(ui, settings);

@@ -12,6 +12,7 @@ namespace knead {
 namespace {
 
 constexpr const char* twisted_name = "made-bar";
+constexpr const char* elasticity_name = "elasticity";
 
 // Generated clouds on which properties are checked.
 struct MadeCloud {
@@ -83,6 +84,7 @@ std::vector<std::string> evaluation_names(const EvaluationOptions& options) {
     std::vector<std::string> names = task_names(options);
     for (const MadeCloud& made : made_clouds)
         if (std::ranges::find(names, made.name) == names.end()) names.emplace_back(made.name);
+    names.emplace_back(elasticity_name);
     for (const auto& path : data_files(options.scans, ".ply")) names.push_back(path.stem().string());
     return names;
 }
@@ -99,6 +101,10 @@ Evaluation evaluate(const EvaluationOptions& options, Progress& progress) {
         evaluate_tasks(options, workers, *choice.upsampler, progress, result);
         if (is_chosen(options, twisted_name))
             result.twist = evaluate_twist(workers, *choice.upsampler, progress);
+        if (is_chosen(options, elasticity_name)) {
+            const std::optional<std::uint64_t> counts[] = {200U, 1000U, std::nullopt};
+            result.stretches = evaluate_elasticity(counts, workers, *choice.upsampler, progress);
+        }
         const std::string words = choice.upsampler->take_warning();
         if (!words.empty()) result.warnings.push_back(words);
     }

@@ -2,6 +2,7 @@
 // Quality and properties, over everything that is at hand.
 
 #include "bench/data_files.h"
+#include "bench/elasticity.h"
 #include "bench/machine.h"
 #include "bench/properties.h"
 #include "bench/quality.h"
@@ -23,16 +24,17 @@ struct EvaluationOptions {
 struct Evaluation {
     Machine machine;
     std::string device;
-    bool has_survey = false;             // else the tasks are likenesses
-    std::string remark;                  // where the survey is missing; else empty
-    std::vector<TaskQuality> tasks;      // the survey's shapes, or their likenesses
-    std::vector<CloudProperties> clouds; // generated ones, then the scans
-    std::optional<TwistResult> twist;    // with "made-bar"
-    std::vector<std::string> warnings;   // of the device
+    bool has_survey = false;              // else the tasks are likenesses
+    std::string remark;                   // where the survey is missing; else empty
+    std::vector<TaskQuality> tasks;       // the survey's shapes, or their likenesses
+    std::vector<CloudProperties> clouds;  // generated ones, then the scans
+    std::optional<TwistResult> twist;     // with "made-bar"
+    std::vector<StretchResult> stretches; // with "elasticity"
+    std::vector<std::string> warnings;    // of the device
 };
 
-// The names that `shapes` may hold with these folders: the tasks, generated clouds ("made-knot"), and the
-// scans' file names without ".ply".
+// The names that `shapes` may hold with these folders: the tasks, generated clouds ("made-knot"),
+// "elasticity", and the scans' file names without ".ply".
 std::vector<std::string> evaluation_names(const EvaluationOptions& options);
 
 // Throws Error (usage) for a name or a device that is not there, Error (input) for a file that cannot be

@@ -32,6 +32,10 @@ bool holds(const SampleQuality& count) {
     return !count.bar || count.deviation.rms <= *count.bar;
 }
 
+bool holds(const StretchResult& stretch) {
+    return std::abs(stretch.measured - stretch.asked) <= poisson_bar;
+}
+
 bool twist_is_kept(const TwistResult& twist, double measured) {
     return std::abs(measured - twist.asked) <= twist_tolerance_degrees;
 }
@@ -98,12 +102,37 @@ std::string twist_text(const TwistResult& twist) {
            line("100 iterations later: ", twist.settled, twist.settled_uneven);
 }
 
+std::string stretches_text(const std::vector<StretchResult>& stretches) {
+    TextTable table{{"Poisson's ratio, asked and measured at mid-length of a bar of 1 : 10 pulled by 30 %"},
+                    {"bar", "points", "samples", "asked", "measured", "off by", "", "iterations"}};
+    for (const StretchResult& stretch : stretches)
+        table.push_back(
+            {stretch.solid ? "solid" : "shell", count_text(stretch.points), asked_text(stretch.asked_samples),
+             digits_text(stretch.asked, 2), digits_text(stretch.measured, 3),
+             digits_text(std::abs(stretch.measured - stretch.asked), 3), verdict_text(holds(stretch)),
+             std::to_string(stretch.iterations) + (stretch.at_rest ? "" : ", not at rest")});
+    return format_table(table);
+}
+
 Json json_of(const Deviation& deviation) {
     return {{"rms", deviation.rms}, {"largest", deviation.largest}};
 }
 
 Json json_of(const std::optional<std::uint64_t>& asked) {
     return asked ? Json(*asked) : Json("all");
+}
+
+Json json_of(const StretchResult& stretch) {
+    return {{"solid", stretch.solid},
+            {"points", stretch.points},
+            {"asked_samples", json_of(stretch.asked_samples)},
+            {"asked", stretch.asked},
+            {"measured", stretch.measured},
+            {"along", stretch.along},
+            {"bar", poisson_bar},
+            {"holds", holds(stretch)},
+            {"iterations", stretch.iterations},
+            {"at_rest", stretch.at_rest}};
 }
 
 Json json_of(const TaskQuality& task) {
@@ -153,6 +182,7 @@ std::string evaluation_text(const Evaluation& evaluation) {
     if (!evaluation.tasks.empty())
         text += "\n" + tasks_text(evaluation.tasks) + "\n" + convergence_text(evaluation.tasks);
     if (evaluation.twist) text += "\n" + twist_text(*evaluation.twist);
+    if (!evaluation.stretches.empty()) text += "\n" + stretches_text(evaluation.stretches);
     if (!evaluation.clouds.empty()) text += "\n" + clouds_text(evaluation.clouds);
     return text;
 }
@@ -165,8 +195,10 @@ std::string evaluation_json(const Evaluation& evaluation) {
               {"warnings", evaluation.warnings},
               {"tasks", Json::array()},
               {"clouds", Json::array()},
+              {"elasticity", Json::array()},
               {"twist", Json()}};
     for (const TaskQuality& task : evaluation.tasks) json["tasks"].push_back(json_of(task));
+    for (const StretchResult& stretch : evaluation.stretches) json["elasticity"].push_back(json_of(stretch));
     for (const CloudProperties& cloud : evaluation.clouds) json["clouds"].push_back(json_of(cloud));
     if (const auto& twist = evaluation.twist)
         json["twist"] = {{"points", twist->points},

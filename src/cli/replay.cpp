@@ -35,7 +35,12 @@ ReplayOptions options_from(const Arguments& arguments) {
     options.threads = arguments.threads;
     options.record_checks = arguments.record_checks;
     options.rehearse = arguments.dry_run;
+    options.measure_extent = arguments.json;
     return options;
+}
+
+nlohmann::ordered_json number_or_null(const std::optional<double>& number) {
+    return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json(nullptr);
 }
 
 nlohmann::ordered_json to_json(const ReplayReport& report) {
@@ -55,6 +60,8 @@ nlohmann::ordered_json to_json(const ReplayReport& report) {
         {"device", report.device},
         {"peak_rss_bytes", report.peak_memory},
         {"handle_error", report.handle_error},
+        {"area_change", number_or_null(report.extent.area)},
+        {"volume_change", number_or_null(report.extent.volume)},
         {"checks", checks},
         {"warnings", report.warnings},
         {"seconds",

@@ -93,6 +93,27 @@ Quatd local_rotation(const SampleRest& rest, const SampleState& state, Index i) 
     return nearest_rotation(spread, state.rotation[i]);
 }
 
+// F - I of a row.
+Mat3d gradient_at(const SampleSystem& system, const SampleState& state, std::size_t row) {
+    const SampleRest& rest = system.rest;
+    const Index i = system.free_sample[row];
+    Mat3d displaced = Mat3d::Zero();
+    for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
+        const Index j = rest.graph.neighbor[link];
+        const Vec3d edge = rest.weight[link] * (rest.position[j] - rest.position[i]);
+        displaced += (state.displacement[j] - state.displacement[i]) * edge.transpose();
+    }
+    return gradient_of(system.surroundings[row], displaced, turn_of(state.rotation[i]));
+}
+
+// S of every row, of the shape as it is.
+void find_targets(SampleSystem& system, const SampleState& state, Workers& workers) {
+    workers.for_each(system.target.size(), grain, [&](std::size_t row) {
+        system.target[row] =
+            elastic_target(system.surroundings[row], gradient_at(system, state, row), system.rest.poisson);
+    });
+}
+
 // Step 3. Returns the longest way that a sample went.
 double solve_positions(SampleSystem& system, SampleState& state, Workers& workers) {
     const SampleRest& rest = system.rest;
@@ -100,6 +121,7 @@ double solve_positions(SampleSystem& system, SampleState& state, Workers& worker
     workers.for_each(rows, grain, [&](std::size_t row) {
         const Index i = system.free_sample[row];
         system.turn[i] = turn_of(state.rotation[i]);
+        if (!system.target.empty()) system.turn[i] += state.rotation[i] * system.target[row];
     });
     workers.for_each(rows, grain, [&](std::size_t row) {
         const Index i = system.free_sample[row];
@@ -130,9 +152,15 @@ double solve_positions(SampleSystem& system, SampleState& state, Workers& worker
 
 void follow_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
                     Workers& workers) {
+    find_targets(system, state, workers); // before the handles leave the others behind
     turn_with_handles(system, handles, state, workers);
     place_handles(system, handles, state);
     solve_positions(system, state, workers);
+}
+
+Mat3d sample_gradient(const SampleSystem& system, const SampleState& state, Index i) {
+    const Mat3d stretch = stretch_of(gradient_at(system, state, system.unknown[i]));
+    return turn_of(state.rotation[i]) + state.rotation[i] * stretch;
 }
 
 double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
@@ -148,6 +176,7 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
     system.rotations.solve(system.columns, 4);
     for_solved_rotations(
         system, [&](Index s, const Quatd& rotation) { state.rotation[s] = rotation; }, workers);
+    find_targets(system, state, workers);
     return solve_positions(system, state, workers);
 }
 

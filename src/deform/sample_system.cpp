@@ -98,6 +98,20 @@ void find_confidence(SampleSystem& system, double square_length) {
     }
 }
 
+void find_surroundings(SampleSystem& system, Workers& workers) {
+    const SampleRest& rest = system.rest;
+    system.surroundings.resize(system.free_sample.size());
+    workers.for_each(system.free_sample.size(), 256, [&](std::size_t row) {
+        const Index i = system.free_sample[row];
+        Mat3d spread = Mat3d::Zero();
+        for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
+            const Vec3d edge = rest.position[rest.graph.neighbor[link]] - rest.position[i];
+            spread += rest.weight[link] * edge * edge.transpose();
+        }
+        system.surroundings[row] = surroundings_of(spread);
+    });
+}
+
 } // namespace
 
 FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& workers) {
@@ -111,6 +125,8 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     system.smoothing =
         system.rest.stiffness * system.rest.cloud_size * system.rest.cloud_size / square_length;
     find_confidence(system, square_length);
+    find_surroundings(system, workers);
+    set_poisson(system, system.rest.poisson);
     system.turn.assign(system.rest.handle.size(), Mat3d::Zero());
     system.columns.assign(4 * system.free_sample.size(), 0);
 
@@ -124,6 +140,12 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
                                      : system.rotations.factorize(smoothing, order);
     });
     return outcomes[0].solved ? outcomes[1] : outcomes[0];
+}
+
+void set_poisson(SampleSystem& system, double poisson) {
+    require(poisson > -1 && poisson < 0.5, "Poisson's ratio of a stable material");
+    system.rest.poisson = poisson;
+    system.target.assign(poisson == 0 ? 0 : system.free_sample.size(), Mat3d::Zero());
 }
 
 SampleState rest_state(const SampleSystem& system) {

@@ -3,7 +3,7 @@
 //
 // Samples s have rest positions p, displacements u (so they are at x = p + u now) and rotations r (unit
 // quaternions, rest to now); edges (i, j) of the sample graph have rest vectors e_ij = p_j - p_i and weights
-// w_ij. The shape sought makes
+// w_ij. The shape sought makes, for a material that does not contract when it is pulled,
 //
 //     E = Σ w_ij |x_j - x_i - R_i e_ij|² + β Σ w_ij |r_j - r_i|²,   β = α s²
 //
@@ -14,14 +14,15 @@
 //     1. r*_i = the rotation nearest to Σ_j w_ij (x_j - x_i) e_ijᵀ, of the hemisphere of r_i,
 //     2. (β/ℓ² L + C) r = C r* with the handles' rotations given, normalised; C_i = Σ_j w_ij |e_ij|²/ℓ², ℓ² =
 //     mean |e|²,
-//     3. L x = b with the handles' positions given; b_i = Σ_j w_ij ½(M_i + M_j)(p_i - p_j), M = R, or R S on
-//     a handle,
+//     3. L x = b with the handles' positions given; b_i = Σ_j w_ij ½(M_i + M_j)(p_i - p_j), M = R S with S
+//     the elastic target of deform/stretch.h (the identity for ν = 0), or the whole linear map on a handle,
 //
 // with L the graph's weighted Laplacian. The fixed point of these steps is what knead means by the deformed
 // shape. Both matrices stand as long as the handle set and the rest shape do. Everything is solved for u and
 // r - 1, which are exactly zero where nothing moves.
 
 #include "base/workers.h"
+#include "deform/stretch.h"
 #include "graph/csr.h"
 #include "solve/sparse_lu.h"
 
@@ -46,6 +47,7 @@ struct SampleRest {
     std::vector<Index> handle;   // of each sample; no_index where it is free
     double cloud_size = 1;       // s, in the units of the positions
     double stiffness = 0.01;     // α
+    double poisson = 0;          // ν, -1 < ν < 0.5
 };
 
 // Where the samples are; also the warm start of the next frame.
@@ -66,13 +68,19 @@ struct SampleSystem {
     SparseFactor rotations;         // β/ℓ² L + C
     SparseFactor positions;         // L
 
+    std::vector<Surroundings> surroundings; // of each row
+
     std::vector<Mat3d> turn;     // M - I, of each sample
+    std::vector<Mat3d> target;   // S - I, of each row; empty for ν = 0
     std::vector<double> columns; // right-hand sides and solutions
 };
 
 // Prepares both systems: one ordering, two factorisations. Samples whose component holds no handle are left
 // out and stay at rest. On a bad outcome the system must not be iterated.
 FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& workers);
+
+// Another Poisson's ratio; neither system changes.
+void set_poisson(SampleSystem& system, double poisson);
 
 // All samples at rest.
 SampleState rest_state(const SampleSystem& system);
@@ -83,6 +91,10 @@ SampleState rest_state(const SampleSystem& system);
 // many there are. `handles` holds the motion of every handle that `rest.handle` names.
 void follow_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
                     Workers& workers);
+
+// How the surroundings of a sample that no handle holds were moved: R U - I, with R its rotation and U the
+// stretch of its edges. `i`: such a sample.
+Mat3d sample_gradient(const SampleSystem& system, const SampleState& state, Index i);
 
 // One iteration from where the samples are, towards the handles' present motions. Allocates nothing of its
 // own. Returns the longest way that a sample went.

@@ -20,6 +20,9 @@ constexpr double handle_share = 0.2;
 
 constexpr int relaxing_rounds = 2;
 
+// From where on a sample is on the border of the surface: see isotropic_weights().
+constexpr double border_of_points = 0.5, border_of_territories = 0.3;
+
 Vec3d at(std::span<const float> positions, std::size_t i) {
     return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
 }
@@ -85,6 +88,7 @@ void Pipeline::note_changes(const Settings& settings) {
     stale_.samples |= settings.samples != before.samples;
     stale_.influences |= settings.weights != before.weights;
     stale_.systems |= settings.stiffness != before.stiffness;
+    if (settings.poisson != before.poisson) set_poisson(system_, settings.poisson);
     input_.settings = settings;
 }
 
@@ -216,9 +220,11 @@ void Pipeline::prepare_systems() {
         rest.position.push_back(at(rest_shape.positions, order_.first_point[v]));
         rest.handle.push_back(labels_.vertex[v]);
     }
-    rest.weight = isotropic_weights(rest.graph, rest.position, sample_graph_.contact, workers_);
+    rest.weight = isotropic_weights(rest.graph, rest.position, sample_graph_.contact,
+                                    every_point_ ? border_of_points : border_of_territories, workers_);
     rest.cloud_size = cloud_size_;
     rest.stiffness = input_.settings.stiffness;
+    rest.poisson = input_.settings.poisson;
     const FactorOutcome outcome = build_system(std::move(rest), system_, workers_);
     seconds_.factorize += clock.lap();
     if (!outcome.solved)
@@ -258,8 +264,12 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
         if (handle != no_index && handle != labels_.outside) {
             motions_[s] = motion_of_handle(motions[handle]);
         } else {
-            const Mat3d turn = turn_of(state.rotation[s]);
-            motions_[s] = motion_about(turn, state.displacement[s] - turn * system_.rest.position[s]);
+            // Stretched with its surroundings, a sample takes what is between it and the next ones along;
+            // where every point is a sample there is nothing between.
+            const bool stretches = !every_point_ && system_.unknown[s] != no_index;
+            const Mat3d moved = stretches ? sample_gradient(system_, state, static_cast<Index>(s))
+                                          : turn_of(state.rotation[s]);
+            motions_[s] = motion_about(moved, state.displacement[s] - moved * system_.rest.position[s]);
         }
     });
     for (std::size_t h = 0; h < motions.size(); ++h) motions_[samples + h] = motion_of_handle(motions[h]);

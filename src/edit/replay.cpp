@@ -88,6 +88,7 @@ public:
             options_.after_last(document, document.shape(progress_));
 
         clock.lap();
+        measure_extent(document);
         if (!options_.rehearse) write_results(document);
         report_.write = clock.lap();
         fill_report(document, device_seconds);
@@ -233,6 +234,15 @@ private:
         }
         put_checks_up_to(no_index);
         file.commit();
+    }
+
+    void measure_extent(Document& document) {
+        const Pipeline& pipeline = document.pipeline();
+        if (!options_.measure_extent || options_.rehearse || !pipeline.shared_graph()) return;
+        const RestShape& shape = document.shape(progress_);
+        const RestShape& opened = pipeline.opened();
+        report_.extent = extent_change(pipeline.order(), pipeline.graph(), opened.positions, opened.normals,
+                                       shape.positions, workers_);
     }
 
     void warn_of_strays(const Document& document) {

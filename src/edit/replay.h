@@ -2,6 +2,7 @@
 // A recorded session, carried out from its first line to its last with no window.
 
 #include "edit/document.h"
+#include "edit/extent_change.h"
 #include "edit/session.h"
 
 #include <filesystem>
@@ -25,6 +26,8 @@ struct ReplayOptions {
     bool record_checks =
         false;             // writes the session again with a check after each edit, and the clouds beside it
     bool rehearse = false; // checks everything that can be checked without computing a shape
+
+    bool measure_extent = false; // fills ReplayReport::extent
 
     // For pictures; either may be empty, and none is called in a rehearsal.
     ShapeSeen after_frame; // after every frame of a drag and every settling
@@ -52,6 +55,7 @@ struct ReplayReport {
     std::uint64_t peak_memory = 0; // bytes
     double handle_error = 0;       // over D
     double diagonal = 0;           // D
+    ExtentChange extent;           // of the last shape against the one opened
     std::vector<CheckResult> checks;
     std::vector<std::string> warnings;
     std::vector<std::filesystem::path> written;

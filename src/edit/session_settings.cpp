@@ -31,7 +31,6 @@ double read_stiffness(const Value& value) {
 double read_poisson(const Value& value) {
     const double result = number(value);
     if (result <= -1 || result >= 0.5) refuse_as(value, "between -1 and 0.5, both excluded");
-    if (result != 0) refuse_for_now(value, "0");
     return result;
 }
 

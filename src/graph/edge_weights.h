@@ -12,18 +12,31 @@ namespace knead {
 // Weights under which the graph's Laplacian stands for the surface's, however the surface was sampled.
 //
 // They begin as those of a finite-volume scheme, w_ij = contact_ij / |e_ij|, the border that two territories
-// share over the distance of their middles. A few multiplicative updates then make each vertex pull evenly in
-// all the directions that it has links in, until Σ_j w_ij e_ij e_ijᵀ looks the same along each of them, in
-// the tangent plane of a surface as well as throughout a solid:
+// share over the distance of their middles. Two things are then asked of them, and met as far as the links
+// allow. Each vertex pulls evenly in all the directions that it has links in: Σ_j w_ij e_ij e_ijᵀ looks the
+// same along each of them, in the tangent plane of a surface as well as throughout a solid, by a few
+// multiplicative updates
 //
 //     w_ij ← w_ij · mean_k(d_ikᵀ C_i d_ik) / (d_ijᵀ C_i d_ij),  C_i = Σ_j w_ij e_ij e_ijᵀ,  d = e/|e|.
 //
-// Each vertex's weights have the mean 1, and the two directions of a link are averaged. Uniform weights
-// instead make a cloud stiff across the lines that it was sampled along, and the survey's cylinder creases.
+// And its pulls cancel, Σ_j w_ij e_ij = 0 along the surface, by
+//
+//     w_ij ← w_ij (1 - e_ijᵀ C_i⁺ Σ_k w_ik e_ik),
+//
+// the smallest relative change that does it: then linear functions are harmonic, an even stretch is in
+// balance, and an irregular cloud answers a pull like a regular one. On a border the pulls cannot cancel: a
+// vertex is left as it is where |Σ w e| exceeds `border` times Σ w |e|, and begins to be at 0.2 less. Along
+// an evenly sampled straight border this is 2/π. Samples of territories lie inside the border, by half their
+// distance more or less, and need a low bound, 0.3; for points that go as far as the surface does 0.5 will
+// do.
+//
+// Each vertex's weights have the mean 1, and the two directions of a link are averaged, after every update of
+// the second kind. Uniform weights instead make a cloud stiff across the lines that it was sampled along, and
+// the survey's cylinder creases.
 //
 // `position` and `contact` > 0: one entry a vertex, and one for every entry of graph.neighbor, the same in
 // both directions; so is the result, > 0.
 std::vector<double> isotropic_weights(const Graph& graph, std::span<const Vec3d> position,
-                                      std::span<const float> contact, Workers& workers);
+                                      std::span<const float> contact, double border, Workers& workers);
 
 } // namespace knead

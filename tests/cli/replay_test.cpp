@@ -239,7 +239,6 @@ TEST_F(Replay, RefusesCloudsThatAreNotTheRecordedOne) {
 
 TEST_F(Replay, RefusesByNameWhatComesWithLaterVersions) {
     const std::pair<std::string, std::string> lines[] = {
-        {R"({"op":"set","poisson":0.3})", "\"poisson\""},
         {R"({"op":"set","strays":"carry"})", "\"strays\""},
         {R"({"op":"handle","name":"a","role":"moving","points":[1],"rotation":"free"})", "\"rotation\""},
         {R"({"op":"handle","name":"a","role":"moving","points":[1],"falloff":2})", "\"falloff\""}};
@@ -248,7 +247,7 @@ TEST_F(Replay, RefusesByNameWhatComesWithLaterVersions) {
         expect_failure(3, "s.knead:2: " + key);
     }
     session(edit);
-    expect_failure(2, "poisson", {"--set", "poisson=0.3"});
+    expect_failure(2, "poisson", {"--set", "poisson=0.5"});
 }
 
 // --- Checks and exit code 4

@@ -210,7 +210,7 @@ public:
             change.samples = coin() ? std::optional<std::uint64_t>() : std::optional(1 + below(1'000'000));
         if (coin()) change.iterations = static_cast<unsigned>(below(1001));
         if (coin()) change.stiffness = positive();
-        if (coin()) change.poisson = 0;
+        if (coin()) change.poisson = coin() ? 0 : static_cast<double>(below(149)) / 100 - 0.99;
         if (coin()) change.weights = coin() ? InfluenceWeights::smooth : InfluenceWeights::paper;
         if (coin()) change.strays = Strays::freeze;
         return {change};

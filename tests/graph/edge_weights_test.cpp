@@ -22,7 +22,7 @@ std::vector<double> weights_for(const Graph& graph, const std::vector<Vec3d>& po
                                 unsigned threads = 2) {
     Machine machine(threads);
     const std::vector<float> contact(graph.neighbor.size(), 1.0F);
-    return isotropic_weights(graph, position, contact, machine.workers);
+    return isotropic_weights(graph, position, contact, 0.5, machine.workers);
 }
 
 void expect_symmetric_and_positive(const Graph& graph, const std::vector<double>& weight) {
@@ -88,6 +88,30 @@ TEST(IsotropicWeights, PullEvenlyWhereSamplesLieInRows) {
 TEST(IsotropicWeights, StayEvenWhereTheLatticeIsSquare) {
     const Lattice lattice(1);
     EXPECT_NEAR(lattice.anisotropy(weights_for(lattice.graph, lattice.position)), 1, 1e-9); // by symmetry
+}
+
+// The mean of |Σ w e| over Σ w |e| along the surface.
+double unevenness(const Cloud& cloud, const std::vector<double>& weight) {
+    double sum = 0;
+    for (Index v = 0; v < cloud.graph.size(); ++v) {
+        Vec3d pull = Vec3d::Zero();
+        double effort = 0;
+        for (Index link = cloud.graph.first[v]; link < cloud.graph.first[v + 1]; ++link) {
+            const Vec3d edge = cloud.at(cloud.graph.neighbor[link]) - cloud.at(v);
+            pull += weight[link] * edge;
+            effort += weight[link] * edge.norm();
+        }
+        const Vec3d outward = cloud.at(v).normalized(); // of a sphere about the origin
+        sum += (pull - pull.dot(outward) * outward).norm() / effort;
+    }
+    return sum / static_cast<double>(cloud.graph.size());
+}
+
+TEST(IsotropicWeights, LetPullsCancelOnASurfaceWithoutBorder) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::sphere, 3000));
+    const std::vector<double> uniform(cloud.graph.neighbor.size(), 1);
+    // Not to nothing: a vertex has about seven links, and each weight serves both its ends.
+    EXPECT_LT(unevenness(cloud, weights_for(cloud.graph, places(cloud))), 0.6 * unevenness(cloud, uniform));
 }
 
 TEST(IsotropicWeights, DoNotDependOnTheUnit) {

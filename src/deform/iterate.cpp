@@ -17,15 +17,20 @@ Eigen::Vector4d beyond_one(const Quatd& q) {
     return {q.w() - 1, q.x(), q.y(), q.z()};
 }
 
+// How far p is sent by a handle.
+Vec3d sent(const HandleMotion& motion, const Vec3d& p) {
+    return (motion.linear - Mat3d::Identity()) * p + motion.offset;
+}
+
 // Equations (3): the samples of handles go where the handles are.
 void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state) {
     for (std::size_t s = 0; s < system.rest.handle.size(); ++s) {
         if (system.rest.handle[s] == no_index) continue;
         const HandleMotion& motion = handles[system.rest.handle[s]];
-        const Mat3d beyond_identity = motion.linear - Mat3d::Identity();
+        state.displacement[s] = sent(motion, system.rest.position[s]);
+        if (system.unknown[s] != no_index) continue; // it turns as its surroundings want
         state.rotation[s] = motion.rotation;
-        state.displacement[s] = beyond_identity * system.rest.position[s] + motion.offset;
-        system.turn[s] = beyond_identity;
+        system.turn[s] = motion.linear - Mat3d::Identity();
     }
 }
 
@@ -72,7 +77,8 @@ void turn_with_handles(SampleSystem& system, std::span<const HandleMotion> handl
     assemble_rotations(
         system, 1.0, [](std::size_t) -> Eigen::Vector4d { return Eigen::Vector4d::Zero(); }, increment,
         workers);
-    system.positions.solve(system.columns, 4);
+    const bool more = system.free_sample.size() > system.moving_rows;
+    (more ? system.increments : system.positions).solve(system.columns, 4);
     for_solved_rotations(
         system,
         [&](Index s, const Quatd& turn) { state.rotation[s] = (turn * state.rotation[s]).normalized(); },
@@ -114,15 +120,31 @@ void find_targets(SampleSystem& system, const SampleState& state, Workers& worke
     });
 }
 
-// Step 3. Returns the longest way that a sample went.
-double solve_positions(SampleSystem& system, SampleState& state, Workers& workers) {
-    const SampleRest& rest = system.rest;
-    const std::size_t rows = system.free_sample.size();
-    workers.for_each(rows, grain, [&](std::size_t row) {
+// M - I of the samples that turn by themselves: R S - I.
+void find_turns(SampleSystem& system, const SampleState& state, Workers& workers) {
+    workers.for_each(system.free_sample.size(), grain, [&](std::size_t row) {
         const Index i = system.free_sample[row];
         system.turn[i] = turn_of(state.rotation[i]);
         if (!system.target.empty()) system.turn[i] += state.rotation[i] * system.target[row];
     });
+}
+
+// What handles with a falloff add to the right-hand sides.
+void add_pulls(SampleSystem& system, std::span<const HandleMotion> handles) {
+    const std::size_t rows = system.moving_rows;
+    for (const SoftHold& hold : system.rest.pulled) {
+        const Vec3d way = sent(handles[hold.handle], hold.anchor);
+        for (std::size_t c = 0; c < 3; ++c)
+            system.columns[c * rows + system.unknown[hold.sample]] += hold.weight * way[static_cast<int>(c)];
+    }
+}
+
+// Step 3. Returns the longest way that a sample went.
+double solve_positions(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
+                       Workers& workers) {
+    const SampleRest& rest = system.rest;
+    const std::size_t rows = system.moving_rows;
+    find_turns(system, state, workers);
     workers.for_each(rows, grain, [&](std::size_t row) {
         const Index i = system.free_sample[row];
         Vec3d side = Vec3d::Zero();
@@ -130,11 +152,12 @@ double solve_positions(SampleSystem& system, SampleState& state, Workers& worker
             const Index j = rest.graph.neighbor[link];
             const Vec3d back = rest.position[i] - rest.position[j];
             Vec3d part = 0.5 * (system.turn[i] * back + system.turn[j] * back);
-            if (system.unknown[j] == no_index) part += state.displacement[j];
+            if (!(system.unknown[j] < rows)) part += state.displacement[j];
             side += rest.weight[link] * part;
         }
         for (std::size_t c = 0; c < 3; ++c) system.columns[c * rows + row] = side[static_cast<int>(c)];
     });
+    add_pulls(system, handles);
     system.positions.solve({system.columns.data(), 3 * rows}, 3);
 
     double longest = 0;
@@ -155,7 +178,7 @@ void follow_handles(SampleSystem& system, std::span<const HandleMotion> handles,
     find_targets(system, state, workers); // before the handles leave the others behind
     turn_with_handles(system, handles, state, workers);
     place_handles(system, handles, state);
-    solve_positions(system, state, workers);
+    solve_positions(system, handles, state, workers);
 }
 
 Mat3d sample_gradient(const SampleSystem& system, const SampleState& state, Index i) {
@@ -177,7 +200,7 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
     for_solved_rotations(
         system, [&](Index s, const Quatd& rotation) { state.rotation[s] = rotation; }, workers);
     find_targets(system, state, workers);
-    return solve_positions(system, state, workers);
+    return solve_positions(system, handles, state, workers);
 }
 
 } // namespace knead

@@ -3,6 +3,7 @@
 #include "base/require.h"
 #include "graph/neighbors.h"
 
+#include <algorithm>
 #include <array>
 
 namespace knead {
@@ -20,14 +21,23 @@ std::vector<bool> find_left_out(const SampleRest& rest) {
     return left_out;
 }
 
+bool turns_freely(const SampleRest& rest, Index handle) {
+    return handle < rest.turns_freely.size() && rest.turns_freely[handle];
+}
+
 void number_unknowns(SampleSystem& system) {
-    system.unknown.assign(system.rest.handle.size(), no_index);
+    const std::vector<Index>& handle = system.rest.handle;
+    system.unknown.assign(handle.size(), no_index);
     system.free_sample.clear();
-    for (Index s = 0; s < system.rest.handle.size(); ++s) {
-        if (system.rest.handle[s] != no_index || system.left_out[s]) continue;
+    const auto number = [&](Index s) {
         system.unknown[s] = static_cast<Index>(system.free_sample.size());
         system.free_sample.push_back(s);
-    }
+    };
+    for (Index s = 0; s < handle.size(); ++s)
+        if (handle[s] == no_index && !system.left_out[s]) number(s);
+    system.moving_rows = system.free_sample.size();
+    for (Index s = 0; s < handle.size(); ++s)
+        if (handle[s] != no_index && turns_freely(system.rest, handle[s])) number(s);
 }
 
 // ℓ²: the mean square length of the links at the unknown samples.
@@ -43,47 +53,72 @@ double mean_square_length(const SampleSystem& system) {
     return links > 0 && sum > 0 ? sum / static_cast<double>(links) : 1.0;
 }
 
-// L over the unknown samples. Samples are numbered in ascending order, so rows ascend within a column.
-SparseMatrix laplacian(const SampleSystem& system) {
+// L of the first rows, so many.
+SparseMatrix laplacian(const SampleSystem& system, std::size_t rows) {
     const SampleRest& rest = system.rest;
     SparseMatrix matrix;
     matrix.first.push_back(0);
-    for (Index row = 0; row < system.free_sample.size(); ++row) {
+    std::vector<std::pair<int, double>> column;
+    for (Index row = 0; row < rows; ++row) {
         const Index i = system.free_sample[row];
         double diagonal = 0;
-        std::size_t diagonal_at = no_index;
-        const auto put_diagonal = [&] {
-            diagonal_at = matrix.value.size();
-            matrix.row.push_back(static_cast<int>(row));
-            matrix.value.push_back(0);
-        };
+        column.clear();
         for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
-            const Index j = rest.graph.neighbor[link];
             diagonal += rest.weight[link];
-            if (j > i && diagonal_at == no_index) put_diagonal();
-            if (system.unknown[j] == no_index) continue;
-            matrix.row.push_back(static_cast<int>(system.unknown[j]));
-            matrix.value.push_back(-rest.weight[link]);
+            const Index other = system.unknown[rest.graph.neighbor[link]];
+            if (other < rows) column.emplace_back(static_cast<int>(other), -rest.weight[link]);
         }
-        if (diagonal_at == no_index) put_diagonal();
-        matrix.value[diagonal_at] = diagonal;
+        column.emplace_back(static_cast<int>(row), diagonal);
+        std::ranges::sort(column);
+        for (const auto& [at, value] : column) {
+            matrix.row.push_back(at);
+            matrix.value.push_back(value);
+        }
         matrix.first.push_back(static_cast<int>(matrix.row.size()));
     }
     return matrix;
 }
 
+// Calls change(value, row) for every diagonal entry.
+template<typename Change>
+void for_diagonal(SparseMatrix& matrix, Change&& change) {
+    for (std::size_t column = 0; column + 1 < matrix.first.size(); ++column)
+        for (int at = matrix.first[column]; at < matrix.first[column + 1]; ++at)
+            if (matrix.row[static_cast<std::size_t>(at)] == static_cast<int>(column))
+                change(matrix.value[static_cast<std::size_t>(at)], column);
+}
+
 // β/ℓ² L + C, of the pattern of L.
 SparseMatrix rotation_matrix(const SampleSystem& system, const SparseMatrix& laplacian) {
     SparseMatrix matrix = laplacian;
-    for (std::size_t column = 0; column < system.free_sample.size(); ++column) {
-        for (int at = matrix.first[column]; at < matrix.first[column + 1]; ++at) {
-            double& value = matrix.value[static_cast<std::size_t>(at)];
-            value *= system.smoothing;
-            if (matrix.row[static_cast<std::size_t>(at)] == static_cast<int>(column))
-                value += system.confidence[column];
-        }
-    }
+    for (double& value : matrix.value) value *= system.smoothing;
+    for_diagonal(matrix, [&](double& value, std::size_t row) { value += system.confidence[row]; });
     return matrix;
+}
+
+// L + μ.
+SparseMatrix position_matrix(const SampleSystem& system, const SparseMatrix& laplacian) {
+    SparseMatrix matrix = laplacian;
+    if (!system.pull.empty())
+        for_diagonal(matrix, [&](double& value, std::size_t row) { value += system.pull[row]; });
+    return matrix;
+}
+
+// L, with so little more on the diagonal that increments are as good as harmonic, but vanish where no handle
+// gives any.
+SparseMatrix increment_matrix(const SparseMatrix& laplacian) {
+    SparseMatrix matrix = laplacian;
+    for_diagonal(matrix, [](double& value, std::size_t /*row*/) { value *= 1 + 1e-9; });
+    return matrix;
+}
+
+void find_pull(SampleSystem& system) {
+    system.pull.assign(system.rest.pulled.empty() ? 0 : system.moving_rows, 0);
+    for (const SoftHold& hold : system.rest.pulled) {
+        const Index row = system.unknown[hold.sample];
+        require(row < system.moving_rows && hold.weight > 0, "only free samples of held parts are pulled");
+        system.pull[row] += hold.weight;
+    }
 }
 
 void find_confidence(SampleSystem& system, double square_length) {
@@ -130,16 +165,27 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     system.turn.assign(system.rest.handle.size(), Mat3d::Zero());
     system.columns.assign(4 * system.free_sample.size(), 0);
 
-    const SparseMatrix matrix = laplacian(system);
-    const std::vector<int> order = minimum_degree_order(matrix);
-    const SparseMatrix smoothing = rotation_matrix(system, matrix);
-    // Neither knows of the other; SuperLU keeps no state between its calls.
-    std::array<FactorOutcome, 2> outcomes;
-    workers.for_each(2, 1, [&](std::size_t which) {
-        outcomes[which] = which == 0 ? system.positions.factorize(matrix, order)
-                                     : system.rotations.factorize(smoothing, order);
+    find_pull(system);
+
+    const std::size_t rows = system.free_sample.size();
+    const SparseMatrix of_moving = laplacian(system, system.moving_rows);
+    const std::vector<int> moving_order = minimum_degree_order(of_moving);
+    const bool more = rows > system.moving_rows;
+    const SparseMatrix of_all = more ? laplacian(system, rows) : of_moving;
+    const std::vector<int> order = more ? minimum_degree_order(of_all) : moving_order;
+    // None knows of the others; SuperLU keeps no state between its calls.
+    std::array<FactorOutcome, 3> outcomes;
+    workers.for_each(more ? 3 : 2, 1, [&](std::size_t which) {
+        if (which == 0)
+            outcomes[0] = system.positions.factorize(position_matrix(system, of_moving), moving_order);
+        else if (which == 1)
+            outcomes[1] = system.rotations.factorize(rotation_matrix(system, of_all), order);
+        else
+            outcomes[2] = system.increments.factorize(increment_matrix(of_all), order);
     });
-    return outcomes[0].solved ? outcomes[1] : outcomes[0];
+    for (std::size_t which = 0; which < (more ? 3U : 2U); ++which)
+        if (!outcomes[which].solved) return outcomes[which];
+    return outcomes[0];
 }
 
 void set_poisson(SampleSystem& system, double poisson) {

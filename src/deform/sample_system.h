@@ -39,15 +39,26 @@ struct HandleMotion {
     Vec3d offset = Vec3d::Zero();
 };
 
+// A free sample that a handle with a falloff pulls.
+struct SoftHold {
+    Index sample = 0;
+    Index handle = 0;
+    double weight = 0;            // μ, of the size of the weights of the links; > 0
+    Vec3d anchor = Vec3d::Zero(); // it is to go as far as the handle sends this: its own rest position, or
+                                  // for a handle that leaves rotation free, one place for all
+};
+
 // What stays while an edit lasts.
 struct SampleRest {
-    Graph graph;                 // between samples
-    std::vector<double> weight;  // of each link of the graph, the same in both directions, > 0
-    std::vector<Vec3d> position; // p, relative to the cloud's origin
-    std::vector<Index> handle;   // of each sample; no_index where it is free
-    double cloud_size = 1;       // s, in the units of the positions
-    double stiffness = 0.01;     // α
-    double poisson = 0;          // ν, -1 < ν < 0.5
+    Graph graph;                    // between samples
+    std::vector<double> weight;     // of each link of the graph, the same in both directions, > 0
+    std::vector<Vec3d> position;    // p, relative to the cloud's origin
+    std::vector<Index> handle;      // of each sample; no_index where it is free
+    std::vector<bool> turns_freely; // of each handle: whether it gives positions only; may end early
+    std::vector<SoftHold> pulled;   // samples that no handle holds
+    double cloud_size = 1;          // s, in the units of the positions
+    double stiffness = 0.01;        // α
+    double poisson = 0;             // ν, -1 < ν < 0.5
 };
 
 // Where the samples are; also the warm start of the next frame.
@@ -59,14 +70,18 @@ struct SampleState {
 // Both systems, factorised, and the work space of an iteration.
 struct SampleSystem {
     SampleRest rest;
-    std::vector<Index>
-        unknown; // of each sample: its row in the systems; no_index for handles and left-out ones
+    // Of each sample its row, or no_index where its rotation is given or it is left out. The first
+    // `moving_rows` have a free position, too: they alone are rows of step 3.
+    std::vector<Index> unknown;
     std::vector<Index> free_sample; // of each row: its sample
+    std::size_t moving_rows = 0;
     std::vector<bool> left_out;     // of each sample: whether no handle holds its component
     double smoothing = 0;           // β/ℓ²
     std::vector<double> confidence; // C, of each row
     SparseFactor rotations;         // β/ℓ² L + C
-    SparseFactor positions;         // L
+    SparseFactor positions;         // L + μ, of the moving rows
+    SparseFactor increments;        // L of all rows, where they are more than the moving ones
+    std::vector<double> pull;       // Σ μ of each moving row; empty where nothing is pulled
 
     std::vector<Surroundings> surroundings; // of each row
 

@@ -58,7 +58,7 @@ void Document::declare(const HandleLine& line, const std::string& place) {
     auto points = std::make_shared<const std::vector<Index>>(resolve(line, place));
     State next = now_;
     std::erase_if(next.handles, [&](const Handle& handle) { return handle.name == line.name; });
-    next.handles.push_back({line.name, line.role, std::move(points)});
+    next.handles.push_back({line.name, line.role, std::move(points), line.free_rotation, line.falloff});
     next.motions.assign(next.handles.size(), HandleMotion{});
     take(std::move(next));
 }

@@ -100,6 +100,10 @@ void carry_out(Editor& editor, const ChangeRole& command) {
     line.name = handle.name;
     line.role = command.role;
     line.points = ranges_of(*handle.points);
+    if (command.role != HandleRole::region_of_interest) {
+        line.free_rotation = handle.free_rotation;
+        line.falloff = handle.falloff;
+    }
     post_step(editor, {std::move(line)});
 }
 
@@ -278,6 +282,8 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     line.name = handle.name + " mirrored";
     line.role = handle.role;
     line.points = ranges_of(points);
+    line.free_rotation = handle.free_rotation;
+    line.falloff = handle.falloff;
     std::vector<SessionAction> lines{line};
     if (editor.document->posed && handle.role == HandleRole::moving) {
         const HandleMotion motion = mirrored(editor.document->motions[*number], command.axis, at);

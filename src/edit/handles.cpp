@@ -61,8 +61,10 @@ Index stronger(Index a, Index b, Index outside) {
 } // namespace
 
 bool hold_the_same(const std::vector<Handle>& a, const std::vector<Handle>& b) {
-    return std::ranges::equal(
-        a, b, [](const Handle& x, const Handle& y) { return x.role == y.role && x.points == y.points; });
+    return std::ranges::equal(a, b, [](const Handle& x, const Handle& y) {
+        return x.role == y.role && x.points == y.points && x.free_rotation == y.free_rotation &&
+               x.falloff == y.falloff;
+    });
 }
 
 void append_point(std::vector<IndexRange>& ranges, std::uint64_t point) {

@@ -17,6 +17,8 @@ struct Handle {
     std::string name;
     HandleRole role = HandleRole::moving;
     std::shared_ptr<const std::vector<Index>> points; // in the file, ascending, each once; never empty
+    bool free_rotation = false; // gives its points their positions only; how they turn is up to the cloud
+    double falloff = 0;         // how far along the surface it pulls what is around it, the less the farther
 };
 
 // Whether two lists of handles hold the same points in the same way, whatever their names. (The same points

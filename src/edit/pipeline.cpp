@@ -5,10 +5,12 @@
 #include "base/stopwatch.h"
 #include "cloud/extent.h"
 #include "deform/rotation.h"
+#include "graph/distances.h"
 #include "graph/edge_weights.h"
 #include "graph/octree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace knead {
@@ -36,6 +38,33 @@ Motion motion_about(const Mat3d& beyond_identity, const Vec3d& offset) {
         motion.map[4 * row + 3] = static_cast<float>(offset[row]);
     }
     return motion;
+}
+
+// A surface cannot carry a point: what pulls at one draws out a spike, the sharper the more samples there
+// are. A handle that is smaller than this part of the cloud's size pulls what is around it, too.
+constexpr double small_handle = 0.03;
+constexpr double small_falloff = 0.06; // of the cloud's size, of a handle of one point
+
+double least_falloff(std::span<const Index> vertices, std::span<const float> positions, double cloud_size) {
+    Vec3d middle = Vec3d::Zero();
+    for (const Index v : vertices) middle += at(positions, v) / static_cast<double>(vertices.size());
+    double squares = 0;
+    for (const Index v : vertices) squares += (at(positions, v) - middle).squaredNorm();
+    const double radius = std::sqrt(2 * squares / static_cast<double>(vertices.size())); // as of a disc
+    return small_falloff * std::max(0.0, cloud_size - radius / small_handle);
+}
+
+// Where the samples of each handle lie at rest, in the middle.
+std::vector<Vec3d> middles_of_handles(const SampleRest& rest, std::size_t handles) {
+    std::vector<Vec3d> middle(handles, Vec3d::Zero());
+    std::vector<double> count(handles, 0);
+    for (std::size_t s = 0; s < rest.handle.size(); ++s) {
+        if (!(rest.handle[s] < handles)) continue;
+        middle[rest.handle[s]] += rest.position[s];
+        ++count[rest.handle[s]];
+    }
+    for (std::size_t h = 0; h < handles; ++h) middle[h] /= std::max(count[h], 1.0);
+    return middle;
 }
 
 Motion motion_of_handle(const HandleMotion& handle) {
@@ -171,6 +200,7 @@ void Pipeline::prepare_handles(Progress& progress) {
     if (every_point_) {
         sample_graph_ = sample_graph_of_all(*graph_);
         seconds_.sampling += clock.lap();
+        prepare_falloffs();
         return;
     }
     const VertexShape shape{order_.code, vertex_positions_, *graph_, *components_};
@@ -184,7 +214,49 @@ void Pipeline::prepare_handles(Progress& progress) {
                                 workers_, progress);
     stale_.samples = false;
     sample_graph_ = knead::sample_graph(nearest_, samples_, *graph_, workers_);
+    prepare_falloffs();
     seconds_.geodesic += clock.lap();
+}
+
+void Pipeline::prepare_falloffs() {
+    pulled_.clear();
+    std::vector<Index> sample_of(order_.vertices(), no_index);
+    for (Index s = 0; s < samples_.size(); ++s) sample_of[samples_[s]] = s;
+    std::vector<std::vector<Index>> held(input_.handles.size());
+    for (Index v = 0; v < order_.vertices(); ++v)
+        if (labels_.vertex[v] < held.size()) held[labels_.vertex[v]].push_back(v);
+    for (Index h = 0; h < held.size(); ++h) {
+        if (held[h].empty()) continue;
+        const double falloff =
+            std::max(input_.handles[h].falloff, least_falloff(held[h], vertex_positions_, cloud_size_));
+        if (!(falloff > 0)) continue;
+        for (const Reached& near : reached_within(*graph_, vertex_positions_, held[h], falloff))
+            if (sample_of[near.vertex] != no_index && labels_.vertex[near.vertex] == no_index &&
+                near.distance < falloff)
+                pulled_.push_back({sample_of[near.vertex], h, near.distance / falloff, falloff});
+    }
+}
+
+// The pull is that of a bed of springs whose stiffness over that of the surface is a length squared, in the
+// continuum: it looks alike for any number of samples. Near the handle it grows beyond all bounds, at the
+// falloff's end it vanishes smoothly.
+std::vector<SoftHold> Pipeline::soft_holds(const SampleRest& rest) const {
+    constexpr double strength = 4;
+    constexpr double nearest = 0.02; // of the falloff
+    const std::vector<Vec3d> middle = middles_of_handles(rest, input_.handles.size());
+    std::vector<SoftHold> holds;
+    for (const Pulled& pulled : pulled_) {
+        double spread = 0;
+        for (Index link = rest.graph.first[pulled.sample]; link < rest.graph.first[pulled.sample + 1]; ++link)
+            spread += rest.weight[link] *
+                      (rest.position[rest.graph.neighbor[link]] - rest.position[pulled.sample]).squaredNorm();
+        const double shape = (1 - pulled.way) / std::max(pulled.way, nearest);
+        const double weight = strength * shape * shape * spread / (pulled.falloff * pulled.falloff);
+        const Vec3d anchor = input_.handles[pulled.handle].free_rotation ? middle[pulled.handle]
+                                                                         : rest.position[pulled.sample];
+        if (weight > 0) holds.push_back({pulled.sample, pulled.handle, weight, anchor});
+    }
+    return holds;
 }
 
 void Pipeline::prepare_influences() {
@@ -225,6 +297,8 @@ void Pipeline::prepare_systems() {
     rest.cloud_size = cloud_size_;
     rest.stiffness = input_.settings.stiffness;
     rest.poisson = input_.settings.poisson;
+    for (const Handle& handle : input_.handles) rest.turns_freely.push_back(handle.free_rotation);
+    rest.pulled = soft_holds(rest);
     const FactorOutcome outcome = build_system(std::move(rest), system_, workers_);
     seconds_.factorize += clock.lap();
     if (!outcome.solved)
@@ -261,7 +335,8 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
     const std::size_t samples = samples_.size();
     workers_.for_each(samples, 1024, [&](std::size_t s) {
         const Index handle = system_.rest.handle[s];
-        if (handle != no_index && handle != labels_.outside) {
+        const bool given = handle != no_index && system_.unknown[s] == no_index;
+        if (given && handle != labels_.outside) {
             motions_[s] = motion_of_handle(motions[handle]);
         } else {
             // Stretched with its surroundings, a sample takes what is between it and the next ones along;

@@ -111,6 +111,8 @@ private:
     void prepare_points(Progress& progress);
     void prepare_samples(Progress& progress);
     void prepare_handles(Progress& progress);
+    void prepare_falloffs();
+    std::vector<SoftHold> soft_holds(const SampleRest& rest) const;
     void prepare_influences();
     void prepare_systems();
     void prepare_upsampler();
@@ -137,6 +139,14 @@ private:
     std::shared_ptr<const Components> components_;
     std::vector<std::uint8_t> link_lengths_;
 
+    // A sample within the falloff of a handle.
+    struct Pulled {
+        Index sample = 0;
+        Index handle = 0;
+        double way = 0; // of the falloff, in it
+        double falloff = 0;
+    };
+
     bool every_point_ = false;
     std::vector<Index> samples_;
     std::size_t base_samples_ = 0;
@@ -144,6 +154,7 @@ private:
     std::optional<FloodPatch> handle_flood_;
 
     HandleLabels labels_;
+    std::vector<Pulled> pulled_;
     Strays strays_;
     std::vector<bool> held_component_;
     SampleGraph sample_graph_;

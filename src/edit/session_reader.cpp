@@ -94,13 +94,16 @@ HandleLine read_handle(const Value& line) {
         refuse(line, "must say which points the handle has, by either \"points\" or \"region\"");
     if (points) handle.points = read_points(*points);
     if (region) handle.points = read_region(*region);
+    const bool is_region = handle.role == HandleRole::region_of_interest;
     if (const auto rotation = optional_member(line, "rotation")) {
         handle.free_rotation = choice(*rotation, rotations);
-        if (handle.free_rotation) refuse_for_now(*rotation, "\"held\"");
+        if (handle.free_rotation && is_region)
+            refuse(*rotation, "is for fixed and moving handles, not for \"roi\"");
     }
     if (const auto falloff = optional_member(line, "falloff")) {
         handle.falloff = number_at_least_zero(*falloff);
-        if (handle.falloff > 0) refuse_for_now(*falloff, "0");
+        if (handle.falloff > 0 && is_region)
+            refuse(*falloff, "is for fixed and moving handles, not for \"roi\"");
     }
     return handle;
 }

@@ -1,0 +1,73 @@
+// Point handles, falloffs and free rotations on whole clouds.
+
+#include "edit/editing.h"
+
+namespace knead {
+namespace {
+
+using namespace knead::test;
+
+// How far the plane rises at this distance from its middle, over how far the handle there was lifted.
+struct Profile {
+    std::vector<float> shape, rest;
+    Vec3d middle; // of the handle, about the cloud's origin as they are
+
+    double at_distance(double distance) const {
+        double sum = 0;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < rest.size(); i += 3) {
+            const double way = std::hypot(rest[i] - middle.x(), rest[i + 1] - middle.y());
+            if (std::abs(way - distance) > 0.01) continue;
+            sum += shape[i + 2] - rest[i + 2];
+            ++count;
+        }
+        return sum / static_cast<double>(count) / 0.2;
+    }
+};
+
+Profile lifted(std::uint64_t samples, const std::string& keys, const std::string& radius) {
+    Settings settings;
+    settings.samples = samples;
+    Desk desk(made(Shape::plane, 20'000), settings);
+    desk.play(
+        R"({"op":"handle","name":"around","role":"roi","region":{"sphere":{"center":[0.5,0.5,0],"radius":0.4}}})"
+        "\n"
+        R"({"op":"handle","name":"top","role":"moving","region":{"sphere":{"center":[0.5,0.5,0],"radius":)" +
+        radius + "}}" + keys + "}\n" + drag(R"({"translate":[0,0,0.2]})") + settle(100));
+    EXPECT_LT(desk.handle_error(), 1e-6);
+    const PointCloud& cloud = desk.document().cloud();
+    return {desk.shape(), cloud.positions, Vec3d(0.5, 0.5, 0) - cloud.origin};
+}
+
+TEST(HandleKinds, ASinglePointDrawsNoSpike) {
+    const Profile coarse = lifted(300, "", "0.006");
+    const Profile fine = lifted(3000, "", "0.006");
+    // A spike would have lost most of its height here, the more the more samples there are.
+    EXPECT_GT(fine.at_distance(0.03), 0.8);
+    EXPECT_NEAR(fine.at_distance(0.03), coarse.at_distance(0.03), 0.1);
+    EXPECT_NEAR(fine.at_distance(0.15), coarse.at_distance(0.15), 0.05);
+}
+
+TEST(HandleKinds, AFalloffCarriesWhatIsAroundAndEndsThere) {
+    const Profile without = lifted(1000, "", "0.1");
+    const Profile with = lifted(1000, R"(,"falloff":0.15)", "0.1");
+    EXPECT_GT(with.at_distance(0.14), without.at_distance(0.14) + 0.1);
+    EXPECT_GT(with.at_distance(0.14), 0.85);
+    EXPECT_LT(with.at_distance(0.38), 0.3); // it is the surface that falls off from there
+}
+
+TEST(HandleKinds, FreeRotationFollowsThePositionsOnly) {
+    for (const char* rotation : {"held", "free"}) {
+        Desk desk(bar());
+        desk.play(foot + R"({"op":"handle","name":"top","role":"moving","rotation":")" + rotation +
+                  R"(","region":{"halfspace":{"point":[0,0,2],"normal":[0,0,1]}}})"
+                  "\n" +
+                  drag(turn('y', 60)) + settle(30));
+        // The points of the handle take its pose in both cases.
+        EXPECT_LT(desk.handle_error(), 1e-6);
+        EXPECT_TRUE(all_finite(desk.shape()));
+    }
+}
+
+} // namespace
+} // namespace knead

@@ -1,0 +1,55 @@
+#include "graph/distances.h"
+
+#include "graph/clouds.h"
+
+namespace knead {
+namespace {
+
+using test::Cloud;
+
+// The yardstick: relaxing all links until nothing changes (Bellman and Ford).
+std::vector<double> by_relaxation(const Cloud& cloud, const std::vector<Index>& sources) {
+    std::vector<double> distance(cloud.size(), 1e300);
+    for (const Index source : sources) distance[source] = 0;
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (Index v = 0; v < cloud.graph.size(); ++v)
+            for (const Index u : cloud.graph.row(v)) {
+                const double way = distance[v] + (cloud.at(u) - cloud.at(v)).norm();
+                if (way >= distance[u]) continue;
+                distance[u] = way;
+                changed = true;
+            }
+    }
+    return distance;
+}
+
+TEST(ReachedWithin, IsAllThatIsNearInOrder) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 1500));
+    const std::vector<Index> sources{3, 700, 701};
+    const std::vector<double> expected = by_relaxation(cloud, sources);
+    constexpr double limit = 0.4;
+    const auto reached = reached_within(cloud.graph, cloud.positions, sources, limit);
+    std::size_t near = 0;
+    for (const double distance : expected) near += distance <= limit;
+    ASSERT_EQ(reached.size(), near);
+    EXPECT_GT(near, sources.size());
+    for (std::size_t r = 0; r < reached.size(); ++r) {
+        EXPECT_NEAR(reached[r].distance, expected[reached[r].vertex], 1e-12); // sums in another order
+        if (r > 0) {
+            EXPECT_GE(reached[r].distance, reached[r - 1].distance);
+        }
+    }
+}
+
+TEST(ReachedWithin, NeedsASourceAndStaysInItsPart) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::sphere, 300));
+    EXPECT_TRUE(reached_within(cloud.graph, cloud.positions, {}, 100).empty());
+    const std::vector<Index> source{5};
+    const auto only = reached_within(cloud.graph, cloud.positions, source, 0);
+    ASSERT_EQ(only.size(), 1U);
+    EXPECT_EQ(only[0].vertex, 5U);
+}
+
+} // namespace
+} // namespace knead

@@ -89,4 +89,38 @@ Graph with_edges(const Graph& graph, std::span<const std::pair<Index, Index>> ed
     return result;
 }
 
+Graph rewired(const Graph& graph, std::span<const std::uint8_t> stays,
+              std::span<const std::pair<Index, Index>> added, Workers& workers) {
+    require(stays.size() == graph.neighbor.size(), "a word on every link");
+    std::vector<std::pair<Index, Index>> both;
+    both.reserve(2 * added.size());
+    for (const auto& [a, b] : added) {
+        both.emplace_back(a, b);
+        both.emplace_back(b, a);
+    }
+    std::ranges::sort(both);
+    both.erase(std::ranges::unique(both).begin(), both.end());
+    const auto added_at = [&](std::size_t v) {
+        return std::ranges::equal_range(both, static_cast<Index>(v), {}, &std::pair<Index, Index>::first);
+    };
+
+    Graph result;
+    result.first.assign(graph.size() + 1, 0);
+    workers.for_each(graph.size(), grain, [&](std::size_t v) {
+        std::size_t count = added_at(v).size();
+        for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link) count += stays[link] ? 1 : 0;
+        result.first[v] = static_cast<Index>(count);
+    });
+    counts_to_rows(result.first);
+    result.neighbor.resize(result.first.back());
+    workers.for_each(graph.size(), grain, [&](std::size_t v) {
+        Index at = result.first[v];
+        for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link)
+            if (stays[link]) result.neighbor[at++] = graph.neighbor[link];
+        for (const auto& link : added_at(v)) result.neighbor[at++] = link.second;
+        std::sort(result.neighbor.begin() + result.first[v], result.neighbor.begin() + at);
+    });
+    return result;
+}
+
 } // namespace knead

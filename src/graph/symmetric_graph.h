@@ -4,7 +4,9 @@
 #include "base/workers.h"
 #include "graph/csr.h"
 
+#include <cstdint>
 #include <span>
+#include <utility>
 
 namespace knead {
 
@@ -15,5 +17,11 @@ Graph symmetric_graph(std::span<const Index> lists, std::size_t width, Workers& 
 
 // `graph` with further undirected edges (pairs may repeat, and may be there already).
 Graph with_edges(const Graph& graph, std::span<const std::pair<Index, Index>> edges);
+
+// The links of `graph` whose entry in `stays` is not 0 (one for every entry of graph.neighbor, the same for
+// both directions of a link), and the undirected ones of `added`, which may repeat but not name a link that
+// stays.
+Graph rewired(const Graph& graph, std::span<const std::uint8_t> stays,
+              std::span<const std::pair<Index, Index>> added, Workers& workers);
 
 } // namespace knead

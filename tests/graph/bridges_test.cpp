@@ -1,0 +1,131 @@
+// Bridges between components, and outliers that hang.
+
+#include "graph/bridges.h"
+
+#include "graph/clouds.h"
+
+namespace knead {
+namespace {
+
+using namespace test;
+
+BridgedGraph bridged_of(const Cloud& cloud, unsigned threads = 2) {
+    Machine machine(threads);
+    return bridged(cloud.graph, cloud.positions, machine.workers, machine.progress);
+}
+
+// Two square plates of unit spacing, one above the other.
+std::vector<float> plates(double gap, double spacing_above = 1) {
+    std::vector<float> positions = grid_positions(20, 20);
+    const int count = static_cast<int>(20 / spacing_above);
+    for (int x = 0; x < count; ++x)
+        for (int y = 0; y < count; ++y)
+            append(positions, Vec3d(x * spacing_above + 0.1, y * spacing_above + 0.1, gap));
+    return positions;
+}
+
+std::size_t parts(const Graph& graph) {
+    return find_components(graph).size.size();
+}
+
+TEST(Bridges, JoinPlatesThatAreNearAndNoOthers) {
+    for (const double gap : {2.3, 5.0}) {
+        const Cloud cloud = cloud_of(plates(gap));
+        ASSERT_EQ(cloud.components.size.size(), 2U);
+        const BridgedGraph joined = bridged_of(cloud);
+        EXPECT_EQ(parts(joined.graph), 1U) << gap;
+        EXPECT_GE(joined.bridges, 400U) << "they are not sewn together all along";
+        EXPECT_EQ(joined.outliers, 0U);
+    }
+    const Cloud far = cloud_of(plates(20));
+    EXPECT_TRUE(same_graph(bridged_of(far).graph, far.graph));
+}
+
+TEST(Bridges, JudgeTheGapByTheDenserSide) {
+    const Cloud even = cloud_of(plates(6));
+    EXPECT_EQ(parts(bridged_of(even).graph), 1U);
+    const Cloud dense_above = cloud_of(plates(6, 0.45)); // 13 of its spacings
+    ASSERT_EQ(dense_above.components.size.size(), 2U);
+    EXPECT_EQ(parts(bridged_of(dense_above).graph), 2U);
+}
+
+TEST(Bridges, LinkNothingWithinAComponent) {
+    std::vector<NamedCloud> clouds = several_clouds();
+    clouds.push_back({"plates", cloud_of(plates(2.5))});
+    clouds.push_back({"large knot", cloud_of(shape_positions(Shape::knot, 20000))});
+    for (const auto& [name, cloud] : clouds) {
+        const BridgedGraph joined = bridged_of(cloud);
+        expect_well_formed(joined.graph);
+        for (Index v = 0; v < cloud.size(); ++v) {
+            for (const Index u : joined.graph.row(v)) {
+                if (joined.hanging[v] || joined.hanging[u] || find_link(cloud.graph, v, u)) continue;
+                ASSERT_NE(cloud.components.component[v], cloud.components.component[u]) << name;
+            }
+        }
+    }
+}
+
+TEST(Bridges, LeaveTheLimbsOfAKnotAlone) {
+    const Cloud knot = cloud_of(shape_positions(Shape::knot, 20000));
+    EXPECT_TRUE(same_graph(bridged_of(knot).graph, knot.graph));
+}
+
+TEST(Bridges, AreTheSameWhateverTheNumberOfWorkers) {
+    std::vector<float> positions = plates(3);
+    const std::vector<float> dust = random_positions(60, 5, {10, 10, 9});
+    positions.insert(positions.end(), dust.begin(), dust.end());
+    const Cloud cloud = cloud_of(positions);
+    const BridgedGraph one = bridged_of(cloud, 1), three = bridged_of(cloud, 3);
+    EXPECT_TRUE(same_graph(one.graph, three.graph));
+    EXPECT_EQ(one.hanging, three.hanging);
+}
+
+// --- Outliers
+
+TEST(Outliers, BetweenTwoSurfacesTieThemNot) {
+    std::vector<float> positions = plates(24);
+    for (const double x : {8.0, 10.5, 13.0}) append(positions, Vec3d(x, 9, 12));
+    const Cloud cloud = cloud_of(positions);
+    ASSERT_EQ(cloud.components.size.size(), 1U) << "there is nothing to be taken apart";
+    const BridgedGraph joined = bridged_of(cloud);
+    EXPECT_EQ(joined.outliers, 3U);
+    EXPECT_EQ(parts(joined.graph), 2U);
+}
+
+TEST(Outliers, HangOnOneVertexThatIsNone) {
+    ShapeOptions options;
+    options.points = 20000;
+    options.outliers = 0.02;
+    Machine machine;
+    const PointCloud knot = make_shape(Shape::knot, options, machine.workers, machine.progress);
+    const Cloud cloud = cloud_of(knot.positions);
+    const BridgedGraph joined = bridged_of(cloud);
+    expect_well_formed(joined.graph);
+    EXPECT_GT(joined.outliers, 280U); // of 400, some of them near the surface
+    EXPECT_LT(joined.outliers, 420U);
+    std::size_t hanging = 0;
+    for (std::size_t v = 0; v < cloud.size(); ++v) {
+        if (!joined.hanging[v]) continue;
+        ++hanging;
+        ASSERT_EQ(joined.graph.row(v).size(), 1U);
+        ASSERT_FALSE(joined.hanging[joined.graph.row(v).front()]);
+    }
+    EXPECT_EQ(hanging, joined.outliers);
+    const Components components = find_components(joined.graph);
+    EXPECT_GT(*std::ranges::max_element(components.size), 19900U);
+}
+
+TEST(Outliers, AreNeverAll) {
+    for (const std::size_t points : {0U, 1U, 2U, 3U, 6U, 8U, 40U}) {
+        const Cloud cloud = cloud_of(random_positions(points, 11));
+        const BridgedGraph joined = bridged_of(cloud);
+        expect_well_formed(joined.graph);
+        EXPECT_EQ(joined.graph.size(), points);
+        if (points > 0) {
+            EXPECT_LT(joined.outliers, points);
+        }
+    }
+}
+
+} // namespace
+} // namespace knead

@@ -5,12 +5,11 @@
 #include "base/stopwatch.h"
 #include "cloud/extent.h"
 #include "deform/rotation.h"
-#include "graph/distances.h"
+#include "graph/bridges.h"
 #include "graph/edge_weights.h"
 #include "graph/octree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace knead {
@@ -38,33 +37,6 @@ Motion motion_about(const Mat3d& beyond_identity, const Vec3d& offset) {
         motion.map[4 * row + 3] = static_cast<float>(offset[row]);
     }
     return motion;
-}
-
-// A surface cannot carry a point: what pulls at one draws out a spike, the sharper the more samples there
-// are. A handle that is smaller than this part of the cloud's size pulls what is around it, too.
-constexpr double small_handle = 0.03;
-constexpr double small_falloff = 0.06; // of the cloud's size, of a handle of one point
-
-double least_falloff(std::span<const Index> vertices, std::span<const float> positions, double cloud_size) {
-    Vec3d middle = Vec3d::Zero();
-    for (const Index v : vertices) middle += at(positions, v) / static_cast<double>(vertices.size());
-    double squares = 0;
-    for (const Index v : vertices) squares += (at(positions, v) - middle).squaredNorm();
-    const double radius = std::sqrt(2 * squares / static_cast<double>(vertices.size())); // as of a disc
-    return small_falloff * std::max(0.0, cloud_size - radius / small_handle);
-}
-
-// Where the samples of each handle lie at rest, in the middle.
-std::vector<Vec3d> middles_of_handles(const SampleRest& rest, std::size_t handles) {
-    std::vector<Vec3d> middle(handles, Vec3d::Zero());
-    std::vector<double> count(handles, 0);
-    for (std::size_t s = 0; s < rest.handle.size(); ++s) {
-        if (!(rest.handle[s] < handles)) continue;
-        middle[rest.handle[s]] += rest.position[s];
-        ++count[rest.handle[s]];
-    }
-    for (std::size_t h = 0; h < handles; ++h) middle[h] /= std::max(count[h], 1.0);
-    return middle;
 }
 
 Motion motion_of_handle(const HandleMotion& handle) {
@@ -115,7 +87,8 @@ void Pipeline::note_changes(const Settings& settings) {
     const Settings& before = input_.settings;
     stale_.points |= settings.neighbors != before.neighbors;
     stale_.samples |= settings.samples != before.samples;
-    stale_.influences |= settings.weights != before.weights;
+    stale_.bridges |= (settings.strays == knead::Strays::bridge) != (before.strays == knead::Strays::bridge);
+    stale_.influences |= settings.weights != before.weights || settings.strays != before.strays;
     stale_.systems |= settings.stiffness != before.stiffness;
     if (settings.poisson != before.poisson) set_poisson(system_, settings.poisson);
     input_.settings = settings;
@@ -124,8 +97,13 @@ void Pipeline::note_changes(const Settings& settings) {
 void Pipeline::prepare_stages_without_handles(Progress& progress) {
     if (stale_.points) {
         prepare_points(progress);
-        stale_.samples = true;
+        stale_.bridges = true;
         stale_.points = false;
+    }
+    if (stale_.bridges) {
+        prepare_bridges(progress);
+        stale_.samples = stale_.contacts = true;
+        stale_.bridges = false;
     }
     if (stale_.samples) {
         prepare_samples(progress);
@@ -153,8 +131,20 @@ void Pipeline::prepare_order(Progress& progress) {
 void Pipeline::prepare_points(Progress& progress) {
     prepare_order(progress);
     const Stopwatch clock;
-    graph_ = std::make_shared<const Graph>(
+    neighbors_ = std::make_shared<const Graph>(
         neighbor_graph(vertex_positions_, input_.settings.neighbors, workers_, progress));
+    seconds_.neighbors += clock.seconds();
+}
+
+void Pipeline::prepare_bridges(Progress& progress) {
+    const Stopwatch clock;
+    graph_ = neighbors_;
+    hanging_.clear();
+    if (input_.settings.strays == knead::Strays::bridge) {
+        BridgedGraph joined = bridged(*neighbors_, vertex_positions_, workers_, progress);
+        graph_ = std::make_shared<const Graph>(std::move(joined.graph));
+        if (joined.outliers > 0) hanging_ = std::move(joined.hanging);
+    }
     components_ = std::make_shared<const Components>(find_components(*graph_));
     link_lengths_ = link_lengths(*graph_, vertex_positions_, workers_);
     seconds_.neighbors += clock.seconds();
@@ -168,10 +158,15 @@ void Pipeline::prepare_samples(Progress& progress) {
     std::iota(samples_.begin(), samples_.end(), Index{0});
     every_point_ = !input_.settings.samples || *input_.settings.samples >= vertices;
     if (!every_point_) {
+        if (!hanging_.empty()) std::erase_if(samples_, [&](Index v) { return hanging_[v] != 0; });
         const auto chosen =
             octree_samples(order_.code, vertex_positions_, samples_, *input_.settings.samples);
         samples_ = relaxed(shuffled(chosen), *graph_, link_lengths_, vertex_positions_, relaxing_rounds,
                            workers_, progress);
+        // A sample that was moved to an outlier goes on to where that hangs: no other sample has it nearest.
+        if (!hanging_.empty())
+            for (Index& v : samples_)
+                if (hanging_[v]) v = graph_->row(v).front();
     }
     base_samples_ = samples_.size();
     seconds_.sampling += clock.lap();
@@ -182,25 +177,22 @@ void Pipeline::prepare_samples(Progress& progress) {
     seconds_.geodesic += clock.lap();
 }
 
+void Pipeline::find_pulled() {
+    pulled_ =
+        pulled_samples(input_.handles, labels_.vertex, samples_, *graph_, vertex_positions_, cloud_size_);
+}
+
 void Pipeline::prepare_handles(Progress& progress) {
     Stopwatch clock;
     if (handle_flood_) revert(nearest_, *handle_flood_);
     handle_flood_.reset();
     samples_.resize(base_samples_);
 
-    labels_ = label_points(input_.handles, order_, cloud_.size());
-    held_component_.assign(components_->size.size(), false);
-    for (std::size_t v = 0; v < order_.vertices(); ++v)
-        if (labels_.vertex[v] != no_index) held_component_[components_->component[v]] = true;
-    strays_ = {};
-    strays_.parts = static_cast<std::size_t>(std::ranges::count(held_component_, false));
-    for (const Index vertex : order_.vertex)
-        if (!held_component_[components_->component[vertex]]) ++strays_.points;
-
+    label_vertices();
     if (every_point_) {
         sample_graph_ = sample_graph_of_all(*graph_);
         seconds_.sampling += clock.lap();
-        prepare_falloffs();
+        find_pulled();
         return;
     }
     const VertexShape shape{order_.code, vertex_positions_, *graph_, *components_};
@@ -214,49 +206,27 @@ void Pipeline::prepare_handles(Progress& progress) {
                                 workers_, progress);
     stale_.samples = false;
     sample_graph_ = knead::sample_graph(nearest_, samples_, *graph_, workers_);
-    prepare_falloffs();
+    find_pulled();
     seconds_.geodesic += clock.lap();
 }
 
-void Pipeline::prepare_falloffs() {
-    pulled_.clear();
-    std::vector<Index> sample_of(order_.vertices(), no_index);
-    for (Index s = 0; s < samples_.size(); ++s) sample_of[samples_[s]] = s;
-    std::vector<std::vector<Index>> held(input_.handles.size());
-    for (Index v = 0; v < order_.vertices(); ++v)
-        if (labels_.vertex[v] < held.size()) held[labels_.vertex[v]].push_back(v);
-    for (Index h = 0; h < held.size(); ++h) {
-        if (held[h].empty()) continue;
-        const double falloff =
-            std::max(input_.handles[h].falloff, least_falloff(held[h], vertex_positions_, cloud_size_));
-        if (!(falloff > 0)) continue;
-        for (const Reached& near : reached_within(*graph_, vertex_positions_, held[h], falloff))
-            if (sample_of[near.vertex] != no_index && labels_.vertex[near.vertex] == no_index &&
-                near.distance < falloff)
-                pulled_.push_back({sample_of[near.vertex], h, near.distance / falloff, falloff});
-    }
-}
-
-// The pull is that of a bed of springs whose stiffness over that of the surface is a length squared, in the
-// continuum: it looks alike for any number of samples. Near the handle it grows beyond all bounds, at the
-// falloff's end it vanishes smoothly.
-std::vector<SoftHold> Pipeline::soft_holds(const SampleRest& rest) const {
-    constexpr double strength = 4;
-    constexpr double nearest = 0.02; // of the falloff
-    const std::vector<Vec3d> middle = middles_of_handles(rest, input_.handles.size());
-    std::vector<SoftHold> holds;
-    for (const Pulled& pulled : pulled_) {
-        double spread = 0;
-        for (Index link = rest.graph.first[pulled.sample]; link < rest.graph.first[pulled.sample + 1]; ++link)
-            spread += rest.weight[link] *
-                      (rest.position[rest.graph.neighbor[link]] - rest.position[pulled.sample]).squaredNorm();
-        const double shape = (1 - pulled.way) / std::max(pulled.way, nearest);
-        const double weight = strength * shape * shape * spread / (pulled.falloff * pulled.falloff);
-        const Vec3d anchor = input_.handles[pulled.handle].free_rotation ? middle[pulled.handle]
-                                                                         : rest.position[pulled.sample];
-        if (weight > 0) holds.push_back({pulled.sample, pulled.handle, weight, anchor});
-    }
-    return holds;
+// Who holds what, and which components hold a handle.
+void Pipeline::label_vertices() {
+    labels_ = label_points(input_.handles, order_, cloud_.size());
+    // An outlier has no say: held or not, it is like the vertex that it hangs on. Its own points still follow
+    // their handle, but nothing else does for its sake.
+    if (!hanging_.empty())
+        for (std::size_t v = 0; v < order_.vertices(); ++v)
+            if (hanging_[v]) labels_.vertex[v] = labels_.vertex[graph_->row(v).front()];
+    std::vector<bool> held(components_->size.size(), false);
+    for (std::size_t v = 0; v < order_.vertices(); ++v)
+        if (labels_.vertex[v] != no_index) held[components_->component[v]] = true;
+    stale_.contacts |= held != held_component_;
+    held_component_ = std::move(held);
+    strays_ = {};
+    strays_.parts = static_cast<std::size_t>(std::ranges::count(held_component_, false));
+    for (const Index vertex : order_.vertex)
+        if (!held_component_[components_->component[vertex]]) ++strays_.points;
 }
 
 void Pipeline::prepare_influences() {
@@ -271,15 +241,41 @@ void Pipeline::prepare_influences() {
     std::vector<Index> row_of_label(outside + 1);
     for (Index label = 0; label <= outside; ++label)
         row_of_label[label] = append_single(rows_, samples + label);
+    const auto first_carried = static_cast<Index>(rows_.size());
+    prepare_carried(row_of_label);
     row_of_point_.resize(order_.points());
     workers_.for_each(order_.points(), 1 << 14, [&](std::size_t i) {
         const Index vertex = order_.vertex[i];
-        const bool held = held_component_[components_->component[vertex]];
-        const Index label = held ? labels_.point[i] : outside;
-        row_of_point_[i] = label == no_index ? vertex : row_of_label[label];
+        const Index component = components_->component[vertex];
+        const Index label = labels_.point[i];
+        Index& row = row_of_point_[i];
+        if (label != no_index)
+            row = row_of_label[label];
+        else if (held_component_[component])
+            row = vertex;
+        else if (carried_.size() > 0)
+            row = first_carried + contacts_.part[component];
+        else
+            row = row_of_label[outside];
     });
-    motions_.assign(samples + outside + 1, Motion{});
+    motions_.assign(samples + outside + 1 + carried_.size(), Motion{});
     seconds_.geodesic += clock.lap();
+}
+
+// What carries the parts that hold no handle, and a row for each of them.
+void Pipeline::prepare_carried(std::span<const Index> row_of_label) {
+    strays_.fate = input_.settings.strays;
+    carried_ = {};
+    if (strays_.fate == knead::Strays::freeze || strays_.parts == 0) return;
+    if (stale_.contacts)
+        contacts_ = find_contacts(vertex_positions_, *components_, held_component_, workers_);
+    stale_.contacts = false;
+    std::vector<Index> row_of_vertex(order_.vertices());
+    for (Index v = 0; v < row_of_vertex.size(); ++v)
+        row_of_vertex[v] = labels_.vertex[v] == no_index ? v : row_of_label[labels_.vertex[v]];
+    carried_ = carried_parts(contacts_, rows_, row_of_vertex);
+    const auto first = static_cast<Index>(samples_.size() + labels_.outside + 1);
+    for (Index part = 0; part < carried_.size(); ++part) append_single(rows_, first + part);
 }
 
 void Pipeline::prepare_systems() {
@@ -298,7 +294,7 @@ void Pipeline::prepare_systems() {
     rest.stiffness = input_.settings.stiffness;
     rest.poisson = input_.settings.poisson;
     for (const Handle& handle : input_.handles) rest.turns_freely.push_back(handle.free_rotation);
-    rest.pulled = soft_holds(rest);
+    rest.pulled = soft_holds(input_.handles, pulled_, rest);
     const FactorOutcome outcome = build_system(std::move(rest), system_, workers_);
     seconds_.factorize += clock.lap();
     if (!outcome.solved)
@@ -310,6 +306,13 @@ void Pipeline::prepare_systems() {
 void Pipeline::prepare_upsampler() {
     Stopwatch clock;
     const RestShape& rest = input_.rest ? *input_.rest : opened_;
+    for (std::size_t part = 0; part < carried_.size(); ++part) {
+        const Index begin = contacts_.first[part], end = contacts_.first[part + 1];
+        Vec3d sum = Vec3d::Zero();
+        for (Index at_contact = begin; at_contact < end; ++at_contact)
+            sum += at(rest.positions, order_.first_point[contacts_.vertex[at_contact]]);
+        carried_.anchor[part] = sum / static_cast<double>(end - begin);
+    }
     posed_.positions.resize(rest.positions.size());
     posed_.normals.resize(rest.normals.size());
     upsampler_.prepare({rest.positions, rest.normals, row_of_point_, &rows_}, motions_.size());
@@ -348,15 +351,33 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
         }
     });
     for (std::size_t h = 0; h < motions.size(); ++h) motions_[samples + h] = motion_of_handle(motions[h]);
+    const std::size_t first_carried = motions_.size() - carried_.size();
+    workers_.for_each(carried_.size(), 16, [&](std::size_t part) {
+        motions_[first_carried + part] = carried_motion(carried_, part, motions_);
+    });
     upsampler_.run(motions_, posed_.positions, posed_.normals);
 }
 
 std::string words_about(const Pipeline::Strays& strays) {
     if (strays.parts == 0) return {};
     const bool one = strays.parts == 1;
-    return std::to_string(strays.parts) + (one ? " part" : " parts") + " of the cloud (" +
-           std::to_string(strays.points) + (strays.points == 1 ? " point) " : " points) ") +
-           (one ? "holds no handle and stays where it is" : "hold no handle and stay where they are");
+    std::string words = std::to_string(strays.parts) + (one ? " part" : " parts") + " of the cloud (" +
+                        std::to_string(strays.points) + (strays.points == 1 ? " point) " : " points) ");
+    switch (strays.fate) {
+    case Strays::freeze:
+        words += one ? "holds no handle and stays where it is" : "hold no handle and stay where they are";
+        break;
+    case Strays::carry:
+        words += one ? "holds no handle and follows the nearest part that does"
+                     : "hold no handle and follow the nearest part that does";
+        break;
+    case Strays::bridge:
+        words +=
+            one ? "is too far from what holds a handle to be joined to it, and follows the nearest of that"
+                : "are too far from what holds a handle to be joined to it, and follow the nearest of that";
+        break;
+    }
+    return words;
 }
 
 } // namespace knead

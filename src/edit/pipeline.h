@@ -3,17 +3,26 @@
 // changes.
 //
 //     neighbors                 → order, graph, components
+//     strays: bridge or not     → bridges between components, outliers, components again (graph/bridges.h)
 //     samples                   → base samples and their flood
 //     handle set                → labels, handle samples (which flood only what they reach), sample graph
-//     weights                   → influences
+//     weights, strays           → influences; what carries the parts without a handle (edit/carried_parts.h)
 //     rest shape, stiffness     → both systems, ordered and factorised
 //     poses                     → iterations, then upsampling
 //
 // Which points are samples and what they influence is decided on the shape as it was opened, so a commit
 // changes none of it. Editor, replay, benchmarks and tests all come through here.
+//
+// What becomes of components that hold no handle is the setting `strays`:
+//     freeze    they stay where they are
+//     carry     each follows the nearest that holds one, rigidly
+//     bridge    components with a gap comparable to their spacing are one to begin with, outliers hang on the
+//               surface and do not pull, and what is too far away to be joined is carried
 
 #include "base/progress.h"
 #include "deform/sample_system.h"
+#include "edit/carried_parts.h"
+#include "edit/falloffs.h"
 #include "edit/handles.h"
 #include "graph/neighbors.h"
 #include "graph/point_order.h"
@@ -43,7 +52,7 @@ struct PipelineInput {
 // Wall-clock seconds spent in each stage so far.
 struct StageSeconds {
     double order = 0;     // Morton order, duplicates
-    double neighbors = 0; // graph, components
+    double neighbors = 0; // graph, components, bridges if `strays` asks for them
     double sampling = 0;  // base samples, labels, handle samples
     double geodesic = 0;  // floods, sample graph, influences
     double factorize = 0; // ordering and factorisation of both systems
@@ -100,6 +109,7 @@ public:
     struct Strays {
         std::size_t parts = 0;
         std::size_t points = 0;
+        knead::Strays fate = knead::Strays::freeze;
     };
     Strays strays() const { return strays_; }
 
@@ -109,11 +119,13 @@ private:
     void note_changes(const Settings& settings);
     void prepare_stages_without_handles(Progress& progress);
     void prepare_points(Progress& progress);
+    void prepare_bridges(Progress& progress);
     void prepare_samples(Progress& progress);
     void prepare_handles(Progress& progress);
-    void prepare_falloffs();
-    std::vector<SoftHold> soft_holds(const SampleRest& rest) const;
+    void find_pulled();
+    void label_vertices();
     void prepare_influences();
+    void prepare_carried(std::span<const Index> row_of_label);
     void prepare_systems();
     void prepare_upsampler();
     std::span<const HandleMotion> all_motions(const std::vector<HandleMotion>& motions);
@@ -127,25 +139,19 @@ private:
 
     // Which stages have to run again before the next frame.
     struct Stale {
-        bool points = true, samples = true, handles = true, influences = true, systems = true,
-             upsampler = true;
+        bool points = true, bridges = true, samples = true, handles = true, contacts = true,
+             influences = true, systems = true, upsampler = true;
     };
     Stale stale_;
 
     PointOrder order_;
     RestShape opened_;
-    std::vector<float> vertex_positions_; // as opened
-    std::shared_ptr<const Graph> graph_;  // of the vertices
+    std::vector<float> vertex_positions_;    // as opened
+    std::shared_ptr<const Graph> neighbors_; // of the vertices
+    std::shared_ptr<const Graph> graph_;     // the same, or bridged
     std::shared_ptr<const Components> components_;
+    std::vector<std::uint8_t> hanging_; // of each vertex: 1 for an outlier; empty without bridges
     std::vector<std::uint8_t> link_lengths_;
-
-    // A sample within the falloff of a handle.
-    struct Pulled {
-        Index sample = 0;
-        Index handle = 0;
-        double way = 0; // of the falloff, in it
-        double falloff = 0;
-    };
 
     bool every_point_ = false;
     std::vector<Index> samples_;
@@ -162,10 +168,12 @@ private:
 
     InfluenceRows rows_;
     std::vector<Index> row_of_point_;
+    Contacts contacts_;
+    CarriedParts carried_;
 
     SampleSystem system_;
     std::vector<HandleMotion> handle_motions_; // those of the handles, and the identity for what is outside
-    std::vector<Motion> motions_;
+    std::vector<Motion> motions_; // of the samples, the handles, what is outside, and the carried parts
     RestShape posed_;
 };
 

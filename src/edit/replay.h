@@ -45,7 +45,7 @@ struct CheckResult {
 // What a replay did; durations in seconds. The fields are those of `replay --json`.
 struct ReplayReport {
     std::size_t points = 0;
-    std::size_t components = 0; // 0 if no stage ran
+    std::size_t components = 0; // after bridging, if `strays` asks for it; 0 if no stage ran
     std::size_t strays = 0;     // components without a handle, at the last drag
     std::size_t samples = 0;    // at the last drag
     std::size_t frames = 0;

@@ -34,12 +34,6 @@ double read_poisson(const Value& value) {
     return result;
 }
 
-Strays read_strays(const Value& value) {
-    const Strays result = choice(value, all_strays);
-    if (result != Strays::freeze) refuse_for_now(value, "\"freeze\"");
-    return result;
-}
-
 // A bare word of --set is a text, so that nobody needs to quote quotes in a shell.
 nlohmann::json value_of_argument(const std::string& text) {
     const Parsed parsed = parse_json(text);
@@ -68,7 +62,7 @@ SettingsChange session_json::settings_change(const Value& object,
     if (const auto value = optional_member(object, "stiffness")) change.stiffness = read_stiffness(*value);
     if (const auto value = optional_member(object, "poisson")) change.poisson = read_poisson(*value);
     if (const auto value = optional_member(object, "weights")) change.weights = choice(*value, all_weights);
-    if (const auto value = optional_member(object, "strays")) change.strays = read_strays(*value);
+    if (const auto value = optional_member(object, "strays")) change.strays = choice(*value, all_strays);
     return change;
 }
 

@@ -142,10 +142,6 @@ void refuse_as(const Value& value, const std::string& what) {
     refuse(value, "must be " + what + ", not " + shown(*value.json));
 }
 
-void refuse_for_now(const Value& value, const std::string& only) {
-    refuse(value, "other than " + only + " is not in this version of knead yet");
-}
-
 void allow_keys(const Value& object, std::span<const std::string_view> keys) {
     if (!object.json->is_object()) refuse_as(object, "a JSON object");
     for (const auto& [key, unused] : object.json->items()) {

@@ -54,8 +54,6 @@ struct Value {
 [[noreturn]] void refuse(const Value& value, const std::string& words);
 // … "must be WHAT, not …", showing the value.
 [[noreturn]] void refuse_as(const Value& value, const std::string& what);
-// … "other than DEFAULT is not in this version of knead yet": a key that later versions understand.
-[[noreturn]] void refuse_for_now(const Value& value, const std::string& only);
 
 // Refuses whatever is not an object, and the first key that is none of these.
 void allow_keys(const Value& object, std::span<const std::string_view> keys);

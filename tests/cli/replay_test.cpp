@@ -237,13 +237,7 @@ TEST_F(Replay, RefusesCloudsThatAreNotTheRecordedOne) {
     EXPECT_EQ(run_knead({"replay", "nowhere.knead"}, folder.path()).code, 3);
 }
 
-TEST_F(Replay, RefusesByNameWhatComesWithLaterVersions) {
-    const std::pair<std::string, std::string> lines[] = {
-        {R"({"op":"set","strays":"carry"})", "\"strays\""}};
-    for (const auto& [line, key] : lines) {
-        session(line + "\n");
-        expect_failure(3, "s.knead:2: " + key);
-    }
+TEST_F(Replay, RefusesSettingsOutOfRangeOnTheCommandLineToo) {
     session(edit);
     expect_failure(2, "poisson", {"--set", "poisson=0.5"});
 }

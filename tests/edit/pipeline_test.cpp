@@ -58,6 +58,9 @@ TEST(Pipeline, RunsOnlyTheStagesWhoseInputsChanged) {
     EXPECT_EQ(run(commit + top + frame), "sampling geodesic factorize device");
     EXPECT_EQ(run(commit + set(R"("samples":500)") + frame), "sampling geodesic factorize device");
     EXPECT_EQ(run(commit + set(R"("neighbors":8)") + frame), "neighbors sampling geodesic factorize device");
+    EXPECT_EQ(run(commit + set(R"("strays":"carry")") + frame), "geodesic factorize device");
+    EXPECT_EQ(run(commit + set(R"("strays":"bridge")") + frame),
+              "neighbors sampling geodesic factorize device");
     EXPECT_EQ(run(undo + undo + redo), "");
 }
 

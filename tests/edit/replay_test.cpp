@@ -162,6 +162,14 @@ TEST(Replay, WarnsOnceOfPartsWithoutAHandle) {
     ASSERT_EQ(result.warnings.size(), 1U);
     EXPECT_SAYS(result.warnings[0], "1 part of the cloud (8 points)");
     EXPECT_EQ(result.report.warnings, result.warnings);
+    EXPECT_SAYS(result.warnings[0], "stays where it is");
+    const auto warning = [&](const std::string& mode) {
+        const Told told_of = told(session_in(folder, set("\"strays\":\"" + mode + "\"") + ends + drag(lift)));
+        EXPECT_EQ(told_of.report.strays, 1U);
+        return told_of.warnings.empty() ? std::string() : told_of.warnings[0];
+    };
+    EXPECT_SAYS(warning("carry"), "follows the nearest part that does");
+    EXPECT_SAYS(warning("bridge"), "too far from what holds a handle");
 }
 
 TEST(Replay, SettingsGivenFromOutsideWinOverHeaderAndLines) {

@@ -47,7 +47,6 @@ TEST(SettingOfTheCommandLine, RefusesTheRestAsUsage) {
     EXPECT_SAYS(refusal_of_setting("stiffness="), "\"stiffness\" must be a number, not \"\"");
     EXPECT_SAYS(refusal_of_setting("stiffness=1e999"), "\"stiffness\" must be a number");
     EXPECT_SAYS(refusal_of_setting("stiffness=\xFF"), "\"stiffness\" must be a number");
-    EXPECT_SAYS(refusal_of_setting("strays=carry"), "is not in this version of knead yet");
 }
 
 TEST(Settings, ChangeOnlyWhatIsGiven) {

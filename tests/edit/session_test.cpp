@@ -147,7 +147,8 @@ TEST(Session, AcceptsTheBoundsOfEveryRange) {
          {R"({"op":"set","neighbors":2})", R"({"op":"set","neighbors":64})", R"({"op":"set","samples":1})",
           R"({"op":"set","iterations":0})", R"({"op":"set","iterations":1000})",
           R"({"op":"set","poisson":0.0})", R"({"op":"set","stiffness":1e-300})",
-          R"({"op":"set","strays":"freeze"})", R"({"op":"settle","iterations":0})",
+          R"({"op":"set","strays":"freeze"})", R"({"op":"set","strays":"carry"})",
+          R"({"op":"set","strays":"bridge"})", R"({"op":"settle","iterations":0})",
           R"({"op":"settle","iterations":1000000})", R"({"op":"check","positions":"a","tolerance":0})",
           R"({"op":"handle","name":"a","role":"roi","points":[9007199254740992]})",
           R"({"op":"handle","name":"a","role":"roi","points":[[3,3]],"rotation":"held","falloff":0})"})
@@ -366,12 +367,6 @@ TEST(SessionRefuses, HandlesThatHoldInNoKnownWay) {
     EXPECT_SAYS(refusal(handle + R"("roi","rotation":"free"})"),
                 "\"rotation\" is for fixed and moving handles");
     EXPECT_SAYS(refusal(handle + R"("roi","falloff":0.5})"), "\"falloff\" is for fixed and moving handles");
-}
-
-TEST(SessionRefuses, WhatThisVersionDoesNotHaveYet) {
-    for (const char* strays : {"carry", "bridge"})
-        EXPECT_SAYS(refusal(std::string(R"({"op":"set","strays":")") + strays + "\"}"),
-                    "\"strays\" other than \"freeze\" is not in this version of knead yet");
 }
 
 TEST(SessionRefuses, ATornLastLineSayingHowToMend) {

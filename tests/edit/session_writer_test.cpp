@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -212,7 +213,7 @@ public:
         if (coin()) change.stiffness = positive();
         if (coin()) change.poisson = coin() ? 0 : static_cast<double>(below(149)) / 100 - 0.99;
         if (coin()) change.weights = coin() ? InfluenceWeights::smooth : InfluenceWeights::paper;
-        if (coin()) change.strays = Strays::freeze;
+        if (coin()) change.strays = std::array{Strays::freeze, Strays::carry, Strays::bridge}[below(3)];
         return {change};
     }
 

@@ -1,0 +1,92 @@
+#include "edit/falloffs.h"
+
+#include "graph/distances.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knead {
+
+namespace {
+
+constexpr double strength = 4;
+constexpr double nearest = 0.02; // where the pull stops growing
+
+Vec3d at(std::span<const float> positions, std::size_t i) {
+    return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
+}
+
+constexpr double small_handle = 0.03;  // of the cloud's size: the radius of one that needs no falloff
+constexpr double small_falloff = 0.06; // of the cloud's size, of a handle of one point
+
+double least_falloff(std::span<const Index> vertices, std::span<const float> positions, double cloud_size) {
+    Vec3d middle = Vec3d::Zero();
+    for (const Index v : vertices) middle += at(positions, v) / static_cast<double>(vertices.size());
+    double squares = 0;
+    for (const Index v : vertices) squares += (at(positions, v) - middle).squaredNorm();
+    const double radius = std::sqrt(2 * squares / static_cast<double>(vertices.size())); // as of a disc
+    return small_falloff * std::max(0.0, cloud_size - radius / small_handle);
+}
+
+// Where the samples of each handle lie at rest, in the middle.
+std::vector<Vec3d> middles_of_handles(const SampleRest& rest, std::size_t handles) {
+    std::vector<Vec3d> middle(handles, Vec3d::Zero());
+    std::vector<double> count(handles, 0);
+    for (std::size_t s = 0; s < rest.handle.size(); ++s) {
+        if (!(rest.handle[s] < handles)) continue;
+        middle[rest.handle[s]] += rest.position[s];
+        ++count[rest.handle[s]];
+    }
+    for (std::size_t h = 0; h < handles; ++h) middle[h] /= std::max(count[h], 1.0);
+    return middle;
+}
+
+// Σ w |e|² of a sample.
+double spread_at(const SampleRest& rest, Index sample) {
+    double spread = 0;
+    for (Index link = rest.graph.first[sample]; link < rest.graph.first[sample + 1]; ++link)
+        spread += rest.weight[link] *
+                  (rest.position[rest.graph.neighbor[link]] - rest.position[sample]).squaredNorm();
+    return spread;
+}
+
+} // namespace
+
+std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> vertex_handle,
+                                   std::span<const Index> samples, const Graph& graph,
+                                   std::span<const float> positions, double cloud_size) {
+    std::vector<Index> sample_of(graph.size(), no_index);
+    for (Index s = 0; s < samples.size(); ++s) sample_of[samples[s]] = s;
+    std::vector<std::vector<Index>> held(handles.size());
+    for (Index v = 0; v < graph.size(); ++v)
+        if (vertex_handle[v] < held.size()) held[vertex_handle[v]].push_back(v);
+    std::vector<Pulled> pulled;
+    for (Index h = 0; h < held.size(); ++h) {
+        if (held[h].empty()) continue;
+        const double falloff = std::max(handles[h].falloff, least_falloff(held[h], positions, cloud_size));
+        if (!(falloff > 0)) continue;
+        for (const Reached& near : reached_within(graph, positions, held[h], falloff)) {
+            const bool is_free = sample_of[near.vertex] != no_index && vertex_handle[near.vertex] == no_index;
+            if (is_free && near.distance < falloff)
+                pulled.push_back({sample_of[near.vertex], h, near.distance / falloff, falloff});
+        }
+    }
+    return pulled;
+}
+
+std::vector<SoftHold> soft_holds(const std::vector<Handle>& handles, std::span<const Pulled> pulled,
+                                 const SampleRest& rest) {
+    const std::vector<Vec3d> middle = middles_of_handles(rest, handles.size());
+    std::vector<SoftHold> holds;
+    for (const Pulled& each : pulled) {
+        const double shape = (1 - each.way) / std::max(each.way, nearest);
+        const double weight =
+            strength * shape * shape * spread_at(rest, each.sample) / (each.falloff * each.falloff);
+        const Vec3d anchor =
+            handles[each.handle].free_rotation ? middle[each.handle] : rest.position[each.sample];
+        if (weight > 0) holds.push_back({each.sample, each.handle, weight, anchor});
+    }
+    return holds;
+}
+
+} // namespace knead

@@ -1,0 +1,36 @@
+#pragma once
+// Handles that pull what is around them.
+
+#include "deform/sample_system.h"
+#include "edit/handles.h"
+
+#include <span>
+#include <vector>
+
+namespace knead {
+
+// A sample within the falloff of a handle.
+struct Pulled {
+    Index sample = 0;
+    Index handle = 0;
+    double way = 0; // from the handle along the surface, as a part of the falloff: 0 … 1
+    double falloff = 0;
+};
+
+// Who is pulled by whom. `vertex_handle`: of each vertex, as HandleLabels::vertex; `samples`: the vertex of
+// each sample; `positions`: 3 floats a vertex; `cloud_size`: in their unit. Held samples are not pulled. A
+// handle that is smaller than 3 % of the cloud has a falloff of up to 6 % whatever its own is: a surface
+// cannot carry a point, and what pulls at one draws out a spike, the sharper the more samples there are.
+std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> vertex_handle,
+                                   std::span<const Index> samples, const Graph& graph,
+                                   std::span<const float> positions, double cloud_size);
+
+// How strongly, with the samples' graph, weights and rest positions in `rest`. The pull is that of a bed of
+// springs whose stiffness over that of the surface is the inverse of a length squared: it looks alike for any
+// number of samples. Near the handle it grows beyond bounds, at the falloff's end it vanishes smoothly:
+//
+//     μ_i = 4 ((1 - t)/t)² Σ_j w_ij |e_ij|² / falloff²,  t = way.
+std::vector<SoftHold> soft_holds(const std::vector<Handle>& handles, std::span<const Pulled> pulled,
+                                 const SampleRest& rest);
+
+} // namespace knead

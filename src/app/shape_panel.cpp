@@ -125,6 +125,42 @@ void weights_choice(const Ui& ui, const Settings& settings) {
     ui.tell(ChangeSettings{wanted});
 }
 
+struct StraysWords {
+    Strays strays;
+    const char* name;
+    const char* meaning;
+};
+constexpr StraysWords strays_words[] = {
+    {Strays::freeze, "Stay", "Parts of the cloud that hold no handle stay where they are."},
+    {Strays::carry, "Follow",
+     "Each part that holds no handle follows the nearest that does, as one rigid piece."},
+    {Strays::bridge, "Join",
+     "Parts with no more than a few point spacings between them are one body: for scans that fall apart. "
+     "Outliers hang on the surface and do not pull at it; what is too far away follows, as one rigid piece."},
+};
+
+void strays_choice(const Ui& ui, const Settings& settings) {
+    caption("Parts without a handle");
+    const auto* const chosen = std::ranges::find(strays_words, settings.strays, &StraysWords::strays);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    const bool open = ImGui::BeginCombo("##strays", chosen->name);
+    if (!open) {
+        explain(
+            (std::string(chosen->meaning) + " Changing it while handles are posed commits the pose first.")
+                .c_str());
+        return;
+    }
+    for (const StraysWords& words : strays_words) {
+        if (ImGui::Selectable(words.name, &words == chosen) && &words != chosen) {
+            SettingsChange wanted;
+            wanted.strays = words.strays;
+            ui.tell(ChangeSettings{wanted});
+        }
+        explain(words.meaning);
+    }
+    ImGui::EndCombo();
+}
+
 void what_there_is(const DocumentView& document) {
     std::string words;
     if (document.samples > 0) words += grouped(document.samples) + " samples";
@@ -133,8 +169,10 @@ void what_there_is(const DocumentView& document) {
         words += (words.empty() ? "" : ", ") + grouped(parts) +
                  (parts == 1 ? " connected part" : " connected parts");
     if (document.strays.parts > 0)
-        words += (words.empty() ? "" : "\n") + grouped(document.strays.parts) + " parts (" +
-                 grouped(document.strays.points) + " points) hold no handle and stay where they are";
+        words += (words.empty() ? "" : "\n") + grouped(document.strays.parts) +
+                 (document.strays.parts == 1 ? " part (" : " parts (") + grouped(document.strays.points) +
+                 (document.strays.fate == Strays::freeze ? " points) without a handle: at rest"
+                                                         : " points) without a handle: carried along");
     if (!words.empty()) faint_text(words);
 }
 
@@ -153,6 +191,7 @@ void shape_panel(const Ui& ui) {
     samples_slider(ui, settings);
     iterations_slider(ui, settings);
     weights_choice(ui, settings);
+    strays_choice(ui, settings);
     what_there_is(document);
     send_rested(ui);
 }

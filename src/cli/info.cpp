@@ -1,7 +1,9 @@
 // `knead info FILE`: what is in a cloud.
 
+#include "base/stopwatch.h"
 #include "cli/commands.h"
 #include "cloud/point_cloud.h"
+#include "graph/bridges.h"
 #include "graph/neighbors.h"
 #include "graph/point_order.h"
 #include "io/cloud_file.h"
@@ -25,6 +27,12 @@ struct Facts {
     std::size_t duplicates = 0;
     std::size_t components = 0;        // of the graph of the nearest neighbours
     std::size_t largest_component = 0; // in points
+    double neighbors_seconds = 0;
+    struct Bridged { // what the setting strays = "bridge" makes of them
+        std::size_t components = 0, largest_component = 0;
+        std::size_t outliers = 0; // vertices that hang on others
+        double seconds = 0;
+    } bridged;
 };
 
 // As many as an edit takes, unless its session says otherwise.
@@ -74,13 +82,22 @@ void count_components(const PointCloud& cloud, Progress& progress, Facts& facts)
     const PointOrder order = order_points(cloud.positions, workers, progress);
     std::vector<float> ordered(3 * order.points());
     gather(order, cloud.positions, 3, ordered, workers);
-    const Graph graph =
-        neighbor_graph(vertex_positions(order, ordered, workers), neighbors, workers, progress);
+    const std::vector<float> positions = vertex_positions(order, ordered, workers);
+    const auto largest = [&](const Components& components) {
+        std::vector<std::size_t> points(components.size.size());
+        for (const Index vertex : order.vertex) ++points[components.component[vertex]];
+        return *std::ranges::max_element(points);
+    };
+    Stopwatch clock;
+    const Graph graph = neighbor_graph(positions, neighbors, workers, progress);
     const Components components = find_components(graph);
-    std::vector<std::size_t> points(components.size.size());
-    for (const Index vertex : order.vertex) ++points[components.component[vertex]];
-    facts.components = points.size();
-    facts.largest_component = *std::ranges::max_element(points);
+    facts.neighbors_seconds = clock.lap();
+    facts.components = components.size.size();
+    facts.largest_component = largest(components);
+    clock.lap();
+    const BridgedGraph joined = bridged(graph, positions, workers, progress);
+    const Components bodies = find_components(joined.graph);
+    facts.bridged = {bodies.size.size(), largest(bodies), joined.outliers, clock.lap()};
 }
 
 Facts facts_of(const PointCloud& cloud, Progress& progress) {
@@ -108,6 +125,10 @@ std::string json_of(const PointCloud& cloud, const Facts& facts) {
     json["duplicates"] = facts.duplicates;
     json["components"] = facts.components;
     json["largest_component"] = facts.largest_component;
+    json["bridged"] = {{"components", facts.bridged.components},
+                       {"largest_component", facts.bridged.largest_component},
+                       {"outliers", facts.bridged.outliers}};
+    json["seconds"] = {{"neighbors", facts.neighbors_seconds}, {"bridging", facts.bridged.seconds}};
     json["format"] = facts.kind.format;
     json["encoding"] = facts.kind.encoding;
     json["remarks"] = cloud.remarks;
@@ -125,11 +146,17 @@ void print(const PointCloud& cloud, const Facts& facts, std::ostream& out) {
     line("points") << facts.points << '\n';
     line("finite") << facts.bounds.finite_points << '\n';
     line("duplicates") << facts.duplicates << '\n';
-    line("components") << facts.components;
-    if (facts.components > 1)
-        out << ", the largest of " << facts.largest_component << " points ("
-            << 100 * facts.largest_component / facts.bounds.finite_points << " %)";
+    const auto components = [&](std::size_t count, std::size_t largest) {
+        out << count;
+        if (count > 1)
+            out << ", the largest of " << largest << " points (" << 100 * largest / facts.bounds.finite_points
+                << " %)";
+    };
+    line("components"), components(facts.components, facts.largest_component);
     out << "  (" << neighbors << " neighbours)\n";
+    line("bridged"), components(facts.bridged.components, facts.bridged.largest_component);
+    if (facts.bridged.outliers > 0) out << ", " << facts.bridged.outliers << " outliers hang on";
+    out << "  (strays \"bridge\")\n";
     if (facts.bounds.finite_points > 0) {
         line("lowest"), vector(facts.bounds.lowest);
         line("highest"), vector(facts.bounds.highest);

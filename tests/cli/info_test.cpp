@@ -34,6 +34,23 @@ TEST(Info, tells_what_is_in_a_cloud) {
     EXPECT_EQ(json["remarks"].size(), 1U);
 }
 
+// Two rows of points side by side, seven steps apart: two parts, and one body.
+TEST(Info, tells_what_bridging_would_join) {
+    const ScratchFolder folder;
+    std::string text = "ply\nformat ascii 1.0\nelement vertex 80\nproperty float x\nproperty float y\n"
+                       "property float z\nend_header\n";
+    for (int i = 0; i < 80; ++i) text += std::to_string(i % 40) + (i < 40 ? " 0 0\n" : " 7 0\n");
+    write_text(folder / "rows.ply", text);
+    const Outcome outcome = run_knead({"info", "rows.ply", "--json"}, folder.path());
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json["components"], 2);
+    EXPECT_EQ(json["largest_component"], 40);
+    EXPECT_EQ(json["bridged"]["components"], 1);
+    EXPECT_EQ(json["bridged"]["largest_component"], 80);
+    EXPECT_EQ(json["bridged"]["outliers"], 0);
+}
+
 TEST(Info, prints_a_table_for_people) {
     const ScratchFolder folder;
     write_text(folder / "cloud.ply", header + rows);

@@ -15,9 +15,6 @@ namespace {
 // A sample that goes less far than this in an iteration, in units of the cloud's size, is at rest.
 constexpr double at_rest = 1e-8;
 
-// Committed shapes that history keeps; of others it keeps how they were made.
-constexpr std::size_t kept_shapes = 4;
-
 // How far a handle may send its points: so many diagonals of the cloud, and not beyond what floats can hold.
 constexpr double most_diagonals = 1e12;
 constexpr double farthest = 1e30;
@@ -50,13 +47,13 @@ Document::Document(PointCloud cloud, const Settings& settings, Workers& workers,
                    Mode mode)
     : mode_(mode), cloud_(std::move(cloud)), bounds_(bounds_of(cloud_)),
       pipeline_(cloud_, workers, upsampler) {
-    now_.settings = settings;
+    history_.emplace_back().settings = settings;
 }
 
 void Document::declare(const HandleLine& line, const std::string& place) {
     refuse_while_posed("handles", place);
     auto points = std::make_shared<const std::vector<Index>>(resolve(line, place));
-    State next = now_;
+    State next = now();
     std::erase_if(next.handles, [&](const Handle& handle) { return handle.name == line.name; });
     next.handles.push_back({line.name, line.role, std::move(points), line.free_rotation, line.falloff});
     next.motions.assign(next.handles.size(), HandleMotion{});
@@ -65,15 +62,15 @@ void Document::declare(const HandleLine& line, const std::string& place) {
 
 void Document::drag(const DragLine& line, const std::string& place, Progress& progress) {
     const Index handle = movable_handle(line.handle, place);
-    HandleMotion motion = now_.motions[handle];
+    HandleMotion motion = now().motions[handle];
     for (std::size_t f = 0; f < line.frames.size(); ++f) {
         motion = motion_of(line.frames[f], line.pivot, cloud_.origin, motion.rotation);
         refuse_absurd(motion, bounds_.diagonal(), f, place);
     }
     if (mode_ == Mode::rehearsal) {
-        State next = now_;
+        State next = now();
         next.motions[handle] = motion;
-        next.samples = std::make_shared<const SampleState>();
+        next.posed = std::make_shared<Posed>();
         return take(std::move(next));
     }
     try {
@@ -92,7 +89,7 @@ void Document::drag(const DragLine& line, const std::string& place, Progress& pr
 }
 
 void Document::settle(const SettleLine& line, Progress& progress) {
-    if (!now_.samples || mode_ == Mode::rehearsal) return take(State(now_));
+    if (!is_posed() || mode_ == Mode::rehearsal) return take(State(now()));
     try {
         begin_settling(progress);
         settle_some(line.iterations, progress);
@@ -107,9 +104,10 @@ void Document::begin_drag(const std::string& handle, const Vec3d& pivot, const s
                           Progress& progress) {
     require(!under_way_ && mode_ == Mode::real, "a drag begins when nothing else goes on");
     const Index index = movable_handle(handle, place);
+    const auto samples = is_posed() ? samples_of(now(), progress) : nullptr;
     prepare(progress);
     under_way_.emplace(
-        UnderWay{now_, now_.samples ? *now_.samples : pipeline_.rest_state(), {}, index, pivot});
+        UnderWay{now(), samples ? *samples : pipeline_.rest_state(), {}, index, {handle, pivot, {}}});
 }
 
 double Document::drag_frame(const HandlePose& pose, const std::string& place, Progress& progress) {
@@ -117,8 +115,8 @@ double Document::drag_frame(const HandlePose& pose, const std::string& place, Pr
     UnderWay& drag = *under_way_;
     HandleMotion& motion = drag.next.motions[drag.handle];
     const HandleMotion before = motion;
-    const HandleMotion next = motion_of(pose, drag.pivot, cloud_.origin, before.rotation);
-    refuse_absurd(next, bounds_.diagonal(), drag.frames, place);
+    const HandleMotion next = motion_of(pose, drag.line.pivot, cloud_.origin, before.rotation);
+    refuse_absurd(next, bounds_.diagonal(), drag.line.frames.size(), place);
     drag.samples_before = drag.samples; // into the same memory, frame by frame
     double way = 0;
     try {
@@ -129,12 +127,12 @@ double Document::drag_frame(const HandlePose& pose, const std::string& place, Pr
             way = iterate_once(drag);
         }
         upsample(drag.next.motions, drag.samples);
+        drag.line.frames.push_back(pose);
     } catch (...) {
         motion = before;
         drag.samples = drag.samples_before;
         throw;
     }
-    ++drag.frames;
     ++log_.frames;
     return way;
 }
@@ -143,16 +141,29 @@ void Document::end_drag() {
     require(under_way_ && under_way_->handle != no_index, "a drag that ends was begun");
     UnderWay drag = std::move(*under_way_);
     under_way_.reset();
-    if (drag.frames == 0) return;
-    drag.next.samples = std::make_shared<const SampleState>(std::move(drag.samples));
-    take(std::move(drag.next));
+    if (drag.line.frames.empty()) return;
+    DragLine line = std::move(drag.line);
+    end(std::move(drag), std::move(line));
+}
+
+// What was begun becomes the present state, of which `line` says how it came about.
+void Document::end(UnderWay act, std::variant<DragLine, SettleLine> line) {
+    auto posed = std::make_shared<Posed>();
+    posed->samples = std::make_shared<const SampleState>(std::move(act.samples));
+    posed->made_from = at_;
+    posed->act = std::move(line);
+    posed->handle = act.handle;
+    act.next.posed = posed;
+    take(std::move(act.next));
+    keep(posed);
     posed_is_now_ = true;
 }
 
 void Document::begin_settling(Progress& progress) {
-    require(!under_way_ && now_.samples && mode_ == Mode::real, "only what is posed can settle");
+    require(!under_way_ && is_posed() && mode_ == Mode::real, "only what is posed can settle");
+    const auto samples = samples_of(now(), progress);
     prepare(progress);
-    under_way_.emplace(UnderWay{now_, *now_.samples});
+    under_way_.emplace(UnderWay{now(), *samples});
 }
 
 bool Document::settle_some(unsigned iterations, Progress& progress) {
@@ -172,10 +183,9 @@ SettleLine Document::end_settling() {
     require(under_way_ && under_way_->handle == no_index, "a settling that ends was begun");
     UnderWay settling = std::move(*under_way_);
     under_way_.reset();
-    settling.next.samples = std::make_shared<const SampleState>(std::move(settling.samples));
-    take(std::move(settling.next));
-    posed_is_now_ = true;
-    return {settling.iterations};
+    const SettleLine line{settling.iterations};
+    end(std::move(settling), line);
+    return line;
 }
 
 void Document::abandon() noexcept {
@@ -185,32 +195,33 @@ void Document::abandon() noexcept {
 }
 
 void Document::commit(Progress& progress) {
-    State next = now_;
-    if (now_.samples) {
+    State next = now();
+    if (is_posed()) {
         next.rest = std::make_shared<Committed>();
         next.rest->shape =
             std::make_shared<const RestShape>(mode_ == Mode::real ? shape(progress) : RestShape{});
-        next.rest->made_from = std::make_unique<const State>(now_);
-        keep(next.rest);
+        next.rest->made_from = at_;
     }
-    next.samples = nullptr;
+    const auto committed = is_posed() ? next.rest : nullptr;
+    next.posed = nullptr;
     next.motions.assign(next.handles.size(), HandleMotion{});
     take(std::move(next));
+    if (committed) keep(committed);
 }
 
 void Document::change_settings(const SettingsChange& change, const std::string& place) {
     if (change.neighbors) refuse_while_posed("\"neighbors\"", place);
     if (change.samples) refuse_while_posed("\"samples\"", place);
     if (change.strays) refuse_while_posed("\"strays\"", place);
-    State next = now_;
-    next.settings = changed(now_.settings, change);
+    State next = now();
+    next.settings = changed(now().settings, change);
     take(std::move(next));
 }
 
 void Document::remove(const DeleteLine& line, const std::string& place) {
     const Index handle = find_handle(line.handle, place);
     refuse_while_posed("handles", place);
-    State next = now_;
+    State next = now();
     next.handles.erase(next.handles.begin() + handle);
     next.motions.assign(next.handles.size(), HandleMotion{});
     take(std::move(next));
@@ -219,34 +230,18 @@ void Document::remove(const DeleteLine& line, const std::string& place) {
 void Document::rename(const RenameLine& line, const std::string& place) {
     const Index handle = find_handle(line.handle, place);
     const bool taken =
-        std::ranges::any_of(now_.handles, [&](const Handle& other) { return other.name == line.to; });
+        std::ranges::any_of(now().handles, [&](const Handle& other) { return other.name == line.to; });
     if (taken && line.to != line.handle)
         throw Error(Trouble::input, place,
                     "\"to\": there is a handle " + quoted(line.to) + " already; delete it first");
-    State next = now_;
+    State next = now();
     next.handles[handle].name = line.to;
     take(std::move(next));
 }
 
-void Document::undo(const std::string& place) {
-    require(!under_way_, "an act comes after the drag that goes on");
-    if (past_.empty()) throw Error(Trouble::input, place, "there is nothing to undo");
-    future_.push_back(std::exchange(now_, std::move(past_.back())));
-    past_.pop_back();
-    posed_is_now_ = false;
-}
-
-void Document::redo(const std::string& place) {
-    require(!under_way_, "an act comes after the drag that goes on");
-    if (future_.empty()) throw Error(Trouble::input, place, "there is nothing to redo");
-    past_.push_back(std::exchange(now_, std::move(future_.back())));
-    future_.pop_back();
-    posed_is_now_ = false;
-}
-
 std::vector<float> Document::positions(Progress& progress) {
     std::vector<float> result = cloud_.positions;
-    if (mode_ == Mode::rehearsal || (!now_.rest && !now_.samples)) return result;
+    if (mode_ == Mode::rehearsal || (!now().rest && !is_posed())) return result;
     const RestShape& now = shape(progress);
     const PointOrder& order = pipeline_.order();
     for (std::size_t i = 0; i < order.points(); ++i)
@@ -256,7 +251,7 @@ std::vector<float> Document::positions(Progress& progress) {
 
 std::vector<float> Document::normals(Progress& progress) {
     std::vector<float> result = read_normals(cloud_);
-    if (mode_ == Mode::rehearsal || result.empty() || (!now_.rest && !now_.samples)) return result;
+    if (mode_ == Mode::rehearsal || result.empty() || (!now().rest && !is_posed())) return result;
     const RestShape& now = shape(progress);
     const PointOrder& order = pipeline_.order();
     for (std::size_t i = 0; i < order.points(); ++i)
@@ -265,9 +260,10 @@ std::vector<float> Document::normals(Progress& progress) {
 }
 
 double Document::handle_error(Progress& progress) {
-    if (mode_ == Mode::rehearsal || !now_.samples) return 0;
+    if (mode_ == Mode::rehearsal || !is_posed()) return 0;
     const RestShape& posed = shape(progress);
-    const RestShape& rest = now_.rest ? *now_.rest->shape : pipeline_.opened();
+    const std::shared_ptr<const RestShape> committed = rest_of(now(), progress);
+    const RestShape& rest = committed ? *committed : pipeline_.opened();
     double largest = 0;
     for (std::size_t i = 0; i < pipeline_.order().points(); ++i) {
         const Index label = pipeline_.labels().point[i];
@@ -276,7 +272,7 @@ double Document::handle_error(Progress& progress) {
             return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
         };
         const HandleMotion motion =
-            label == pipeline_.labels().outside ? HandleMotion{} : now_.motions[label];
+            label == pipeline_.labels().outside ? HandleMotion{} : now().motions[label];
         const Vec3d target = motion.linear * at(rest.positions) + motion.offset;
         largest = std::max(largest, (at(posed.positions) - target).norm());
     }
@@ -284,18 +280,18 @@ double Document::handle_error(Progress& progress) {
 }
 
 Index Document::find_handle(const std::string& name, const std::string& place) const {
-    for (Index h = 0; h < now_.handles.size(); ++h)
-        if (now_.handles[h].name == name) return h;
+    for (Index h = 0; h < now().handles.size(); ++h)
+        if (now().handles[h].name == name) return h;
     std::string words = "\"handle\": there is no handle " + quoted(name) + " here";
-    if (now_.handles.empty()) throw Error(Trouble::input, place, words + "; declare one first");
+    if (now().handles.empty()) throw Error(Trouble::input, place, words + "; declare one first");
     words += "; there are";
-    for (const Handle& handle : now_.handles) words += " " + quoted(handle.name);
+    for (const Handle& handle : now().handles) words += " " + quoted(handle.name);
     throw Error(Trouble::input, place, words);
 }
 
 Index Document::movable_handle(const std::string& name, const std::string& place) const {
     const Index handle = find_handle(name, place);
-    if (now_.handles[handle].role != HandleRole::moving)
+    if (now().handles[handle].role != HandleRole::moving)
         throw Error(Trouble::input, place,
                     "\"handle\": " + quoted(name) +
                         " is not a moving handle; declare it with \"role\":\"moving\"");
@@ -303,36 +299,30 @@ Index Document::movable_handle(const std::string& name, const std::string& place
 }
 
 void Document::refuse_while_posed(const std::string& what, const std::string& place) const {
-    if (!now_.samples) return;
+    if (!is_posed()) return;
     const auto is_posed = [](const HandleMotion& motion) {
         return motion.linear != Mat3d::Identity() || motion.offset != Vec3d::Zero();
     };
-    const auto posed = std::ranges::find_if(now_.motions, is_posed);
+    const auto posed = std::ranges::find_if(now().motions, is_posed);
     const std::string who =
-        posed == now_.motions.end()
+        posed == now().motions.end()
             ? std::string("handles are posed")
-            : quoted(now_.handles[static_cast<std::size_t>(posed - now_.motions.begin())].name) + " is posed";
+            : quoted(now().handles[static_cast<std::size_t>(posed - now().motions.begin())].name) +
+                  " is posed";
     throw Error(Trouble::input, place,
                 what + " cannot change while " + who + "; put a {\"op\":\"commit\"} line before this one");
 }
 
-void Document::take(State next) {
-    require(!under_way_, "an act comes after the drag that goes on");
-    past_.push_back(std::exchange(now_, std::move(next)));
-    future_.clear();
-    posed_is_now_ = false;
-}
-
 void Document::prepare_ahead(Progress& progress) {
     if (mode_ == Mode::rehearsal) return;
-    if (now_.handles.empty())
-        pipeline_.prepare_ahead(now_.settings, progress);
+    if (now().handles.empty())
+        pipeline_.prepare_ahead(now().settings, progress);
     else
         prepare(progress);
 }
 
 void Document::prepare(Progress& progress) {
-    pipeline_.prepare({now_.settings, now_.handles, rest_of(now_, progress)}, progress);
+    pipeline_.prepare({now().settings, now().handles, rest_of(now(), progress)}, progress);
 }
 
 // Returns the longest way that a sample went, over the cloud's size.
@@ -350,39 +340,15 @@ void Document::upsample(const std::vector<HandleMotion>& motions, const SampleSt
     log_.upsample.push_back(clock.seconds());
 }
 
-std::shared_ptr<const RestShape> Document::rest_of(const State& state, Progress& progress) {
-    if (!state.rest) return nullptr;
-    Committed& committed = *state.rest;
-    if (!committed.shape) {
-        const State& from = *committed.made_from;
-        posed_is_now_ = false;
-        pipeline_.prepare({from.settings, from.handles, rest_of(from, progress)}, progress);
-        pipeline_.upsample(from.motions, *from.samples);
-        committed.shape = std::make_shared<const RestShape>(pipeline_.posed());
-    }
-    const std::shared_ptr<const RestShape> shape = committed.shape;
-    keep(state.rest);
-    return shape;
-}
-
-// The shape of `committed` was used just now: those that were not for longest are dropped.
-void Document::keep(const std::shared_ptr<Committed>& committed) {
-    std::erase(kept_, committed);
-    kept_.push_back(committed);
-    while (mode_ == Mode::real && kept_.size() > kept_shapes) {
-        if (kept_.front() != now_.rest) kept_.front()->shape.reset();
-        kept_.erase(kept_.begin());
-    }
-}
-
 // The posed shape, or the rest shape where nothing is posed. After an undo it is computed again from the
 // samples.
 const RestShape& Document::shape(Progress& progress) {
-    if (!now_.rest && !now_.samples) pipeline_.prepare_order(progress);
-    if (!now_.samples) return now_.rest ? *rest_of(now_, progress) : pipeline_.opened();
+    if (!now().rest && !is_posed()) pipeline_.prepare_order(progress);
+    if (!is_posed()) return now().rest ? *rest_of(now(), progress) : pipeline_.opened();
     if (!posed_is_now_) {
+        const auto samples = samples_of(now(), progress);
         prepare(progress);
-        pipeline_.upsample(now_.motions, *now_.samples);
+        pipeline_.upsample(now().motions, *samples);
         posed_is_now_ = true;
     }
     return pipeline_.posed();
@@ -391,12 +357,12 @@ const RestShape& Document::shape(Progress& progress) {
 // Regions are told on the rest shape now. A point lies where the file says plus how far it was moved, so one
 // that did not move is exactly where the file says.
 std::vector<Index> Document::resolve(const HandleLine& line, const std::string& place) {
-    if (mode_ == Mode::rehearsal && now_.rest && std::holds_alternative<Region>(line.points)) {
+    if (mode_ == Mode::rehearsal && now().rest && std::holds_alternative<Region>(line.points)) {
         for (Index i = 0; i < cloud_.size(); ++i)
             if (is_finite(cloud_, i)) return {i};
     }
     SilentProgress silent;
-    const std::vector<float> rest = now_.rest ? positions(silent) : std::vector<float>{};
+    const std::vector<float> rest = now().rest ? positions(silent) : std::vector<float>{};
     const auto at = [](const std::vector<float>& positions, std::size_t i) {
         return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
     };

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace knead {
@@ -38,12 +39,12 @@ public:
     const PointCloud& cloud() const { return cloud_; }
     const Bounds& bounds() const { return bounds_; } // of the shape as opened; its diagonal is D
     const Pipeline& pipeline() const { return pipeline_; }
-    const Settings& settings() const { return now_.settings; }
-    const std::vector<Handle>& handles() const { return now_.handles; }
+    const Settings& settings() const { return now().settings; }
+    const std::vector<Handle>& handles() const { return now().handles; }
     const FrameLog& log() const { return log_; }
 
     // Whether handles were dragged since the last commit.
-    bool is_posed() const { return now_.samples != nullptr; }
+    bool is_posed() const { return now().posed != nullptr; }
 
     // Called after every frame of drag(), when the points of that frame are pipeline().posed(): for pictures
     // of a sequence. May be empty.
@@ -64,6 +65,10 @@ public:
     void rename(const RenameLine& line, const std::string& place);
     void undo(const std::string& place);
     void redo(const std::string& place);
+
+    // What redo() would do again where that is a drag, or a settling; null, or nothing, where it is not.
+    const DragLine* redoable_drag() const;
+    std::optional<SettleLine> redoable_settling() const;
 
     // --- A drag or a settling that is looked at while it goes on ---
     //
@@ -90,8 +95,24 @@ public:
     // In the order of computation (pipeline().order()), good until the next act.
     const RestShape& shape(Progress& progress);
     // Of each handle in this edit, as it was at the last finished act.
-    const std::vector<HandleMotion>& motions() const { return now_.motions; }
-    std::size_t undoable() const { return past_.size(); } // how many acts undo() can take back
+    const std::vector<HandleMotion>& motions() const { return now().motions; }
+    // Every pose that a handle was given in this edit, the first one first.
+    std::vector<HandleMotion> way_of(const std::string& handle) const;
+    std::size_t undoable() const { return at_; } // how many acts undo() can take back
+
+    // --- What history costs ---
+    //
+    // It costs poses and not points: of committed shapes and of the samples' states only some are kept, near
+    // the present more than far from it, and another is made again, to the bit, from what is kept and the
+    // poses that were recorded.
+
+    struct Memory {
+        std::size_t shapes = 4;
+        std::size_t samples = 4;                           // states of them, at least
+        std::size_t sample_bytes = std::size_t{256} << 20; // more of them only as long as they take no more
+    };
+    void keep_at_most(const Memory& memory) { memory_ = memory; }
+    std::size_t kept_bytes() const; // of those shapes and states
 
     // 3n floats in the order of the file, relative to cloud().origin; and normals, empty without.
     std::vector<float> positions(Progress& progress);
@@ -102,12 +123,18 @@ public:
     double handle_error(Progress& progress);
 
 private:
-    // A committed shape. History costs poses and not points: only a few shapes are kept, and another is made
-    // again, to the bit, from the state that was committed.
-    struct State;
+    // A committed shape.
     struct Committed {
         std::shared_ptr<const RestShape> shape; // null: dropped
-        std::unique_ptr<const State> made_from; // posed
+        std::size_t made_from = 0;              // in history_: the posed state that was committed
+    };
+
+    // The samples after a drag or a settling.
+    struct Posed {
+        std::shared_ptr<const SampleState> samples;  // null: dropped
+        std::size_t made_from = 0;                   // in history_: the state before the act
+        std::variant<DragLine, SettleLine> act = {}; // that made it
+        Index handle = no_index;                     // of a drag
     };
 
     // Everything that undo takes back; arrays are shared between states, and never changed once they are
@@ -115,9 +142,9 @@ private:
     struct State {
         Settings settings;
         std::vector<Handle> handles;
-        std::vector<HandleMotion> motions;          // one a handle, in this edit
-        std::shared_ptr<Committed> rest;            // null: as opened
-        std::shared_ptr<const SampleState> samples; // null: nothing was dragged in this edit
+        std::vector<HandleMotion> motions; // one a handle, in this edit
+        std::shared_ptr<Committed> rest;   // null: as opened
+        std::shared_ptr<Posed> posed;      // null: nothing was dragged in this edit
     };
 
     // What begin_drag() and begin_settling() began.
@@ -125,9 +152,8 @@ private:
         State next;
         SampleState samples, samples_before = {}; // the latter: before the frame that is being computed
         Index handle = no_index;                  // no_index: settling
-        Vec3d pivot = Vec3d::Zero();
-        std::size_t frames = 0;
-        unsigned iterations = 0; // of settling
+        DragLine line = {};                       // its frames so far
+        unsigned iterations = 0;                  // of settling
     };
 
     Index find_handle(const std::string& name, const std::string& place) const;
@@ -137,17 +163,25 @@ private:
     Index movable_handle(const std::string& name, const std::string& place) const;
     double iterate_once(UnderWay& act);
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
+    // From any state in history; made again where it was dropped.
     std::shared_ptr<const RestShape> rest_of(const State& state, Progress& progress);
+    std::shared_ptr<const SampleState> samples_of(const State& state, Progress& progress); // of a posed one
+    void repeat(const Posed& posed, SampleState& samples, Progress& progress);
+    const State& now() const { return history_[at_]; }
+    void end(UnderWay act, std::variant<DragLine, SettleLine> line);
     void keep(const std::shared_ptr<Committed>& committed);
+    void keep(const std::shared_ptr<Posed>& posed);
     std::vector<Index> resolve(const HandleLine& line, const std::string& place);
 
     Mode mode_;
     PointCloud cloud_;
     Bounds bounds_;
     Pipeline pipeline_;
-    State now_;
-    std::vector<State> past_, future_;
-    std::vector<std::shared_ptr<Committed>> kept_; // those with a shape, the one used last at the end
+    std::vector<State> history_; // from the cloud as it was opened to what can be redone
+    std::size_t at_ = 0;         // the present one
+    Memory memory_;
+    std::vector<std::shared_ptr<Committed>> kept_shapes_; // those with a shape, the oldest first
+    std::vector<std::shared_ptr<Posed>> kept_samples_;    // and with samples
     std::optional<UnderWay> under_way_;
     bool posed_is_now_ = false; // whether the pipeline's posed points are those of now_
     FrameLog log_;

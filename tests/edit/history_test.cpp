@@ -200,5 +200,51 @@ TEST(History, ShapesThatWereDroppedAreMadeAgainToTheBit) {
     EXPECT_EQ(desk.shape(), shapes.back()) << "and forth without looking on the way";
 }
 
+// Undoing and redoing every one of these acts, with almost nothing kept, and comparing each shape.
+TEST(History, SamplesThatWereDroppedAreMadeAgainToTheBit) {
+    Desk desk(bar());
+    desk.document().keep_at_most({.shapes = 2, .samples = 2, .sample_bytes = 0});
+    desk.play(set(R"("samples":"all")") + ends);
+    std::vector<std::string> acts;
+    for (int k = 0; k < 9; ++k) {
+        acts.push_back(drag(turn('y', 3 * k + 5) + "," + turn('z', 9 * k, "[0.1,0,0.05]")));
+        if (k % 2 == 1) acts.push_back(settle(5));
+        if (k == 3) acts.push_back(set(R"("stiffness":0.04,"iterations":2)"));
+        if (k == 5) acts.push_back(commit);
+    }
+    std::vector<std::vector<float>> shapes{desk.shape()};
+    for (const std::string& act : acts) shapes.push_back(desk.play(act).shape());
+    for (std::size_t i = acts.size(); i > 0; --i)
+        ASSERT_TRUE(same_bits(desk.play(undo).shape(), shapes[i - 1])) << "undoing act " << i;
+    for (std::size_t i = 0; i < acts.size(); ++i)
+        ASSERT_TRUE(same_bits(desk.play(redo).shape(), shapes[i + 1])) << "redoing act " << i;
+    for (std::size_t i = 0; i < acts.size(); ++i) desk.play(undo);
+    for (std::size_t i = 0; i < acts.size(); ++i) desk.play(redo);
+    EXPECT_TRUE(same_bits(desk.shape(), shapes.back())) << "and forth without looking on the way";
+    // What goes on from a state that was dropped goes on from the same warm start.
+    for (std::size_t i = 0; i < 3; ++i) desk.play(undo);
+    Desk other(bar());
+    other.play(set(R"("samples":"all")") + ends);
+    for (std::size_t i = 0; i + 3 < acts.size(); ++i) other.play(acts[i]);
+    EXPECT_TRUE(same_bits(desk.play(twist).shape(), other.play(twist).shape()));
+}
+
+TEST(History, WhatItKeepsDoesNotGrowWithTheSteps) {
+    Desk desk(bar());
+    desk.document().keep_at_most({.shapes = 2, .samples = 4, .sample_bytes = 0});
+    desk.play(set(R"("samples":"all")") + ends);
+    std::vector<std::size_t> kept;
+    for (int k = 0; k < 24; ++k) {
+        desk.play(drag(turn('x', k)));
+        kept.push_back(desk.document().kept_bytes());
+    }
+    EXPECT_GT(kept[3], kept[0]);
+    for (std::size_t k = 4; k < kept.size(); ++k) EXPECT_EQ(kept[k], kept[3]) << "after drag " << k + 1;
+    for (int k = 0; k < 24; ++k) {
+        desk.play(undo).shape();
+        EXPECT_LE(desk.document().kept_bytes(), kept[3]);
+    }
+}
+
 } // namespace
 } // namespace knead

@@ -1,0 +1,182 @@
+// What a document remembers: going back and forth, and making again what was dropped on the way.
+
+#include "edit/document.h"
+
+#include "base/error.h"
+#include "base/require.h"
+#include "edit/keeping.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace knead {
+
+namespace {
+
+std::size_t bytes_of(const SampleState& samples) {
+    return samples.rotation.size() * sizeof(Quatd) + samples.displacement.size() * sizeof(Vec3d);
+}
+
+std::size_t bytes_of(const RestShape& shape) {
+    return (shape.positions.size() + shape.normals.size()) * sizeof(float);
+}
+
+} // namespace
+
+void Document::undo(const std::string& place) {
+    require(!under_way_, "an act comes after the drag that goes on");
+    if (at_ == 0) throw Error(Trouble::input, place, "there is nothing to undo");
+    --at_;
+    posed_is_now_ = false;
+}
+
+void Document::redo(const std::string& place) {
+    require(!under_way_, "an act comes after the drag that goes on");
+    if (at_ + 1 == history_.size()) throw Error(Trouble::input, place, "there is nothing to redo");
+    ++at_;
+    posed_is_now_ = false;
+}
+
+void Document::take(State next) {
+    require(!under_way_, "an act comes after the drag that goes on");
+    history_.resize(at_ + 1);
+    history_.push_back(std::move(next));
+    ++at_;
+    posed_is_now_ = false;
+    const auto forgotten = [&](const auto& made) { return made->made_from + 1 >= at_; };
+    std::erase_if(kept_shapes_, forgotten);
+    std::erase_if(kept_samples_, forgotten);
+}
+
+const DragLine* Document::redoable_drag() const {
+    if (at_ + 1 == history_.size()) return nullptr;
+    const std::shared_ptr<Posed>& next = history_[at_ + 1].posed;
+    return next && next != now().posed ? std::get_if<DragLine>(&next->act) : nullptr;
+}
+
+std::optional<SettleLine> Document::redoable_settling() const {
+    if (at_ + 1 == history_.size()) return std::nullopt;
+    const std::shared_ptr<Posed>& next = history_[at_ + 1].posed;
+    const auto* line = next && next != now().posed ? std::get_if<SettleLine>(&next->act) : nullptr;
+    return line ? std::optional(*line) : std::nullopt;
+}
+
+std::vector<HandleMotion> Document::way_of(const std::string& handle) const {
+    const Index index = find_handle(handle, "");
+    std::vector<const DragLine*> drags;
+    for (const Posed* posed = now().posed.get(); posed; posed = history_[posed->made_from].posed.get())
+        if (posed->handle == index) drags.push_back(&std::get<DragLine>(posed->act));
+    std::vector<HandleMotion> way;
+    Quatd before = Quatd::Identity();
+    for (auto drag = drags.rbegin(); drag != drags.rend(); ++drag)
+        for (const HandlePose& pose : (*drag)->frames) {
+            way.push_back(motion_of(pose, (*drag)->pivot, cloud_.origin, before));
+            before = way.back().rotation;
+        }
+    return way;
+}
+
+std::shared_ptr<const RestShape> Document::rest_of(const State& state, Progress& progress) {
+    if (!state.rest) return nullptr;
+    const std::shared_ptr<Committed> committed = state.rest;
+    if (!committed->shape) {
+        const State& from = history_[committed->made_from];
+        const auto samples = samples_of(from, progress);
+        posed_is_now_ = false;
+        pipeline_.prepare({from.settings, from.handles, rest_of(from, progress)}, progress);
+        pipeline_.upsample(from.motions, *samples);
+        committed->shape = std::make_shared<const RestShape>(pipeline_.posed());
+    }
+    const std::shared_ptr<const RestShape> shape = committed->shape;
+    keep(committed);
+    return shape;
+}
+
+std::shared_ptr<const SampleState> Document::samples_of(const State& state, Progress& progress) {
+    std::vector<std::shared_ptr<Posed>> dropped;
+    std::shared_ptr<Posed> posed = state.posed;
+    for (; posed && !posed->samples; posed = history_[posed->made_from].posed) dropped.push_back(posed);
+    std::shared_ptr<const SampleState> samples = posed ? posed->samples : nullptr;
+    for (auto next = dropped.rbegin(); next != dropped.rend(); ++next) {
+        const State& from = history_[(*next)->made_from];
+        pipeline_.prepare({from.settings, from.handles, rest_of(from, progress)}, progress);
+        SampleState made = samples ? *samples : pipeline_.rest_state();
+        repeat(**next, made, progress);
+        samples = (*next)->samples = std::make_shared<const SampleState>(std::move(made));
+        keep(*next);
+    }
+    return samples;
+}
+
+// The act that made a pose, once more; the pipeline is prepared for the state before it.
+void Document::repeat(const Posed& posed, SampleState& samples, Progress& progress) {
+    const State& from = history_[posed.made_from];
+    std::vector<HandleMotion> motions = from.motions;
+    const auto iterate = [&](unsigned iterations) {
+        for (unsigned i = 0; i < iterations; ++i) {
+            progress.stop_if_cancelled();
+            pipeline_.iterate(motions, samples);
+        }
+    };
+    if (const auto* settling = std::get_if<SettleLine>(&posed.act)) return iterate(settling->iterations);
+    const auto& drag = std::get<DragLine>(posed.act);
+    const auto frames = static_cast<double>(drag.frames.size());
+    for (std::size_t f = 0; f < drag.frames.size(); ++f) {
+        progress.step("following the handle again", static_cast<double>(f) / frames);
+        HandleMotion& motion = motions[posed.handle];
+        motion = motion_of(drag.frames[f], drag.pivot, cloud_.origin, motion.rotation);
+        pipeline_.follow_handles(motions, samples);
+        iterate(from.settings.iterations);
+    }
+}
+
+namespace {
+
+// Puts one among those that are kept, which are sorted by where in history they were made.
+template<typename Made>
+void put_in(std::vector<std::shared_ptr<Made>>& kept, const std::shared_ptr<Made>& made) {
+    const auto place = std::ranges::lower_bound(kept, made->made_from, {},
+                                                [](const auto& other) { return other->made_from; });
+    if (place == kept.end() || *place != made) kept.insert(place, made);
+}
+
+// Takes out the one that is missed least, but for the one that is needed.
+template<typename Made>
+std::shared_ptr<Made> take_out(std::vector<std::shared_ptr<Made>>& kept, const Made& needed,
+                               std::size_t now) {
+    std::vector<std::size_t> places;
+    for (const auto& made : kept) places.push_back(made->made_from + 1);
+    const auto least =
+        kept.begin() + static_cast<std::ptrdiff_t>(least_missed(places, needed.made_from + 1, now));
+    std::shared_ptr<Made> out = std::move(*least);
+    kept.erase(least);
+    return out;
+}
+
+} // namespace
+
+void Document::keep(const std::shared_ptr<Committed>& committed) {
+    put_in(kept_shapes_, committed);
+    while (mode_ == Mode::real && kept_shapes_.size() > std::max<std::size_t>(memory_.shapes, 1))
+        take_out(kept_shapes_, *committed, at_)->shape.reset();
+}
+
+void Document::keep(const std::shared_ptr<Posed>& posed) {
+    put_in(kept_samples_, posed);
+    std::size_t bytes = 0;
+    for (const auto& kept : kept_samples_) bytes += bytes_of(*kept->samples);
+    while (kept_samples_.size() > std::max<std::size_t>(memory_.samples, 1) && bytes > memory_.sample_bytes) {
+        const std::shared_ptr<Posed> out = take_out(kept_samples_, *posed, at_);
+        bytes -= bytes_of(*out->samples);
+        out->samples.reset();
+    }
+}
+
+std::size_t Document::kept_bytes() const {
+    std::size_t bytes = 0;
+    for (const auto& kept : kept_shapes_) bytes += bytes_of(*kept->shape);
+    for (const auto& kept : kept_samples_) bytes += bytes_of(*kept->samples);
+    return bytes;
+}
+
+} // namespace knead

@@ -317,8 +317,12 @@ const Action view_actions[] = {
 };
 
 const Action session_actions[] = {
-    {"Session", "Play", "Space", "Plays back what was done, step by step; again: stops", on(' '),
+    {"Session", "Play", "Space", "Plays back what was done, as it was recorded; again: holds it", on(' '),
      toggle_playing, document_has_steps, [](const Ui& ui) { return ui.state.playback.playing; }},
+    {"Session", "Next frame", "Right", "Shows the next frame that was recorded, and stops there",
+     on(Key::right), [](const Ui& ui) { play_frame(ui, 1); }, document_has_steps},
+    {"Session", "Frame before", "Left", "Shows the frame before; between two steps, the step before",
+     on(Key::left), [](const Ui& ui) { play_frame(ui, -1); }, document_has_steps},
     {"Session", "To the beginning", "", "Goes back to the cloud as it was opened", std::nullopt,
      [](const Ui& ui) { play_to(ui, 0); }, document_has_steps},
     {"Session", "To the end", "", "Goes to the last step that was done", std::nullopt,

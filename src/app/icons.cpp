@@ -258,6 +258,14 @@ void draw_player(const Pen& pen, Icon icon) {
         pen.filled({{0.65f, -0.65f}, {0.65f, 0.65f}, {-0.4f, 0}});
         pen.line({-0.6f, -0.65f}, {-0.6f, 0.65f});
         break;
+    case Icon::frame_back:
+        pen.filled({{0.1f, -0.5f}, {0.1f, 0.5f}, {-0.65f, 0}});
+        pen.line({0.5f, -0.5f}, {0.5f, 0.5f});
+        break;
+    case Icon::frame_on:
+        pen.filled({{-0.1f, -0.5f}, {0.65f, 0}, {-0.1f, 0.5f}});
+        pen.line({-0.5f, -0.5f}, {-0.5f, 0.5f});
+        break;
     default: // last
         pen.filled({{-0.65f, -0.65f}, {0.4f, 0}, {-0.65f, 0.65f}});
         pen.line({0.6f, -0.65f}, {0.6f, 0.65f});

@@ -37,6 +37,8 @@ enum class Icon : std::uint8_t {
     play,
     pause,
     first,
+    frame_back,
+    frame_on,
     last // of a timeline
 };
 

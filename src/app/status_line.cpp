@@ -33,7 +33,8 @@ std::string left_words(const Ui& ui) {
     if (tools.drag) return transform_hint(*tools.drag);
     if (tools.select == SelectTool::polygon && !tools.band.empty())
         return "Click corners · Enter or double click closes · Backspace takes one back · Esc gives up";
-    return next_step(ui.editor);
+    const std::string playback = playback_words(ui);
+    return playback.empty() ? next_step(ui.editor) : playback;
 }
 
 std::string right_words(const Ui& ui) {

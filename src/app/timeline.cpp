@@ -11,6 +11,9 @@ namespace knead {
 
 namespace {
 
+// Rest after each step, in seconds at a speed of 1.
+constexpr double between_steps = 0.45;
+
 bool is_of_document(const EditorStep& step) {
     return step.document != 0;
 }
@@ -33,6 +36,15 @@ void go_to(const Ui& ui, std::size_t position) {
     }
 }
 
+// Plays the next step of the document; those that only changed the selection come with it.
+void play_step(const Ui& ui) {
+    const auto& future = ui.editor.future;
+    for (auto step = future.rbegin(); step != future.rend(); ++step) {
+        if (is_of_document(*step)) return ui.tell(PlayStep{});
+        ui.tell(RedoStep{});
+    }
+}
+
 bool can_play(const Editor& editor) {
     return editor.document && !editor.drag && playback_steps(editor) > 0;
 }
@@ -50,11 +62,32 @@ std::size_t playback_steps(const Editor& editor) {
 void toggle_playing(const Ui& ui) {
     Playback& playback = ui.state.playback;
     playback.shown = true;
-    playback.playing = !playback.playing && can_play(ui.editor);
-    if (!playback.playing) return;
+    if (playback.playing) {
+        playback.playing = false;
+        return ui.tell(PacePlaying{playback.speed, true});
+    }
+    if (!can_play(ui.editor)) return;
+    playback.playing = true;
     playback.steps = playback_steps(ui.editor);
-    playback.next_at = ImGui::GetTime() + 0.6;
-    if (playback_position(ui.editor) == playback.steps) playback.wanted = 0;
+    playback.position = playback_position(ui.editor);
+    playback.next_at = ImGui::GetTime() + between_steps;
+    ui.tell(PacePlaying{playback.speed, false});
+    if (playback.position == playback.steps && !ui.editor.status.playing) playback.wanted = 0;
+}
+
+void play_frame(const Ui& ui, int direction) {
+    Playback& playback = ui.state.playback;
+    if (!can_play(ui.editor)) return;
+    playback.shown = true;
+    playback.playing = false;
+    ui.tell(PacePlaying{playback.speed, true});
+    const std::size_t position = playback_position(ui.editor);
+    const auto& playing = ui.editor.status.playing;
+    if (playing && (direction > 0 || playing->frame > 1)) return ui.tell(AdvancePlaying{direction});
+    if (direction < 0) return position > 0 ? play_to(ui, position - 1) : void();
+    if (position == playback_steps(ui.editor)) return;
+    play_step(ui);
+    ui.tell(AdvancePlaying{1});
 }
 
 void play_to(const Ui& ui, std::size_t position) {
@@ -68,32 +101,62 @@ void close_timeline(const Ui& ui) {
     if (can_play(ui.editor)) play_to(ui, playback_steps(ui.editor));
 }
 
+namespace {
+
+// Whether someone did something else in the middle of it.
+bool was_left(const Ui& ui) {
+    const Playback& playback = ui.state.playback;
+    return playback.playing && !playback.wanted &&
+           (playback_steps(ui.editor) != playback.steps || playback_position(ui.editor) != playback.position);
+}
+
+} // namespace
+
 void play_on(const Ui& ui) {
     Playback& playback = ui.state.playback;
-    if (!can_play(ui.editor) || (playback.playing && playback_steps(ui.editor) != playback.steps)) {
+    if (!can_play(ui.editor) || was_left(ui)) {
         playback.playing = false;
         playback.wanted.reset();
         return;
     }
     const double now = ImGui::GetTime();
-    if (ui.editor.status.busy) {
-        // What takes long is looked at as long as what does not.
-        if (playback.playing) playback.next_at = std::max(playback.next_at, now + 0.5 / playback.speed);
-        return;
-    }
-    if (playback.wanted) {
+    if (playback.wanted && (!ui.editor.status.busy || ui.editor.status.playing)) {
         go_to(ui, *playback.wanted);
+        playback.position = *playback.wanted;
         playback.wanted.reset();
+        playback.next_at = std::max(playback.next_at, now + between_steps / playback.speed);
         return;
     }
-    if (!playback.playing || now < playback.next_at) return;
-    const std::size_t position = playback_position(ui.editor);
-    if (position == playback.steps) {
+    if (!playback.playing) return;
+    if (ui.editor.status.busy)
+        playback.next_at = std::max(playback.next_at, now + between_steps / playback.speed);
+    if (ui.editor.status.playing || now < playback.next_at) return;
+    if (playback.position == playback.steps) {
         playback.playing = false;
         return;
     }
-    playback.next_at = now + 1 / playback.speed;
-    go_to(ui, position + 1);
+    ++playback.position;
+    play_step(ui);
+}
+
+std::string playback_words(const Ui& ui) {
+    const Playback& playback = ui.state.playback;
+    if (!playback.shown || !ui.has_cloud() || playback_steps(ui.editor) == 0) return {};
+    const auto& playing = ui.editor.status.playing;
+    const std::size_t position = playback_position(ui.editor);
+    std::string words = playback.playing ? "Playing" : playing ? "Held" : "At";
+    words += " step " + std::to_string(position) + " of " + std::to_string(playback_steps(ui.editor));
+    if (playing && !playing->handle.empty())
+        words += ": \"" + playing->handle + "\" moves, frame " + std::to_string(playing->frame) + " of " +
+                 std::to_string(playing->frames);
+    else if (playing && playing->frames > 0)
+        words += ": the pose comes to rest";
+    else if (!playing)
+        words += position == 0 ? ": the cloud as it was opened" : ": " + ui.editor.document->last_words;
+    if (playback.playing) return words + " · Space holds";
+    if (position == playback_steps(ui.editor) && !playing)
+        return words + " · Space plays it all · Esc closes";
+    return words + " · Space plays on · Right shows the next frame · Esc goes back to the end";
 }
 
 namespace {
@@ -103,11 +166,18 @@ void step_line(const Ui& ui, float width, float height) {
     Playback& playback = ui.state.playback;
     const std::size_t steps = playback_steps(ui.editor);
     const std::size_t position = playback.wanted ? *playback.wanted : playback_position(ui.editor);
+    const auto& playing = ui.editor.status.playing;
+    float reached = static_cast<float>(position); // in the middle of a step that is played
+    if (playing && position > 0)
+        reached += playing->frames > 0
+                       ? static_cast<float>(playing->frame) / static_cast<float>(playing->frames) - 1
+                       : -1.0f;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton("steps", {width, height});
     const float margin = ui.scaled(9), length = width - 2 * margin, y = corner.y + height / 2;
     const float gap = length / static_cast<float>(std::max<std::size_t>(steps, 1));
-    const auto place = [&](std::size_t step) { return corner.x + margin + gap * static_cast<float>(step); };
+    const auto at = [&](float steps_done) { return corner.x + margin + gap * steps_done; };
+    const auto place = [&](std::size_t step) { return at(static_cast<float>(step)); };
     if (ImGui::IsItemActive() && steps > 0) {
         const float along = (ImGui::GetIO().MousePos.x - place(0)) / gap;
         const auto there =
@@ -119,14 +189,15 @@ void step_line(const Ui& ui, float width, float height) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float half = ui.scaled(2);
     list.AddRectFilled({place(0), y - half}, {place(0) + length, y + half}, palette::field_pressed, half);
-    list.AddRectFilled({place(0), y - half}, {place(position), y + half}, palette::accent, half);
+    list.AddRectFilled({place(0), y - half}, {at(reached), y + half}, palette::accent, half);
     if (gap > ui.scaled(6))
         for (std::size_t step = 0; step <= steps; ++step)
             list.AddCircleFilled({place(step), y}, ui.scaled(3.5f),
-                                 step <= position ? palette::accent : palette::field_pressed);
+                                 static_cast<float>(step) <= reached ? palette::accent
+                                                                     : palette::field_pressed);
     const bool held = ImGui::IsItemHovered() || ImGui::IsItemActive();
-    list.AddCircleFilled({place(position), y}, ui.scaled(held ? 8.5f : 7.5f), palette::accent);
-    list.AddCircleFilled({place(position), y}, ui.scaled(3), palette::on_accent);
+    list.AddCircleFilled({at(reached), y}, ui.scaled(held ? 8.5f : 7.5f), palette::accent);
+    list.AddCircleFilled({at(reached), y}, ui.scaled(3), palette::on_accent);
 }
 
 void play_buttons(const Ui& ui, float side) {
@@ -137,9 +208,17 @@ void play_buttons(const Ui& ui, float side) {
         play_to(ui, 0);
     }
     ImGui::SameLine();
+    if (icon_button("back", Icon::frame_back, side, false,
+                    "One frame back; between two steps, one step (Left)"))
+        play_frame(ui, -1);
+    ImGui::SameLine();
     if (icon_button("play", playback.playing ? Icon::pause : Icon::play, side, false,
-                    playback.playing ? "Stop here (Space)" : "Play the session (Space)"))
+                    playback.playing ? "Hold it here (Space)"
+                                     : "Play the session as it was recorded (Space)"))
         toggle_playing(ui);
+    ImGui::SameLine();
+    if (icon_button("on", Icon::frame_on, side, false, "The next frame that was recorded (Right)"))
+        play_frame(ui, 1);
     ImGui::SameLine();
     if (icon_button("last", Icon::last, side, false, "To the end")) {
         playback.playing = false;
@@ -160,16 +239,18 @@ std::string position_words(const Ui& ui) {
 void speed_choice(const Ui& ui, float width) {
     Playback& playback = ui.state.playback;
     char label[32];
-    std::snprintf(label, sizeof label, "%g a second", playback.speed);
+    std::snprintf(label, sizeof label, "Speed × %g", playback.speed);
     ImGui::SetNextItemWidth(width);
     if (ImGui::BeginCombo("##speed", label)) {
-        for (const double speed : {0.5, 1.0, 2.0, 4.0, 8.0}) {
-            std::snprintf(label, sizeof label, "%g a second", speed);
-            if (ImGui::Selectable(label, speed == playback.speed)) playback.speed = speed;
+        for (const double speed : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+            std::snprintf(label, sizeof label, "× %g", speed);
+            if (!ImGui::Selectable(label, speed == playback.speed)) continue;
+            playback.speed = speed;
+            ui.tell(PacePlaying{speed, !playback.playing});
         }
         ImGui::EndCombo();
     }
-    explain("How many steps are played in a second");
+    explain("× 1 shows 30 of the recorded frames in a second");
 }
 
 } // namespace

@@ -87,6 +87,14 @@ struct ChangeSettings {
 struct CommitPose {};
 struct UndoStep {};
 struct RedoStep {};
+struct PlayStep {};   // redoes it, picture by picture
+struct PacePlaying {  // of the step that is being played, and of later ones
+    double speed = 1; // 1: 30 of the recorded frames a second
+    bool held = false;
+};
+struct AdvancePlaying { // while it is held
+    int frames = 1;     // below 0: back, as far as the drag goes
+};
 
 // --- The camera ---
 
@@ -104,10 +112,10 @@ struct SetPivotUnder { // a double click: the point under the cursor becomes the
     glm::dvec2 pixel{0.0};
 };
 
-using Command =
-    std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
-                 MakeHandle, ChooseHandle, RenameHandle, ChangeRole, DeleteHandle, ResetPose, MirrorHandle,
-                 BeginDrag, DragTo, EndDrag, CancelDrag, SetPivot, ChangeSettings, CommitPose, UndoStep,
-                 RedoStep, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
+using Command = std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints,
+                             ChangeHidden, MakeHandle, ChooseHandle, RenameHandle, ChangeRole, DeleteHandle,
+                             ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag, SetPivot,
+                             ChangeSettings, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying,
+                             AdvancePlaying, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
 
 } // namespace knead

@@ -54,7 +54,6 @@ void take_over(Editor& editor) {
     editor.live->take_frame(editor.frame);
     editor.drag.reset();
     editor.chosen.clear();
-    editor.chosen_by = 0;
     editor.posted_names.clear();
     editor.pivot.reset();
     editor.tools.drag.reset();
@@ -88,11 +87,12 @@ void forget_refused(Editor& editor) {
     for (const StepNumber step : editor.live->take_refused()) {
         std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first == step; });
         std::erase_if(editor.future, [&](const EditorStep& future) { return future.document == step; });
-        if (editor.chosen_by == step) editor.chosen.clear();
         if (editor.drag && editor.drag->step == step) editor.drag.reset();
         const auto found = std::ranges::find(editor.past, step, &EditorStep::document);
         if (found == editor.past.end()) continue;
         if (found->before) restore_selection(editor, *found->before);
+        if (found->chosen_before && found->chosen_after == editor.chosen)
+            choose(editor, *found->chosen_before);
         editor.past.erase(found);
     }
 }
@@ -105,8 +105,6 @@ bool refresh_view(Editor& editor) {
     if (other_handles) mark_handles(editor);
     std::erase_if(editor.posted_names,
                   [&](const auto& posted) { return posted.first <= editor.document->last_step; });
-    if (editor.chosen_by <= editor.document->last_step) editor.chosen_by = 0;
-    if (editor.chosen_by == 0 && !chosen_handle(editor)) editor.chosen.clear();
     if (editor.drag && editor.drag->ended && editor.document->last_step >= editor.drag->step)
         editor.drag.reset();
     return true;
@@ -134,40 +132,6 @@ bool refresh(Editor& editor) {
         changed = true;
     }
     return changed;
-}
-
-// --- Steps -----------------------------------------------------------------------------------------------
-
-std::shared_ptr<const std::vector<std::uint8_t>> snapshot(const Editor& editor) {
-    return std::make_shared<const std::vector<std::uint8_t>>(editor.marks);
-}
-
-void add_step(Editor& editor, StepNumber document, std::shared_ptr<const std::vector<std::uint8_t>> before) {
-    editor.future.clear();
-    const auto after = before ? snapshot(editor) : nullptr;
-    editor.past.push_back({document, std::move(before), after});
-}
-
-StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
-                     std::shared_ptr<const std::vector<std::uint8_t>> marks_before) {
-    const StepNumber step = ++editor.last_step;
-    editor.live->post(step, std::move(lines));
-    add_step(editor, step, std::move(marks_before));
-    return step;
-}
-
-void restore_selection(Editor& editor, const std::vector<std::uint8_t>& from) {
-    for (std::size_t i = 0; i < editor.marks.size(); ++i)
-        editor.marks[i] =
-            static_cast<std::uint8_t>((editor.marks[i] & mark_handle) | (from[i] & marks_of_selection));
-    marks_changed(editor);
-}
-
-void marks_changed(Editor& editor) {
-    const MarkCounts counts = count_marks(editor.marks);
-    editor.selected = counts.selected;
-    editor.hidden = counts.hidden;
-    editor.changes.marks = true;
 }
 
 namespace {
@@ -287,25 +251,6 @@ void carry_out(Editor& editor, const CommitPose& /*command*/) {
     if (!editor.document->posed)
         return say(editor, Notice::Kind::information, "Nothing is posed, so there is nothing to commit.");
     post_step(editor, {CommitLine{}});
-}
-
-void carry_out(Editor& editor, const UndoStep& /*command*/) {
-    if (!can_undo(editor)) return;
-    EditorStep step = std::move(editor.past.back());
-    editor.past.pop_back();
-    if (step.before) restore_selection(editor, *step.before);
-    if (step.document) editor.live->undo(step.document);
-    editor.drag.reset();
-    editor.future.push_back(std::move(step));
-}
-
-void carry_out(Editor& editor, const RedoStep& /*command*/) {
-    if (!can_redo(editor)) return;
-    EditorStep step = std::move(editor.future.back());
-    editor.future.pop_back();
-    if (step.document) editor.live->redo(step.document);
-    if (step.after) restore_selection(editor, *step.after);
-    editor.past.push_back(std::move(step));
 }
 
 // --- The camera ------------------------------------------------------------------------------------------

@@ -35,6 +35,8 @@ struct EditorStep {
     std::shared_ptr<const std::vector<std::uint8_t>> after = {};
     // Of settings: when they were changed last. Those that change within a second join it.
     std::optional<std::chrono::steady_clock::time_point> settings_changed = {};
+    // The chosen handle before and after a step of the document; nothing: it stays as it is.
+    std::optional<std::string> chosen_before = {}, chosen_after = {};
 };
 
 // The drag that goes on, or that ended and that the document has not answered yet.
@@ -67,8 +69,7 @@ struct Editor {
     std::vector<std::uint8_t> marks; // of each point
     std::size_t selected = 0;        // points
     std::size_t hidden = 0;
-    std::string chosen;              // the handle with the gizmo; empty: none
-    StepNumber chosen_by = 0;        // the step that makes the chosen handle, until the document has it
+    std::string chosen;              // the handle with the gizmo, once the document has it; empty: none
     std::optional<glm::dvec3> pivot; // of the gizmo, where the user moved it
     bool local_axes = false;         // the gizmo's
 

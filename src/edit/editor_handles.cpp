@@ -1,6 +1,7 @@
 // What the editor does to handles: making, changing, mirroring and dragging them.
 
 #include "edit/editor_steps.h"
+#include "edit/way_back.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +11,6 @@
 namespace knead {
 
 namespace {
-
-// A drag that was not made by hand turns by no more than this from frame to frame.
-constexpr double turn_of_a_frame = 0.35;
 
 std::string_view word_for(HandleRole role) {
     switch (role) {
@@ -67,17 +65,12 @@ void carry_out(Editor& editor, const MakeHandle& command) {
     const std::string name = line.name;
     const StepNumber step = post_step(editor, {std::move(line)}, std::move(before));
     editor.posted_names.emplace_back(step, name);
-    if (command.role != HandleRole::moving) return;
-    editor.chosen = name;
-    editor.chosen_by = step;
-    editor.pivot.reset();
+    if (command.role == HandleRole::moving) choose_with_step(editor, name);
 }
 
 void carry_out(Editor& editor, const ChooseHandle& command) {
-    editor.chosen = command.handle;
     editor.pivot.reset();
-    if (const Handle* handle = chosen_handle(editor))
-        editor.handle_middle = middle_of(editor, *handle).value_or(glm::dvec3(0.0));
+    choose(editor, command.handle);
 }
 
 void carry_out(Editor& editor, const RenameHandle& command) {
@@ -86,9 +79,7 @@ void carry_out(Editor& editor, const RenameHandle& command) {
         return say(editor, Notice::Kind::error, "There is a handle \"" + command.to + "\" already.");
     const StepNumber step = post_step(editor, {RenameLine{command.handle, command.to}});
     editor.posted_names.emplace_back(step, command.to);
-    if (editor.chosen != command.handle) return;
-    editor.chosen = command.to;
-    editor.chosen_by = step;
+    if (editor.chosen == command.handle) choose_with_step(editor, command.to);
 }
 
 void carry_out(Editor& editor, const ChangeRole& command) {
@@ -133,7 +124,7 @@ DragLine drag_towards(const std::string& handle, const HandleMotion& motion, con
                       const Vec3d& origin) {
     const Vec3d to = motion.linear * middle + motion.offset;
     const Eigen::AngleAxisd turn(motion.rotation);
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(turn.angle()) / turn_of_a_frame)));
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(turn.angle()) / widest_turn)));
     const HandlePose last = pose_of(motion, middle + origin, origin);
     DragLine line{handle, middle + origin, {}};
     for (int k = 1; k <= steps; ++k) {
@@ -256,14 +247,8 @@ void carry_out(Editor& editor, const ResetPose& command) {
     const auto number = number_of(editor, command.handle);
     if (!number || editor.document->handles[*number].role != HandleRole::moving) return;
     if (!editor.document->posed) return;
-    const HandleMotion& now = editor.document->motions[*number];
-    const Vec3d middle = rest_middle(editor, *editor.document->handles[*number].points);
-    const Vec3d& origin = editor.opened.cloud->origin;
-    DragLine back = drag_towards(command.handle, now, middle, origin);
-    std::ranges::reverse(back.frames);
-    back.frames.erase(back.frames.begin());
-    back.frames.emplace_back();
-    post_step(editor, {std::move(back)});
+    editor.live->reset_pose(++editor.last_step, command.handle);
+    add_step(editor, editor.last_step, nullptr);
 }
 
 void carry_out(Editor& editor, const MirrorHandle& command) {
@@ -284,15 +269,21 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     line.points = ranges_of(points);
     line.free_rotation = handle.free_rotation;
     line.falloff = handle.falloff;
-    std::vector<SessionAction> lines{line};
-    if (editor.document->posed && handle.role == HandleRole::moving) {
-        const HandleMotion motion = mirrored(editor.document->motions[*number], command.axis, at);
+    const std::string name = line.name;
+    std::vector<SessionAction> lines{std::move(line)};
+    const HandleMotion& pose = editor.document->motions[*number];
+    const bool is_posed = pose.linear != Mat3d::Identity() || pose.offset != Vec3d::Zero();
+    if (is_posed && handle.role == HandleRole::moving) {
+        const HandleMotion motion = mirrored(pose, command.axis, at);
         lines.emplace_back(
-            drag_towards(line.name, motion, rest_middle(editor, points), editor.opened.cloud->origin));
+            drag_towards(name, motion, rest_middle(editor, points), editor.opened.cloud->origin));
+    } else if (handle.role == HandleRole::moving) {
+        say(editor, Notice::Kind::information,
+            "Only the handle was mirrored: \"" + handle.name +
+                "\" has no pose to mirror. What was posed before a commit belongs to the shape.");
     }
-    editor.chosen = line.name;
-    editor.chosen_by = post_step(editor, std::move(lines));
-    editor.posted_names.emplace_back(editor.chosen_by, line.name);
+    editor.posted_names.emplace_back(post_step(editor, std::move(lines)), name);
+    choose_with_step(editor, name);
 }
 
 // --- Dragging

@@ -23,6 +23,10 @@ void add_step(Editor& editor, StepNumber document, std::shared_ptr<const std::ve
 StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
                      std::shared_ptr<const std::vector<std::uint8_t>> marks_before = nullptr);
 
+// Another handle is chosen, or none; with the step done last, if that made it or is to bring it back.
+void choose(Editor& editor, const std::string& handle);
+void choose_with_step(Editor& editor, const std::string& handle);
+
 // Selection and hiding as in `from`; the bits of the handles stay.
 void restore_selection(Editor& editor, const std::vector<std::uint8_t>& from);
 
@@ -35,6 +39,11 @@ void mark_handles(Editor& editor);
 // Whether a document is open; tells the user if not.
 bool needs_document(Editor& editor);
 
+void carry_out(Editor& editor, const UndoStep& command);
+void carry_out(Editor& editor, const RedoStep& command);
+void carry_out(Editor& editor, const PlayStep& command);
+void carry_out(Editor& editor, const PacePlaying& command);
+void carry_out(Editor& editor, const AdvancePlaying& command);
 void carry_out(Editor& editor, const MakeHandle& command);
 void carry_out(Editor& editor, const ChooseHandle& command);
 void carry_out(Editor& editor, const RenameHandle& command);

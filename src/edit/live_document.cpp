@@ -19,7 +19,8 @@ LiveDocument::~LiveDocument() {
 LiveDocument::Status LiveDocument::status() const {
     return shared_->with([](const LiveShared& shared) {
         Status status = shared.status;
-        status.busy |= !shared.inbox.empty();
+        const bool plays = status.playing && (!shared.pace.held || shared.pace.frames != 0);
+        status.busy |= plays || !shared.inbox.empty();
         return status;
     });
 }
@@ -70,12 +71,28 @@ void LiveDocument::cancel_drag() {
     });
 }
 
+void LiveDocument::reset_pose(StepNumber step, std::string handle) {
+    put(*shared_, task::ResetPose{step, std::move(handle)});
+}
+
 void LiveDocument::undo(StepNumber step) {
     put(*shared_, task::Undo{step});
 }
 
 void LiveDocument::redo(StepNumber step) {
     put(*shared_, task::Redo{step});
+}
+
+void LiveDocument::play(StepNumber step) {
+    put(*shared_, task::Play{step});
+}
+
+void LiveDocument::set_play_pace(double speed, bool held) {
+    shared_->change([&](LiveShared& shared) { shared.pace = {speed, held, 0}; });
+}
+
+void LiveDocument::advance_play(int frames) {
+    shared_->change([&](LiveShared& shared) { shared.pace.frames += frames; });
 }
 
 void LiveDocument::save_cloud(std::filesystem::path target, SaveColumns columns) {

@@ -39,6 +39,7 @@ struct DocumentView {
     std::size_t acts = 0;     // that were recorded so far: what was saved is what had as many
     std::uint64_t state = 0;  // names what the acts so far make; undone and done again it is the same
     StepNumber last_step = 0; // the newest that was carried out
+    std::string last_words;   // what the newest act does, such as "pose committed"; empty at the beginning
     std::size_t undoable_steps = 0, redoable_steps = 0;
     std::size_t samples = 0; // 0: not chosen yet
     Pipeline::Strays strays;
@@ -112,6 +113,14 @@ public:
         double fraction = 0;  // of it
         bool busy = false;    // whether the thread has anything to do, converging included
         bool solving = false; // whether it is converging or following the hand
+        // What play() shows at the moment.
+        struct Playing {
+            std::string handle;     // that was dragged; empty: a pose comes to rest, or nothing moves
+            std::size_t frame = 0;  // the one that is shown, from 1; 0: none yet
+            std::size_t frames = 0; // of the drag, or of what comes to rest
+            bool held = false;
+        };
+        std::optional<Playing> playing;
     };
     Status status() const;
     void cancel_opening();
@@ -131,10 +140,19 @@ public:
     void end_drag();
     void cancel_drag(); // as if it had not begun; its step counts as refused without words
 
+    // Takes a handle back to where it was at rest in this edit, unwinding its turns.
+    void reset_pose(StepNumber step, std::string handle);
+
     // Takes the last step back, or does it again. `step` is its number, so that nothing happens if it was
     // refused meanwhile.
     void undo(StepNumber step);
     void redo(StepNumber step);
+
+    // Does a step again like redo(), but shows the poses that were recorded, 30 a second at a speed of 1, and
+    // of very many only some. Any act that comes in between ends it at once, as redo() would have.
+    void play(StepNumber step);
+    void set_play_pace(double speed, bool held); // also of later ones
+    void advance_play(int frames);               // while it is held; below 0: back, as far as this drag goes
 
     // Writes the shape as it is now / the session so far. Success and failure come as notices.
     void save_cloud(std::filesystem::path target, SaveColumns columns = {});

@@ -1,15 +1,10 @@
 #include "edit/live_drag.h"
 
+#include "edit/way_back.h"
+
 #include <algorithm>
-#include <numbers>
 
 namespace knead {
-
-namespace {
-
-constexpr double widest_turn = 20.0 * std::numbers::pi / 180.0;
-
-} // namespace
 
 Transform next_on_the_way(const Transform& shown, const Transform& wanted) {
     Transform next = wanted;

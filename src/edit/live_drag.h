@@ -21,6 +21,13 @@ struct LiveDrag {
 // dragged.
 Transform next_on_the_way(const Transform& shown, const Transform& wanted);
 
+// A step that is done again while it is looked at.
+struct LivePlay {
+    bool begun = false;    // its present act, in the document
+    std::size_t frame = 0; // of the present act: shown so far
+    double due = 0;        // the part of a frame that is left over from the last picture
+};
+
 // Tells the window how far a long stage is, and stops it when the window closes.
 class LiveProgress final : public Progress {
 public:

@@ -31,6 +31,7 @@ void LivePublisher::view(const Document& document, const LiveRecording& recordin
     view->acts = recording.acts();
     view->state = recording.state();
     view->last_step = facts.last_step;
+    view->last_words = recording.last_words();
     view->undoable_steps = recording.undoable_steps();
     view->redoable_steps = recording.redoable_steps();
     view->samples = pipeline.samples().size();

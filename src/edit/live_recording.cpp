@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 namespace knead {
 
@@ -14,6 +15,21 @@ namespace {
 std::filesystem::path relative_to(const std::filesystem::path& path, const std::filesystem::path& folder) {
     const std::filesystem::path way = path.lexically_relative(folder);
     return way.empty() ? path : way;
+}
+
+std::string words_about(const SessionAction& act) {
+    const auto quoted = [](const std::string& name) { return "\"" + name + "\""; };
+    if (const auto* line = std::get_if<HandleLine>(&act)) {
+        const char* role = line->role == HandleRole::moving  ? "moving handle "
+                           : line->role == HandleRole::fixed ? "fixed handle "
+                                                             : "region of interest ";
+        return role + quoted(line->name);
+    }
+    if (const auto* line = std::get_if<DragLine>(&act)) return quoted(line->handle) + " posed";
+    if (const auto* line = std::get_if<DeleteLine>(&act)) return quoted(line->handle) + " deleted";
+    if (const auto* line = std::get_if<RenameLine>(&act))
+        return quoted(line->handle) + " is now " + quoted(line->to);
+    return std::holds_alternative<SetLine>(act) ? "settings changed" : "pose committed";
 }
 
 template<typename Acts>
@@ -56,7 +72,10 @@ void LiveRecording::discard() {
 }
 
 void LiveRecording::add(const SessionAction& act, bool joins_step) {
-    past_.push_back({joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), ++last_number_});
+    // A settling goes on with what the act before it did.
+    std::string words = std::holds_alternative<SettleLine>(act) ? last_words() : words_about(act);
+    past_.push_back({joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), ++last_number_,
+                     std::move(words)});
     future_.clear();
     write_down(act);
 }

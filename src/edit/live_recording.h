@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace knead {
@@ -40,6 +41,9 @@ public:
     void step_back(const UndoLine& line);
     void step_forward(const RedoLine& line);
 
+    // What the newest act does that was not undone, in a few words; empty at the beginning.
+    std::string last_words() const { return past_.empty() ? std::string() : past_.back().words; }
+
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
     bool last_is_settings() const;                                           // of the acts that can be undone
@@ -69,6 +73,7 @@ private:
         bool joins = false; // the step of the act before it
         bool of_settings = false;
         std::uint64_t number = 0; // from 1
+        std::string words = {};
     };
     std::vector<Act> past_, future_;
     std::uint64_t last_number_ = 0;

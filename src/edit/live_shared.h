@@ -29,10 +29,17 @@ struct EndDrag {
     std::optional<WantedPose> last; // not followed yet
 };
 struct CancelDrag {};
+struct ResetPose {
+    StepNumber step = 0;
+    std::string handle;
+};
 struct Undo {
     StepNumber step = 0;
 };
 struct Redo {
+    StepNumber step = 0;
+};
+struct Play {
     StepNumber step = 0;
 };
 struct SaveCloud {
@@ -43,13 +50,21 @@ struct SaveSession {
     std::filesystem::path target;
 };
 } // namespace task
-using LiveTask = std::variant<task::Lines, task::BeginDrag, task::EndDrag, task::CancelDrag, task::Undo,
-                              task::Redo, task::SaveCloud, task::SaveSession>;
+using LiveTask = std::variant<task::Lines, task::BeginDrag, task::EndDrag, task::CancelDrag, task::ResetPose,
+                              task::Undo, task::Redo, task::Play, task::SaveCloud, task::SaveSession>;
+
+// How a step is played.
+struct PlayPace {
+    double speed = 1; // of the 30 frames a second
+    bool held = false;
+    int frames = 0; // to go on, or back, though it is held
+};
 
 struct LiveShared {
     // To the document.
     std::deque<LiveTask> inbox;
     std::optional<WantedPose> wanted; // the newest pose of the drag that was begun last
+    PlayPace pace;
     bool stop = false;
     bool keep_journal = true;
 

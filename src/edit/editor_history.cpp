@@ -1,0 +1,97 @@
+// The editor's steps: how they get on the history, and how they are taken back, done again and played.
+
+#include "edit/editor_steps.h"
+#include "edit/selecting.h"
+
+#include <utility>
+
+namespace knead {
+
+std::shared_ptr<const std::vector<std::uint8_t>> snapshot(const Editor& editor) {
+    return std::make_shared<const std::vector<std::uint8_t>>(editor.marks);
+}
+
+void add_step(Editor& editor, StepNumber document, std::shared_ptr<const std::vector<std::uint8_t>> before) {
+    editor.future.clear();
+    const auto after = before ? snapshot(editor) : nullptr;
+    EditorStep step{document, std::move(before), after};
+    if (document) step.chosen_before = step.chosen_after = editor.chosen;
+    editor.past.push_back(std::move(step));
+}
+
+StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
+                     std::shared_ptr<const std::vector<std::uint8_t>> marks_before) {
+    const StepNumber step = ++editor.last_step;
+    editor.live->post(step, std::move(lines));
+    add_step(editor, step, std::move(marks_before));
+    return step;
+}
+
+void choose(Editor& editor, const std::string& handle) {
+    if (handle != editor.chosen) editor.pivot.reset();
+    editor.chosen = handle;
+    if (const Handle* there = chosen_handle(editor))
+        editor.handle_middle = middle_of(editor, *there).value_or(glm::dvec3(0.0));
+}
+
+void choose_with_step(Editor& editor, const std::string& handle) {
+    choose(editor, handle);
+    if (!editor.past.empty()) editor.past.back().chosen_after = handle;
+}
+
+void restore_selection(Editor& editor, const std::vector<std::uint8_t>& from) {
+    for (std::size_t i = 0; i < editor.marks.size(); ++i)
+        editor.marks[i] =
+            static_cast<std::uint8_t>((editor.marks[i] & mark_handle) | (from[i] & marks_of_selection));
+    marks_changed(editor);
+}
+
+void marks_changed(Editor& editor) {
+    const MarkCounts counts = count_marks(editor.marks);
+    editor.selected = counts.selected;
+    editor.hidden = counts.hidden;
+    editor.changes.marks = true;
+}
+
+void carry_out(Editor& editor, const UndoStep& /*command*/) {
+    if (!can_undo(editor)) return;
+    EditorStep step = std::move(editor.past.back());
+    editor.past.pop_back();
+    if (step.before) restore_selection(editor, *step.before);
+    if (step.document) editor.live->undo(step.document);
+    if (step.chosen_before) choose(editor, *step.chosen_before);
+    editor.drag.reset();
+    editor.future.push_back(std::move(step));
+}
+
+namespace {
+
+void go_forward(Editor& editor, void (LiveDocument::*redo)(StepNumber)) {
+    if (!can_redo(editor)) return;
+    EditorStep step = std::move(editor.future.back());
+    editor.future.pop_back();
+    if (step.document) (editor.live.get()->*redo)(step.document);
+    if (step.after) restore_selection(editor, *step.after);
+    if (step.chosen_after) choose(editor, *step.chosen_after);
+    editor.past.push_back(std::move(step));
+}
+
+} // namespace
+
+void carry_out(Editor& editor, const RedoStep& /*command*/) {
+    go_forward(editor, &LiveDocument::redo);
+}
+
+void carry_out(Editor& editor, const PlayStep& /*command*/) {
+    go_forward(editor, &LiveDocument::play);
+}
+
+void carry_out(Editor& editor, const PacePlaying& command) {
+    if (editor.document) editor.live->set_play_pace(command.speed, command.held);
+}
+
+void carry_out(Editor& editor, const AdvancePlaying& command) {
+    if (editor.document) editor.live->advance_play(command.frames);
+}
+
+} // namespace knead

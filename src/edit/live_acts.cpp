@@ -1,0 +1,178 @@
+// The acts of the document's thread: lines, undo and redo, saving.
+
+#include "edit/live_work.h"
+
+#include "base/error.h"
+#include "edit/live_opening.h"
+#include "edit/measures.h"
+#include "edit/way_back.h"
+#include "io/cloud_file.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace knead {
+
+namespace {
+
+Vec3d middle_at_rest(const Document& document, const std::string& name) {
+    Vec3d sum = Vec3d::Zero();
+    double count = 0;
+    const auto handle = std::ranges::find(document.handles(), name, &Handle::name);
+    if (handle == document.handles().end()) return sum;
+    for (const Index i : *handle->points) {
+        if (!is_finite(document.cloud(), i)) continue;
+        sum += Eigen::Map<const Vec3f>(document.cloud().positions.data() + 3 * std::size_t{i}).cast<double>();
+        ++count;
+    }
+    return count > 0 ? Vec3d(sum / count) : sum;
+}
+
+} // namespace
+
+void LiveWork::carry_out(task::Lines& lines) {
+    finish_settling();
+    std::size_t done = 0;
+    const bool joins = lines.joins_last && recording_->last_is_settings();
+    try {
+        for (const SessionAction& line : lines.lines) {
+            if (needs_commit(line) && document_->is_posed()) {
+                carry_out_act(*document_, CommitLine{}, "", progress_);
+                add_act(CommitLine{}, done++ > 0 || joins);
+                say(Notice::Kind::information,
+                    "The pose was committed first, since this cannot change while one stands. Ctrl+Z "
+                    "takes both back.");
+            }
+            carry_out_act(*document_, line, "", progress_);
+            add_act(line, done++ > 0 || joins);
+        }
+    } catch (...) {
+        refuse(lines.step);
+        for (; done > 0; --done) take_back_act();
+        show_document();
+        throw;
+    }
+    last_step_ = lines.step;
+    ahead_ = true;
+    // New settings show at once on a pose that stands; nothing else leaves one.
+    converge_ = document_->is_posed();
+    show_document();
+}
+
+void LiveWork::carry_out(task::ResetPose& task) {
+    finish_settling();
+    DragLine back;
+    try {
+        const std::vector<HandleMotion> way = document_->way_of(task.handle);
+        back = way_back(task.handle, way, middle_at_rest(*document_, task.handle), document_->cloud().origin);
+    } catch (...) {
+        refuse(task.step);
+        throw;
+    }
+    // What was wound up is seen to unwind.
+    document_->on_frame = [this] { publish_shape(document_->pipeline().posed(), false); };
+    try {
+        task::Lines lines{task.step, {std::move(back)}, false};
+        carry_out(lines);
+    } catch (...) {
+        document_->on_frame = nullptr;
+        throw;
+    }
+    document_->on_frame = nullptr;
+}
+
+void LiveWork::carry_out(task::Undo& task) {
+    finish_settling();
+    if (refused_.contains(task.step) || !recording_->can_undo()) return;
+    take_back_step();
+    show_where_it_rests();
+}
+
+void LiveWork::carry_out(task::Redo& task) {
+    finish_settling();
+    if (refused_.contains(task.step) || !recording_->can_redo()) return;
+    do redo_act();
+    while (recording_->next_joins());
+    show_where_it_rests();
+}
+
+void LiveWork::redo_act() {
+    document_->redo("");
+    record([&] { recording_->step_forward(RedoLine{}); });
+}
+
+// After going back or forth; where that goes on at once, only the last shape is made.
+void LiveWork::show_where_it_rests() {
+    ahead_ = true; // other samples, perhaps
+    const bool goes_on = shared_.with([](const LiveShared& s) {
+        return !s.inbox.empty() && (std::holds_alternative<task::Undo>(s.inbox.front()) ||
+                                    std::holds_alternative<task::Redo>(s.inbox.front()));
+    });
+    if (goes_on)
+        publish_view();
+    else
+        show_document();
+}
+
+void LiveWork::carry_out(task::SaveCloud& task) {
+    finish_settling();
+    const std::vector<float> positions = document_->positions(progress_);
+    const std::vector<float> normals = document_->normals(progress_);
+    const std::vector<float> far = task.columns.displacement ? displacement_column() : std::vector<float>{};
+    const std::vector<float> stretch = task.columns.stretch ? stretch_column() : std::vector<float>{};
+    PosedShape shape{positions, normals, {}};
+    if (task.columns.displacement) shape.added.push_back({"displacement", far});
+    if (task.columns.stretch) shape.added.push_back({"stretch", stretch});
+    write_cloud(task.target, document_->cloud(), shape, progress_);
+    say(Notice::Kind::information, "Saved the cloud as " + task.target.string());
+    publish_view();
+}
+
+void LiveWork::carry_out(task::SaveSession& task) {
+    finish_settling();
+    recording_->save(task.target);
+    recording_->discard(); // the journal: a crash loses nothing of this any more
+    saved_.session_state = recording_->state();
+    session_file_ = task.target;
+    say(Notice::Kind::information, "Saved the session as " + task.target.string());
+    publish_view();
+}
+
+std::vector<float> LiveWork::in_file_order(std::span<const float> ordered, float left_out) {
+    return knead::in_file_order(document_->pipeline().order(), ordered, document_->cloud().size(), left_out,
+                                workers_);
+}
+
+std::vector<float> LiveWork::displacement_column() {
+    const std::vector<float>& opened = document_->pipeline().opened().positions;
+    return in_file_order(displacements(opened, document_->shape(progress_).positions, workers_), 0);
+}
+
+std::vector<float> LiveWork::stretch_column() {
+    document_->prepare_ahead(progress_); // the graph
+    const Pipeline& pipeline = document_->pipeline();
+    const RestShape& now = document_->shape(progress_);
+    return in_file_order(local_stretch(pipeline.order(), pipeline.graph(), pipeline.opened().positions,
+                                       now.positions, workers_),
+                         1);
+}
+
+void LiveWork::add_act(const SessionAction& action, bool joins) {
+    record([&] { recording_->add(action, joins); });
+}
+
+void LiveWork::take_back_act() {
+    document_->undo("");
+    record([&] { recording_->step_back(UndoLine{}); });
+}
+
+void LiveWork::take_back_step() {
+    bool joins = false;
+    do {
+        joins = recording_->last_joins();
+        take_back_act();
+    } while (joins);
+    converge_ = false; // an undone pose is shown as it was
+}
+
+} // namespace knead

@@ -1,0 +1,123 @@
+#pragma once
+// The document's thread: takes tasks one after the other, follows the newest pose, and lets a pose that rests
+// converge. Private to this room.
+
+#include "base/error.h"
+#include "base/stopwatch.h"
+#include "edit/live_drag.h"
+#include "edit/live_publisher.h"
+#include "edit/live_recording.h"
+#include "edit/live_shared.h"
+
+#include <set>
+#include <span>
+
+namespace knead {
+
+class LiveWork {
+public:
+    LiveWork(OpenRequest request, Locked<LiveShared>& shared);
+
+    void open();
+    bool turn(); // one turn of the loop; false when it is time to stop
+    void end();
+
+private:
+    // --- The loop (live_work.cpp) ---
+
+    void publish_opened();
+    void wait_for_next_frame();
+    bool something_to_do() const;
+    void go_on();
+    void rest_if_idle();
+    template<typename Do>
+    void guarded(Do&& work);
+
+    // --- Acts (live_acts.cpp) ---
+
+    void carry_out(task::Lines& lines);
+    void carry_out(task::ResetPose& task);
+    void carry_out(task::Undo& task);
+    void carry_out(task::Redo& task);
+    void carry_out(task::SaveCloud& task);
+    void carry_out(task::SaveSession& task);
+    template<typename Record>
+    void record(Record&& write);
+    void add_act(const SessionAction& action, bool joins);
+    void take_back_act();
+    void take_back_step();
+    void redo_act();
+    void show_where_it_rests();
+    std::vector<float> in_file_order(std::span<const float> ordered, float left_out);
+    std::vector<float> displacement_column();
+    std::vector<float> stretch_column();
+
+    // --- Drags and what converges afterwards (live_following.cpp) ---
+
+    void carry_out(task::BeginDrag& task);
+    void carry_out(task::EndDrag& task);
+    void carry_out(task::CancelDrag& task);
+    void take_wanted(WantedPose wanted);
+    void follow();
+    void finish_drag();
+    void drop_drag();
+    void settle();
+    void stop_settling();
+    void finish_settling();
+
+    // --- Playing (live_playing.cpp) ---
+
+    void carry_out(task::Play& task);
+    bool plays_on(const LiveShared& shared) const;
+    double seconds_to_next_picture(const LiveShared& shared) const;
+    void play_on();
+    void play_frames(int frames);
+    void play_settling(int frames);
+    void finish_playing_act();
+    void finish_playing();
+    std::optional<LiveDocument::Status::Playing> what_plays(const LiveShared& shared) const;
+
+    // --- Telling the window (live_work.cpp) ---
+
+    void show_document();
+    void publish_shape(const RestShape& shape, bool of_drag);
+    void publish_view();
+    void refuse(StepNumber step);
+    void say(Notice::Kind kind, const std::string& words) { publisher_.say(kind, words); }
+
+    OpenRequest request_;
+    Locked<LiveShared>& shared_;
+    LivePublisher publisher_;
+    LiveProgress progress_;
+    Workers workers_;
+    std::unique_ptr<Upsampler> upsampler_;
+    std::unique_ptr<Document> document_;
+    std::unique_ptr<LiveRecording> recording_;
+    std::optional<LiveDrag> drag_;
+    std::optional<LivePlay> play_;
+    bool converge_ = false; // a released pose
+    bool settling_ = false; // begun in the document
+    unsigned settled_ = 0;
+    bool ahead_ = true; // stages could be prepared before they are needed
+    Stopwatch since_frame_;
+    double solve_seconds_ = 0;
+    StepNumber last_step_ = 0;
+    std::set<StepNumber> refused_;
+    std::deque<LiveTask> after_drag_; // what came while a drag went on
+    bool told_of_journal_ = false;
+    LiveDocument::Saved saved_;
+    std::filesystem::path session_file_;
+};
+
+// The act is done; that its line cannot be written is said, once, and changes nothing.
+template<typename Record>
+void LiveWork::record(Record&& write) {
+    try {
+        std::forward<Record>(write)();
+        told_of_journal_ = false;
+    } catch (const Error& error) {
+        if (!std::exchange(told_of_journal_, true)) say(Notice::Kind::error, error.what());
+    }
+}
+
+} // namespace knead

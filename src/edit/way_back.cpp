@@ -1,0 +1,74 @@
+#include "edit/way_back.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knead {
+
+namespace {
+
+// The cosine of half the turn that a shortcut makes at most, 120°. Where the handle stayed within it all the
+// time, it went no other way round.
+constexpr double least_cosine = 0.5;
+
+double turn_between(const HandleMotion& from, const HandleMotion& to) {
+    return 2 * std::acos(std::clamp(from.rotation.dot(to.rotation), -1.0, 1.0));
+}
+
+// Between two quaternions of which each has its own sign, told apart from its negative.
+Quatd between(const Quatd& from, const Quatd& to, double t) {
+    const double angle = std::acos(std::clamp(from.dot(to), -1.0, 1.0));
+    if (angle < 1e-9) return to;
+    Quatd result;
+    result.coeffs() = (std::sin((1 - t) * angle) * from.coeffs() + std::sin(t * angle) * to.coeffs());
+    return result.normalized();
+}
+
+// Where the way back turns off: numbers in `way`, from the last one to the first.
+std::vector<std::size_t> corners(std::span<const HandleMotion> way) {
+    std::vector<std::size_t> result{way.size() - 1};
+    for (std::size_t at = way.size() - 1; at > 0; result.push_back(at)) {
+        const Quatd& here = way[at].rotation;
+        --at;
+        while (at > 0 && here.dot(way[at - 1].rotation) >= least_cosine) --at;
+    }
+    return result;
+}
+
+} // namespace
+
+DragLine way_back(const std::string& handle, std::span<const HandleMotion> way, const Vec3d& middle,
+                  const Vec3d& origin) {
+    std::vector<HandleMotion> from_rest{HandleMotion{}};
+    from_rest.insert(from_rest.end(), way.begin(), way.end());
+    const std::vector<std::size_t> stops = corners(from_rest);
+    const HandlePose posed = pose_of(from_rest.back(), middle + origin, origin);
+    double whole = 0, done = 0;
+    for (std::size_t k = 1; k < stops.size(); ++k)
+        whole += turn_between(from_rest[stops[k - 1]], from_rest[stops[k]]);
+
+    DragLine line{handle, middle + origin, {}};
+    for (std::size_t k = 1; k < stops.size(); ++k) {
+        const HandleMotion &from = from_rest[stops[k - 1]], &to = from_rest[stops[k]];
+        const Vec3d start = from.linear * middle + from.offset - middle;
+        const Vec3d end = to.linear * middle + to.offset - middle;
+        const double turn = turn_between(from, to);
+        const int frames = std::max(1, static_cast<int>(std::ceil(turn / widest_turn - 1e-9)));
+        for (int f = 1; f <= frames; ++f) {
+            const double t = static_cast<double>(f) / frames;
+            const double left = whole > 0 ? 1 - (done + t * turn) / whole : 0;
+            HandlePose pose;
+            pose.rotate = between(from.rotation, to.rotation, t);
+            pose.translate = start + t * (end - start);
+            pose.scale = Vec3d::Ones() + std::clamp(left, 0.0, 1.0) * (posed.scale - Vec3d::Ones());
+            pose.axes = posed.axes;
+            line.frames.push_back(pose);
+        }
+        done += turn;
+    }
+    if (line.frames.empty()) line.frames.emplace_back();
+    line.frames.back() = HandlePose{};
+    return line;
+}
+
+} // namespace knead

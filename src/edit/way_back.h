@@ -1,0 +1,22 @@
+#pragma once
+// The way of a handle back to where it was at rest. Private to this room.
+
+#include "edit/handles.h"
+
+#include <numbers>
+#include <span>
+
+namespace knead {
+
+// A handle that no hand drags turns by no more than this from frame to frame, in radians: so nothing is lost
+// of what the samples between it and the others turn, however many turns there are.
+inline constexpr double widest_turn = 20.0 * std::numbers::pi / 180.0;
+
+// A drag that takes the handle back to rest the way it came, so that what was wound up is unwound: small
+// detours are cut short, whole turns are not. `way`: its motions in this edit, the first one first; the last
+// frame is the identity. `middle`: of the handle at rest; it goes straight from corner to corner. Scaling
+// goes off evenly on the way.
+DragLine way_back(const std::string& handle, std::span<const HandleMotion> way, const Vec3d& middle,
+                  const Vec3d& origin);
+
+} // namespace knead

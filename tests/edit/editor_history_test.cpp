@@ -1,0 +1,128 @@
+// What undo, redo and playing do to the editor beside its document: the handle that is chosen, the pose that
+// is reset.
+
+#include "edit/editor_bar.h"
+
+
+namespace knead::test {
+
+TEST_F(BarEditor, UndoAndRedoBringTheChosenHandleBack) {
+    make_handles();
+    editor_.camera.orthographic = true;
+    select_heights(-0.2, 0.2);
+    apply(editor_, MakeHandle{HandleRole::moving, "belt"});
+    calm();
+    ASSERT_TRUE(chosen_handle(editor_));
+    EXPECT_EQ(editor_.chosen, "belt");
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(editor_.chosen, "high") << "which was chosen when the belt was made";
+    apply(editor_, ChooseHandle{"low"});
+    apply(editor_, RedoStep{});
+    calm();
+    EXPECT_EQ(editor_.chosen, "belt");
+    ASSERT_TRUE(chosen_handle(editor_));
+    EXPECT_TRUE(gizmo_of(editor_));
+    apply(editor_, RenameHandle{"belt", "girdle"});
+    calm();
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(editor_.chosen, "belt");
+    apply(editor_, DeleteHandle{"belt"});
+    calm();
+    EXPECT_FALSE(chosen_handle(editor_));
+    apply(editor_, UndoStep{});
+    calm();
+    ASSERT_TRUE(chosen_handle(editor_)) << "a deleted handle comes back chosen";
+    EXPECT_EQ(chosen_handle(editor_)->name, "belt");
+}
+
+TEST_F(BarEditor, UndoingADragChoosesTheHandleThatWasDragged) {
+    make_handles();
+    move({400, 100});
+    press('R');
+    type("40");
+    press(Key::enter);
+    calm();
+    apply(editor_, ChooseHandle{"low"});
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(editor_.chosen, "high");
+}
+
+TEST_F(BarEditor, AnUndoneSelectionLeavesTheChosenHandleAlone) {
+    make_handles();
+    select_heights(-1, 1);
+    apply(editor_, ChooseHandle{"low"});
+    apply(editor_, UndoStep{});
+    EXPECT_EQ(editor_.chosen, "low");
+}
+
+TEST_F(BarEditor, MirroringAfterACommitSaysThatThereIsNoPose) {
+    make_handles();
+    move({400, 100});
+    press('R');
+    type("40");
+    press(Key::enter);
+    calm();
+    apply(editor_, CommitPose{});
+    calm();
+    editor_.notices.clear();
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    EXPECT_EQ(editor_.document->handles.size(), 3U);
+    EXPECT_FALSE(editor_.document->posed);
+    ASSERT_EQ(editor_.notices.size(), 1U);
+    EXPECT_NE(editor_.notices[0].words.find("no pose to mirror"), std::string::npos);
+    EXPECT_EQ(editor_.chosen, "high mirrored");
+}
+
+TEST_F(BarEditor, ResettingAPoseOfTwoTurnsUnwindsThem) {
+    make_handles();
+    const std::vector<float> rest = editor_.frame.positions;
+    move({400, 100});
+    press('R');
+    press('Z');
+    type("720");
+    press(Key::enter);
+    calm();
+    apply(editor_, ResetPose{"high"});
+    calm();
+    ASSERT_EQ(editor_.frame.positions.size(), rest.size());
+    float farthest = 0;
+    for (std::size_t i = 0; i < rest.size(); ++i)
+        farthest = std::max(farthest, std::abs(editor_.frame.positions[i] - rest[i]));
+    EXPECT_LT(farthest, 1e-3F);
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_NE(editor_.frame.positions, rest);
+}
+
+TEST_F(BarEditor, PlayingAStepIsDoingItAgain) {
+    make_handles();
+    move({400, 100});
+    press('R');
+    press('Z');
+    type("90");
+    press(Key::enter);
+    calm();
+    const std::vector<float> turned = editor_.frame.positions;
+    apply(editor_, UndoStep{});
+    calm();
+    ASSERT_TRUE(can_redo(editor_));
+    apply(editor_, PacePlaying{1, true});
+    apply(editor_, PlayStep{});
+    apply(editor_, AdvancePlaying{2});
+    ASSERT_TRUE(wait_until([&] {
+        refresh(editor_);
+        return editor_.status.playing && editor_.status.playing->frame == 2;
+    }));
+    EXPECT_EQ(editor_.status.playing->handle, "high");
+    EXPECT_FALSE(can_redo(editor_));
+    apply(editor_, PacePlaying{4, false});
+    calm();
+    EXPECT_EQ(editor_.frame.positions, turned);
+    EXPECT_FALSE(editor_.status.playing);
+}
+
+} // namespace knead::test

@@ -1,0 +1,133 @@
+// Steps that are done again frame by frame, to be looked at.
+
+#include "edit/live_bar.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace knead::test {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+class PlayedBar : public LiveBar {
+protected:
+    // A drag of many frames, undone again; keeps the shape that it made.
+    void drag_and_undo() {
+        std::vector<Transform> poses;
+        for (int k = 1; k <= 12; ++k) poses.push_back(turned(k * pi / 24, {1, 0, 0}));
+        drag(poses);
+        dragged_ = frame_.positions;
+        live_->undo(step_);
+        settle_down();
+        ASSERT_NE(frame_.positions, dragged_);
+    }
+
+    bool is_held_at(std::size_t frame) {
+        return wait_until([&] {
+            const LiveDocument::Status status = live_->status();
+            live_->take_frame(frame_);
+            return status.playing && status.playing->frame == frame && !status.busy;
+        });
+    }
+
+    std::vector<float> dragged_;
+};
+
+} // namespace
+
+TEST_F(PlayedBar, ShowsTheFramesAndEndsAtTheVeryShape) {
+    drag_and_undo();
+    live_->set_play_pace(1, false);
+    const std::uint64_t first = frame_.version;
+    live_->play(step_);
+    std::size_t shown = 0, last = 0;
+    ASSERT_TRUE(wait_until([&] {
+        const LiveDocument::Status status = live_->status();
+        if (status.playing && status.playing->handle == "high" && status.playing->frame > last) {
+            last = status.playing->frame;
+            ++shown;
+        }
+        return !status.busy;
+    }));
+    live_->take_frame(frame_);
+    EXPECT_GT(shown, 2U);
+    EXPECT_GT(frame_.version, first + 3);
+    EXPECT_EQ(frame_.positions, dragged_);
+    EXPECT_FALSE(live_->status().playing);
+    EXPECT_TRUE(live_->view()->posed);
+    EXPECT_EQ(live_->view()->redoable_steps, 0U);
+    expect_replay_makes_the_same();
+}
+
+TEST_F(PlayedBar, IsHeldAndGoesBackAndForthByFrames) {
+    drag_and_undo();
+    const std::vector<float> rest = frame_.positions;
+    live_->set_play_pace(1, true);
+    live_->play(step_);
+    live_->advance_play(1);
+    ASSERT_TRUE(is_held_at(1));
+    const std::vector<float> one = frame_.positions;
+    EXPECT_NE(one, rest);
+    live_->advance_play(2);
+    ASSERT_TRUE(is_held_at(3));
+    EXPECT_NE(frame_.positions, one);
+    live_->advance_play(-2);
+    ASSERT_TRUE(is_held_at(1));
+    EXPECT_EQ(frame_.positions, one);
+    live_->advance_play(-1);
+    ASSERT_TRUE(is_held_at(0));
+    EXPECT_EQ(frame_.positions, rest);
+    live_->set_play_pace(4, false);
+    settle_down();
+    EXPECT_EQ(frame_.positions, dragged_);
+}
+
+TEST_F(PlayedBar, AnActInTheMiddleComesAfterTheWholeStep) {
+    drag_and_undo();
+    live_->set_play_pace(1, true);
+    live_->play(step_);
+    live_->advance_play(2);
+    ASSERT_TRUE(is_held_at(2));
+    live_->undo(step_);
+    settle_down();
+    EXPECT_FALSE(live_->view()->posed);
+    live_->play(step_);
+    live_->advance_play(2);
+    ASSERT_TRUE(is_held_at(2));
+    drag({turned(0.3, {0, 1, 0})});
+    EXPECT_EQ(live_->view()->undoable_steps, 4U) << "two handles, the drag that was played, and another";
+    live_->undo(step_);
+    settle_down();
+    EXPECT_EQ(frame_.positions, dragged_);
+    expect_replay_makes_the_same();
+}
+
+TEST_F(PlayedBar, WhatDoesNotMoveIsRedoneAtOnce) {
+    live_->undo(step_);
+    settle_down();
+    EXPECT_EQ(live_->view()->handles.size(), 1U);
+    live_->set_play_pace(1, false);
+    live_->play(step_);
+    settle_down();
+    EXPECT_EQ(live_->view()->handles.size(), 2U);
+    EXPECT_EQ(live_->view()->last_words, "moving handle \"high\"");
+}
+
+// Two whole turns leave the handle where it was; only unwinding them brings the middle back.
+TEST_F(PlayedBar, ResettingAPoseUnwindsItsTurns) {
+    const std::vector<float> rest = frame_.positions;
+    drag({turned(2 * pi)});
+    EXPECT_GT(largest_displacement(), 0.2);
+    live_->reset_pose(++step_, "high");
+    settle_down();
+    EXPECT_LT(largest_displacement(), 1e-4);
+    live_->undo(step_);
+    settle_down();
+    EXPECT_GT(largest_displacement(), 0.2);
+    live_->redo(step_);
+    expect_replay_makes_the_same();
+}
+
+} // namespace knead::test

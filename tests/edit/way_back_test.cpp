@@ -1,0 +1,94 @@
+// The way of a handle back to rest: what was wound up is unwound.
+
+#include "edit/way_back.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace knead {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const Vec3d middle(1, 2, 3), origin(10, 0, 0);
+
+HandleMotion turned_on(const HandleMotion& before, const Vec3d& axis, double angle) {
+    Transform turn;
+    turn.pivot = {1, 2, 3};
+    turn.axis = {axis.x(), axis.y(), axis.z()};
+    turn.angle = angle;
+    return followed_by(before, turn);
+}
+
+// So many steps of 10° about an axis, on top of what was turned before.
+void wind(std::vector<HandleMotion>& way, const Vec3d& axis, int steps) {
+    for (int k = 0; k < std::abs(steps); ++k)
+        way.push_back(
+            turned_on(way.empty() ? HandleMotion{} : way.back(), axis, (steps < 0 ? -1 : 1) * pi / 18));
+}
+
+// What the frames turn in all, none of them more than it may.
+double turned_in_all(const DragLine& line, const HandleMotion& start) {
+    Quatd before = start.rotation;
+    double sum = 0;
+    for (const HandlePose& pose : line.frames) {
+        const HandleMotion motion = motion_of(pose, line.pivot, origin, before);
+        const double turn = 2 * std::acos(std::min(1.0, before.dot(motion.rotation)));
+        EXPECT_LE(turn, widest_turn * 1.001);
+        sum += turn;
+        before = motion.rotation;
+    }
+    EXPECT_NEAR(before.dot(Quatd::Identity()), 1, 1e-12) << "and not its negative";
+    return sum;
+}
+
+bool is_rest(const HandlePose& pose) {
+    return pose.translate == Vec3d::Zero() && pose.scale == Vec3d::Ones() &&
+           pose.rotate.coeffs() == Quatd::Identity().coeffs();
+}
+
+TEST(WayBack, TwoTurnsAreUnwoundByTwoTurns) {
+    std::vector<HandleMotion> way;
+    wind(way, Vec3d::UnitZ(), 72);
+    const DragLine line = way_back("ear", way, middle, origin);
+    EXPECT_NEAR(turned_in_all(line, way.back()), 4 * pi, 1e-6);
+    EXPECT_LE(line.frames.size(), 45U);
+    EXPECT_TRUE(is_rest(line.frames.back()));
+}
+
+TEST(WayBack, ThreeQuartersAreNotCutShort) {
+    std::vector<HandleMotion> way;
+    wind(way, Vec3d::UnitX(), 27);
+    EXPECT_NEAR(turned_in_all(way_back("ear", way, middle, origin), way.back()), 1.5 * pi, 1e-6);
+}
+
+TEST(WayBack, DetoursThatCameBackAre) {
+    std::vector<HandleMotion> way;
+    wind(way, Vec3d::UnitX(), 9);
+    wind(way, Vec3d::UnitX(), -9);
+    wind(way, Vec3d::UnitY(), 6);
+    wind(way, Vec3d::UnitZ(), 3);
+    EXPECT_LT(turned_in_all(way_back("ear", way, middle, origin), way.back()), 0.5 * pi);
+}
+
+TEST(WayBack, TurnsAboutTwoAxesGoBackOneAfterTheOther) {
+    std::vector<HandleMotion> way;
+    wind(way, Vec3d::UnitX(), 36);
+    wind(way, Vec3d::UnitY(), 36);
+    EXPECT_NEAR(turned_in_all(way_back("ear", way, middle, origin), way.back()), 4 * pi, 0.1)
+        << "though the handle lies as at rest";
+}
+
+TEST(WayBack, AShiftAndAScaleGoBackInOneFrame) {
+    Transform change;
+    change.shift = {3, 0, 1};
+    change.scale = {2, 1, 1};
+    const std::vector<HandleMotion> way{followed_by(HandleMotion{}, change)};
+    const DragLine line = way_back("ear", way, middle, origin);
+    ASSERT_EQ(line.frames.size(), 1U);
+    EXPECT_TRUE(is_rest(line.frames[0]));
+    EXPECT_EQ(way_back("ear", {}, middle, origin).frames.size(), 1U);
+}
+
+} // namespace
+} // namespace knead

@@ -22,7 +22,7 @@ std::string chosen_name(const Display& display) {
 }
 
 void coloring_choice(const Ui& ui) {
-    caption("Colour by");
+    inline_caption("Colour by", ui.scaled(92));
     const Display& display = ui.state.display;
     if (!ImGui::BeginCombo("##coloring", chosen_name(display).c_str(), ImGuiComboFlags_HeightLarge)) return;
     const PointCloud& cloud = *ui.editor.opened.cloud;
@@ -72,8 +72,6 @@ void size_slider(const Ui& ui) {
                    ImGuiSliderFlags_Logarithmic);
         explain("The diameter on the screen, in pixels (+ and -)");
     }
-    ImGui::Checkbox("Smaller with distance", &look.size_by_distance);
-    explain("Points are as large as they lie apart in the cloud; otherwise all have one size on the screen");
 }
 
 // The next item goes to the right of the last one.
@@ -101,8 +99,13 @@ void sample_overlays(const Ui& ui) {
 
 void overlays(const Ui& ui) {
     Display& display = ui.state.display;
-    ImGui::Checkbox("Eye-dome lighting", &display.look.eye_dome);
-    explain("Darkens what lies behind, so that depth shows without normals (E)");
+    ImGui::Checkbox("By distance", &display.look.size_by_distance);
+    explain(
+        "Points are as large as they lie apart in the cloud, so far ones are smaller; otherwise all have one "
+        "size on the screen");
+    second_column();
+    ImGui::Checkbox("Eye-dome", &display.look.eye_dome);
+    explain("Eye-dome lighting: darkens what lies behind, so that depth shows without normals (E)");
     ImGui::Checkbox("Shading", &display.look.shading);
     explain(ui.editor.frame.normals.empty()
                 ? "Lights the points. This file has no normals: they are estimated, for looking at only"
@@ -115,24 +118,12 @@ void overlays(const Ui& ui) {
     sample_overlays(ui);
 }
 
-void camera_choice(const Ui& ui) {
-    caption("Camera");
-    const bool orthographic = ui.editor.camera.orthographic;
-    const int projection = segmented("projection", {"Perspective", "Parallel"}, orthographic ? 1 : 0);
-    explain("With or without perspective (5)");
-    if (projection >= 0 && (projection == 1) != orthographic) {
-        Camera camera = ui.editor.camera;
-        camera.orthographic = projection == 1;
-        ui.tell(MoveCamera{camera});
-    }
-    const Orbiting style = ui.editor.tools.orbiting;
-    const int orbiting =
-        segmented("orbiting", {"Turntable", "Trackball"}, style == Orbiting::turntable ? 0 : 1);
-    explain("Orbiting keeps the horizon level, or turns freely");
-    const int up = segmented("up", {"Z is up", "Y is up"}, ui.editor.camera.up == UpAxis::z ? 0 : 1);
+// The rest of the camera is in the menu "View" and on keys; this is what a new cloud may need at once.
+void up_choice(const Ui& ui) {
+    inline_caption("Upwards", ui.scaled(92));
+    const int up = segmented("up", {"Z", "Y"}, ui.editor.camera.up == UpAxis::z ? 0 : 1);
     explain("Which axis of the file points upwards: for the ground, the horizon and the views 1, 3 and 7");
     if (up >= 0) ui.wish(WishUpAxis{up == 0 ? UpAxis::z : UpAxis::y});
-    if (orbiting >= 0) ui.wish(WishOrbiting{orbiting == 0 ? Orbiting::turntable : Orbiting::trackball});
 }
 
 } // namespace
@@ -146,7 +137,7 @@ void display_panel(const Ui& ui) {
     range_fields(ui);
     size_slider(ui);
     overlays(ui);
-    camera_choice(ui);
+    up_choice(ui);
 }
 
 } // namespace knead

@@ -5,20 +5,32 @@
 #include "app/ui.h"
 #include "app/widgets.h"
 
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <utility>
 
 namespace knead {
 
 namespace {
 
-void selection_buttons(const Ui& ui) {
+constexpr float fewest_rows = 3; // of the list
+
+void selection_words(const Ui& ui) {
     const std::size_t selected = ui.editor.selected;
-    if (selected == 0)
-        faint_text("Nothing selected. Draw around a part of the cloud with the left button.");
-    else
+    if (selected > 0)
         faint_text(grouped(selected) +
                    (selected == 1 ? " point selected. Make it a" : " points selected. Make them a"));
-    ImGui::BeginDisabled(selected == 0);
+    else if (ui.editor.document->handles.empty())
+        faint_text("Nothing selected. Draw around a part of the cloud with the left button.");
+    else
+        faint_text("Nothing selected");
+}
+
+void selection_buttons(const Ui& ui) {
+    selection_words(ui);
+    ImGui::BeginDisabled(ui.editor.selected == 0);
     if (key_button("Moving handle", "H", true)) ui.tell(MakeHandle{HandleRole::moving, {}});
     explain("A part that you move, turn and scale; the rest of the cloud follows (H)");
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
@@ -41,6 +53,12 @@ void role_items(const Ui& ui, const Handle& handle) {
         if (ImGui::MenuItem(label, nullptr, handle.role == role)) ui.tell(ChangeRole{handle.name, role});
 }
 
+void mirror_items(const Ui& ui, const Handle& handle) {
+    if (ImGui::MenuItem("Along X")) ui.tell(MirrorHandle{handle.name, 0});
+    if (ImGui::MenuItem("Along Y")) ui.tell(MirrorHandle{handle.name, 1});
+    if (ImGui::MenuItem("Along Z")) ui.tell(MirrorHandle{handle.name, 2});
+}
+
 void handle_menu(const Ui& ui, const Handle& handle) {
     role_items(ui, handle);
     ImGui::Separator();
@@ -55,9 +73,7 @@ void handle_menu(const Ui& ui, const Handle& handle) {
                         handle.role == HandleRole::moving && ui.editor.document->posed))
         ui.tell(ResetPose{handle.name});
     if (ImGui::BeginMenu("Mirror")) {
-        if (ImGui::MenuItem("Along X")) ui.tell(MirrorHandle{handle.name, 0});
-        if (ImGui::MenuItem("Along Y")) ui.tell(MirrorHandle{handle.name, 1});
-        if (ImGui::MenuItem("Along Z")) ui.tell(MirrorHandle{handle.name, 2});
+        mirror_items(ui, handle);
         ImGui::EndMenu();
     }
     ImGui::Separator();
@@ -157,27 +173,49 @@ void handle_row(const Ui& ui, const Handle& handle, std::size_t number) {
     ImGui::PopID();
 }
 
+// As high as it needs to be, or as the panels below it leave room for; then it scrolls by itself.
+void handle_list(const Ui& ui, const std::vector<Handle>& handles) {
+    UiState& state = ui.state;
+    const float row = ImGui::GetFrameHeight() + ui.scaled(2);
+    const float whole = row * static_cast<float>(handles.size());
+    const float room = ImGui::GetWindowHeight() - state.beside_list;
+    const float height = std::min(whole, std::max(row * fewest_rows, room));
+    const float content = ImGui::GetCurrentWindow()->ContentSize.y; // of the last frame
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
+    if (ImGui::BeginChild("list", {0, height})) {
+        for (std::size_t i = 0; i < handles.size(); ++i) {
+            handle_row(ui, handles[i], i);
+            const bool chosen = handles[i].name == ui.editor.chosen;
+            if (chosen && state.listed_chosen != handles[i].name && whole > height) ImGui::SetScrollHereY();
+        }
+        state.listed_chosen = ui.editor.chosen;
+    }
+    ImGui::EndChild();
+    ImGui::PopStyleVar();
+    state.beside_list =
+        content - std::exchange(state.list_height, height) + 2 * ImGui::GetStyle().WindowPadding.y;
+}
+
+// What is done to the chosen handle, in one row.
 void chosen_buttons(const Ui& ui, const Handle& handle) {
-    const float gap = ImGui::GetStyle().ItemSpacing.x;
-    const float half = (ImGui::GetContentRegionAvail().x - gap) / 2;
-    if (ImGui::Button("Select points", {half, 0}))
-        ui.tell(SelectHandlePoints{handle.name, SelectMode::replace});
+    const float gap = ui.scaled(4);
+    const float quarter = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
+    if (ImGui::Button("Select", {quarter, 0})) ui.tell(SelectHandlePoints{handle.name, SelectMode::replace});
     explain("Selects the points of the chosen handle (Shift+L)");
-    ImGui::SameLine();
+    ImGui::SameLine(0, gap);
     ImGui::BeginDisabled(handle.role != HandleRole::moving || !ui.editor.document->posed);
-    if (ImGui::Button("Reset pose", {half, 0})) ui.tell(ResetPose{handle.name});
-    explain("Puts the chosen handle back where it was at rest (Alt+R)");
+    if (ImGui::Button("Reset", {quarter, 0})) ui.tell(ResetPose{handle.name});
+    explain("Puts the chosen handle back where it was at rest, and unwinds its turns (Alt+R)");
     ImGui::EndDisabled();
-    if (ImGui::Button("Mirror…", {half, 0})) ImGui::OpenPopup("mirror");
+    ImGui::SameLine(0, gap);
+    if (ImGui::Button("Mirror", {quarter, 0})) ImGui::OpenPopup("mirror");
     explain("Makes the same handle on the other side of the cloud, its pose mirrored");
     if (ImGui::BeginPopup("mirror")) {
-        if (ImGui::MenuItem("Along X")) ui.tell(MirrorHandle{handle.name, 0});
-        if (ImGui::MenuItem("Along Y")) ui.tell(MirrorHandle{handle.name, 1});
-        if (ImGui::MenuItem("Along Z")) ui.tell(MirrorHandle{handle.name, 2});
+        mirror_items(ui, handle);
         ImGui::EndPopup();
     }
-    ImGui::SameLine();
-    if (ImGui::Button("Delete", {half, 0})) ui.tell(DeleteHandle{handle.name});
+    ImGui::SameLine(0, gap);
+    if (ImGui::Button("Delete", {quarter, 0})) ui.tell(DeleteHandle{handle.name});
     explain("Deletes the chosen handle; its points stay (Del)");
 }
 
@@ -192,7 +230,7 @@ void handles_panel(const Ui& ui) {
     const std::vector<Handle>& handles = ui.editor.document->handles;
     if (handles.empty()) return;
     ImGui::Dummy({0, ui.scaled(2)});
-    for (std::size_t i = 0; i < handles.size(); ++i) handle_row(ui, handles[i], i);
+    handle_list(ui, handles);
     if (const Handle* handle = chosen_handle(ui.editor)) chosen_buttons(ui, *handle);
     ImGui::BeginDisabled(!ui.editor.document->posed);
     if (key_button("Commit the pose", "Enter", true)) ui.tell(CommitPose{});

@@ -45,6 +45,7 @@ void draw_legend(const Ui& ui) {
     const ImVec2 size(width + text_width + ui.scaled(8) + 2 * margin,
                       height + line + ui.scaled(10) + 2 * margin);
     const ImVec2 corner(view.x + ui.scaled(16), view.y + ui.scaled(16));
+    ui.state.legend_place = {corner.x, corner.y, size.x, size.y};
     list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, palette::rgb(0x15171a, 170),
                        ui.scaled(7));
     list.AddText({corner.x + margin, corner.y + margin}, palette::text, legend.title.c_str());

@@ -1,12 +1,10 @@
-// Over the cloud, under the panels: the gizmo, the selection in the making, the amount beside the cursor, the
-// names of the handles and the axes in the corner.
+// Over the cloud, under the panels: the gizmo, the selection in the making, the amount beside the cursor and
+// the axes in the corner.
 
 #include "app/overlay.h"
 
 #include "app/icons.h"
 #include "app/widgets.h"
-
-#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +15,11 @@ namespace knead {
 ImVec2 in_window(const Ui& ui, glm::dvec2 pixel) {
     return {ui.state.view.x + static_cast<float>(pixel.x) / ui.state.pixel_ratio,
             ui.state.view.y + static_cast<float>(pixel.y) / ui.state.pixel_ratio};
+}
+
+Rectangle axes_place(const Ui& ui) {
+    const Rectangle& view = ui.state.view;
+    return {view.x + ui.scaled(10), view.y + view.height - ui.scaled(94), ui.scaled(84), ui.scaled(84)};
 }
 
 namespace {
@@ -108,54 +111,6 @@ void draw_amount(const Ui& ui, ImDrawList& list) {
     pill(ui, list, {x, y}, words, palette::text, palette::rgb(0x15171a, 225));
 }
 
-// Where a label goes that wants to be at `corner`: there, or below those that are in its way.
-ImVec2 free_place(std::vector<ImRect>& taken, ImVec2 corner, ImVec2 size) {
-    ImRect place(corner, {corner.x + size.x, corner.y + size.y});
-    for (int tries = 0; tries < 4; ++tries)
-        for (const ImRect& other : taken)
-            if (place.Overlaps(other)) place.TranslateY(other.Max.y + 2 - place.Min.y);
-    taken.push_back(place);
-    return place.Min;
-}
-
-void draw_name(const Ui& ui, ImDrawList& list, const Handle& handle, std::size_t number,
-               std::vector<ImRect>& taken) {
-    const std::optional<glm::dvec3> middle = middle_of(ui.editor, handle);
-    if (!middle) return;
-    const auto projected = project(ui.editor.camera, ui.editor.viewport, *middle);
-    if (!projected) return;
-    const ImVec2 at = in_window(ui, projected->pixel);
-    const bool chosen = handle.name == ui.editor.chosen;
-    const ImVec2 size = ImGui::CalcTextSize(handle.name.c_str());
-    const float icon = ui.scaled(11), across = ui.scaled(7), down = ui.scaled(3), gap = ui.scaled(5);
-    const float width = 2 * across + icon + gap + size.x, height = size.y + 2 * down;
-    // The chosen one's stands above its gizmo.
-    const std::optional<Gizmo> gizmo = chosen ? gizmo_of(ui.editor) : std::nullopt;
-    const float ring = gizmo ? 1.3f * static_cast<float>(gizmo->size) / ui.state.pixel_ratio : 0;
-    const float rise = gizmo ? ring + ui.scaled(10) + height : height / 2;
-    const ImVec2 corner =
-        free_place(taken, {std::round(at.x - width / 2), std::round(at.y - rise)}, {width, height});
-    const ImU32 color = handle_color(ui.state.handle_colors, handle.name, number, handle.role);
-    list.AddRectFilled(corner, {corner.x + width, corner.y + height},
-                       palette::rgb(0x15171a, chosen ? 225 : 165), height / 2);
-    if (chosen)
-        list.AddRect(corner, {corner.x + width, corner.y + height}, palette::accent, height / 2, 0,
-                     ui.scaled(1.2f));
-    draw_icon(list, icon_of(handle.role), {corner.x + across + icon / 2, corner.y + height / 2}, icon, color);
-    list.AddText({corner.x + across + icon + gap, corner.y + down}, palette::text, handle.name.c_str());
-}
-
-void draw_names(const Ui& ui, ImDrawList& list) {
-    if (!ui.state.display.names || ui.editor.frame.positions.empty()) return;
-    ImGui::PushFont(ui.state.fonts.small);
-    const std::vector<Handle>& handles = ui.editor.document->handles;
-    std::vector<ImRect> taken;
-    for (std::size_t i = 0; i < handles.size(); ++i)
-        if (handles[i].role != HandleRole::region_of_interest || handles[i].name == ui.editor.chosen)
-            draw_name(ui, list, handles[i], i, taken);
-    ImGui::PopFont();
-}
-
 // --- The selection in the making ---
 
 ImU32 band_color(SelectMode mode) {
@@ -237,8 +192,8 @@ void draw_brush(const Ui& ui, ImDrawList& list) {
 
 void draw_axes(const Ui& ui, ImDrawList& list) {
     if (!ui.state.display.axes) return;
-    const Rectangle& view = ui.state.view;
-    const ImVec2 middle(view.x + ui.scaled(52), view.y + view.height - ui.scaled(52));
+    const Rectangle place = axes_place(ui);
+    const ImVec2 middle(place.x + place.width / 2, place.y + place.height / 2);
     const float length = ui.scaled(30);
     struct Tip {
         glm::dvec3 direction;
@@ -275,7 +230,7 @@ void draw_overlay(const Ui& ui) {
     const Rectangle& view = ui.state.view;
     list.PushClipRect({view.x, view.y}, {view.x + view.width, view.y + view.height});
     draw_constraint(ui, list);
-    draw_names(ui, list);
+    draw_handle_names(ui, list);
     draw_gizmo(ui, list);
     draw_band(ui, list);
     draw_brush(ui, list);

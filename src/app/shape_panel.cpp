@@ -74,6 +74,16 @@ void material_choice(const Ui& ui, const Settings& settings) {
     ui.tell(ChangeSettings{wanted});
 }
 
+// What was asked for, and what there are.
+std::string sample_words(const DocumentView& document) {
+    const auto& asked = document.settings.samples;
+    const std::string used = grouped(document.samples);
+    if (document.samples == 0) return "They are chosen once there is a handle to move.";
+    if (!asked) return "All points: " + used + " used.";
+    if (*asked == document.samples) return used + " asked and used.";
+    return grouped(*asked) + " asked: " + used + " used, handle borders included.";
+}
+
 void samples_slider(const Ui& ui, const Settings& settings) {
     bool all = !settings.samples;
     const float box = ImGui::GetFrameHeight() + ImGui::CalcTextSize("All").x + ui.scaled(18);
@@ -89,8 +99,9 @@ void samples_slider(const Ui& ui, const Settings& settings) {
     }
     ImGui::EndDisabled();
     explain("At how many points the deformation is computed; all others follow. More are finer and slower. "
-            "Changing "
-            "it while handles are posed commits the pose first.");
+            "Changing it while handles are posed commits the pose first.\n" +
+            sample_words(*ui.editor.document) +
+            " Up to a fifth more than asked for lie along the borders of the handles.");
     ImGui::SameLine();
     if (ImGui::Checkbox("All", &all)) {
         SettingsChange wanted;
@@ -113,7 +124,7 @@ void iterations_slider(const Ui& ui, const Settings& settings) {
 }
 
 void weights_choice(const Ui& ui, const Settings& settings) {
-    caption("Weights");
+    inline_caption("Weights", ui.scaled(92));
     const int chosen = settings.weights == InfluenceWeights::smooth ? 0 : 1;
     const int clicked = segmented("weights", {"Smooth", "Paper"}, chosen);
     explain("How samples share out their influence on the points between them. Smooth: none at the farthest, "
@@ -163,11 +174,12 @@ void strays_choice(const Ui& ui, const Settings& settings) {
 
 void what_there_is(const DocumentView& document) {
     std::string words;
-    if (document.samples > 0) words += grouped(document.samples) + " samples";
+    const auto& asked = document.settings.samples;
+    const std::string used = grouped(document.samples);
+    if (document.samples > 0) words = used + " samples";
+    if (asked && document.samples > *asked) words = grouped(*asked) + " samples asked, " + used + " used";
     const std::size_t parts = document.components ? document.components->size.size() : 0;
-    if (parts > 0)
-        words += (words.empty() ? "" : ", ") + grouped(parts) +
-                 (parts == 1 ? " connected part" : " connected parts");
+    if (parts > 1) words += (words.empty() ? "" : ", ") + grouped(parts) + " connected parts";
     if (document.strays.parts > 0)
         words += (words.empty() ? "" : "\n") + grouped(document.strays.parts) +
                  (document.strays.parts == 1 ? " part (" : " parts (") + grouped(document.strays.points) +

@@ -28,6 +28,8 @@ void draw_side_panels(const Ui& ui, Rectangle where) {
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
+    // Closer than elsewhere, so that all of it is seen on a small display.
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, ui.scaled(6)});
     ImGui::PushItemWidth(-1);
     const struct {
         const char* title;
@@ -42,6 +44,7 @@ void draw_side_panels(const Ui& ui, Rectangle where) {
         ImGui::PopID();
     }
     ImGui::PopItemWidth();
+    ImGui::PopStyleVar();
     ImGui::End();
     ImGui::PopStyleVar();
 }

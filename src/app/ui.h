@@ -89,15 +89,15 @@ using Wish = std::variant<WishOpen, WishRestore, WishDeleteLost, WishCancelOpeni
 
 // --- What the panels remember ---
 
+struct Rectangle { // in ImGui's coordinates
+    float x = 0, y = 0, width = 0, height = 0;
+};
+
 // A message in the corner of the view.
 struct Toast {
     Notice notice;
     double seconds_left = 0;
     float shown = 0; // 0 … 1, for fading in
-};
-
-struct Rectangle { // in ImGui's coordinates
-    float x = 0, y = 0, width = 0, height = 0;
 };
 
 // A setting that is being dragged: it takes effect when the hand rests for a moment, so that one drag is not
@@ -128,6 +128,7 @@ struct UiState {
     float scale = 1;
     Display display;
     Legend legend; // of the colours as they are
+    Rectangle legend_place = {};
     FileBrowser browser;
     Measured measured;
 
@@ -147,6 +148,9 @@ struct UiState {
     std::string renaming;   // the handle that is being renamed in the list; empty: none
     std::string name_text;  // what was typed so far
     bool renaming_begins = false;
+    float list_height = 0;     // of the list of handles in the last frame
+    float beside_list = 0;     // height of what the side panels hold beside the list of handles
+    std::string listed_chosen; // the handle that the list was scrolled to last
     SlidingSettings sliding;
     Playback playback;
     LabelDialog labels;

@@ -178,6 +178,12 @@ void caption(const char* words) {
     ImGui::PopStyleColor();
 }
 
+void inline_caption(const char* words, float place) {
+    ImGui::AlignTextToFramePadding();
+    caption(words);
+    ImGui::SameLine(place);
+}
+
 void faint_text(const std::string& words) {
     ImGui::PushStyleColor(ImGuiCol_Text, palette::faint);
     ImGui::PushTextWrapPos(0);

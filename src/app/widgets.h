@@ -31,6 +31,8 @@ bool section(const char* title, ImFont* font);
 
 // A label over the next item, in the second rank's colour.
 void caption(const char* words);
+// The same to the left of the next item, which begins at `place` from the left of the panel.
+void inline_caption(const char* words, float place);
 
 // Text in the second rank's colour, wrapped.
 void faint_text(const std::string& words);

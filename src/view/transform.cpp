@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <numbers>
 
 namespace knead {
@@ -186,14 +187,17 @@ double round_to(double value, double step) {
     return step > 0 ? step * std::round(value / step) : value;
 }
 
+// That a typed length goes along.
+int typed_axis(const TransformDrag& drag) {
+    if (drag.constraint.kind == Constraint::Kind::axis) return drag.constraint.axis;
+    return drag.constraint.kind == Constraint::Kind::plane && drag.constraint.axis == 0 ? 1 : 0;
+}
+
 glm::dvec3 shift_of(const TransformDrag& drag) {
     const glm::dquat frame = frame_of(drag);
     if (!drag.typed.empty()) {
         const double length = typed_number(drag).value_or(0);
-        const int axis = drag.constraint.kind == Constraint::Kind::axis ? drag.constraint.axis
-                         : drag.constraint.kind == Constraint::Kind::plane && drag.constraint.axis == 0 ? 1
-                                                                                                        : 0;
-        return length * (frame * unit(axis));
+        return length * (frame * unit(typed_axis(drag)));
     }
     const glm::dvec3 shift = shift_by_cursor(drag);
     if (!drag.snap) return shift;
@@ -326,24 +330,34 @@ Transform transform_of(const TransformDrag& drag, const Camera&, Viewport) {
 
 namespace {
 
+// Never "-0.00".
 std::string number(double value, int decimals) {
     char text[64];
     std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    return text;
+    const bool is_zero = std::strpbrk(text, "123456789") == nullptr;
+    return is_zero && text[0] == '-' ? text + 1 : text;
 }
 
-// " along X", " in own YZ", or nothing where it is free.
+char letter(int axis) {
+    return "XYZ"[axis];
+}
+
+// " along own X", " in world YZ", or nothing where it is free.
 std::string constraint_words(const TransformDrag& drag, const char* axis_word) {
     if (drag.constraint.kind == Constraint::Kind::free) return {};
-    const std::string own = drag.constraint.local ? "own " : "";
-    const auto letter = [](int axis) { return std::string(1, "XYZ"[axis]); };
+    const std::string whose = drag.constraint.local ? "own " : "world ";
     const int axis = drag.constraint.axis;
     if (drag.constraint.kind == Constraint::Kind::axis || drag.kind == TransformKind::rotate)
-        return std::string(axis_word) + own + letter(axis);
-    return " in " + own + letter(axis == 0 ? 1 : 0) + letter(axis == 2 ? 1 : 2);
+        return "  " + std::string(axis_word) + " " + whose + letter(axis);
+    return "  in " + whose + letter(axis == 0 ? 1 : 0) + letter(axis == 2 ? 1 : 2);
 }
 
-// Lengths are told to a hundredth of the grid.
+// What is being typed is seen to be a field.
+std::string typed_text(const TransformDrag& drag) {
+    return "[" + drag.typed + "]";
+}
+
+// Lengths are told to a hundredth of the grid, each with the letter of its axis.
 std::string lengths_text(const TransformDrag& drag) {
     const int decimals =
         drag.grid > 0 ? std::clamp(static_cast<int>(std::ceil(1.5 - std::log10(drag.grid))), 0, 9) : 3;
@@ -353,7 +367,9 @@ std::string lengths_text(const TransformDrag& drag) {
         const bool is_axis = i == drag.constraint.axis;
         if (drag.constraint.kind == Constraint::Kind::axis && !is_axis) continue;
         if (drag.constraint.kind == Constraint::Kind::plane && is_axis) continue;
-        text += (text.empty() ? "" : ", ") + number(parts[i], decimals);
+        const bool is_typed = !drag.typed.empty() && i == typed_axis(drag);
+        text +=
+            std::string("  ") + letter(i) + " " + (is_typed ? typed_text(drag) : number(parts[i], decimals));
     }
     return text;
 }
@@ -361,23 +377,18 @@ std::string lengths_text(const TransformDrag& drag) {
 } // namespace
 
 std::string amount_text(const TransformDrag& drag) {
+    const bool is_typed = !drag.typed.empty();
     switch (drag.kind) {
-    case TransformKind::translate: {
-        const bool free = drag.constraint.kind == Constraint::Kind::free;
-        if (drag.typed.empty()) return lengths_text(drag) + constraint_words(drag, " along ");
-        if (drag.constraint.kind == Constraint::Kind::axis)
-            return drag.typed + constraint_words(drag, " along ");
-        const char* axis = !free && drag.constraint.axis == 0 ? "Y" : "X";
-        return drag.typed + " along " + (drag.constraint.local ? "own " : "") + axis;
-    }
+    case TransformKind::translate:
+        return "G" + lengths_text(drag) + constraint_words(drag, "along");
     case TransformKind::rotate:
-        return (drag.typed.empty() ? number(angle_of(drag) * 180 / pi, 1) : drag.typed) + "°" +
-               constraint_words(drag, " about ");
+        return "R  " + (is_typed ? typed_text(drag) : number(angle_of(drag) * 180 / pi, 1)) + "°" +
+               constraint_words(drag, "about");
     case TransformKind::scale:
         break;
     }
-    return "× " + (drag.typed.empty() ? number(factor_of(drag), 2) : drag.typed) +
-           constraint_words(drag, " along ");
+    return "S  × " + (is_typed ? typed_text(drag) : number(factor_of(drag), 2)) +
+           constraint_words(drag, "along");
 }
 
 std::string amount_text(const TransformDrag& drag, const Camera&, Viewport) {

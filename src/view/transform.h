@@ -85,7 +85,8 @@ bool type_character(TransformDrag& drag, char character);
 // nothing moves or flips with the camera.
 Transform transform_of(const TransformDrag& drag, const Camera& camera, Viewport viewport);
 Transform transform_of(const TransformDrag& drag);
-// The amount in words for beside the cursor: "45.0°", "1.250 along X", "× 1.30".
+// What is done, for beside the cursor: the key, the amount, what it is held to; what was typed stands in
+// brackets. "R  45.0°", "G  X 1.250  along world X", "S  × [1.3]  in own YZ".
 std::string amount_text(const TransformDrag& drag, const Camera& camera, Viewport viewport);
 std::string amount_text(const TransformDrag& drag);
 

@@ -393,26 +393,40 @@ TEST(TransformDrag, WithItsPivotBehindTheEyeIsStillFinite) {
 TEST(AmountText, SaysWhatWasDone) {
     Scene turn(TransformKind::rotate);
     turn.move({400, 200});
-    EXPECT_EQ(amount_text(turn.drag), "90.0°");
+    EXPECT_EQ(amount_text(turn.drag), "R  90.0°");
     turn.constrain(0, false, true);
     turn.type("45");
-    EXPECT_EQ(amount_text(turn.drag), "45° about own X");
+    EXPECT_EQ(amount_text(turn.drag), "R  [45]°  about own X");
     Scene size(TransformKind::scale);
     size.move({530, 300});
-    EXPECT_EQ(amount_text(size.drag), "× 1.30");
+    EXPECT_EQ(amount_text(size.drag), "S  × 1.30");
     size.constrain(2, true);
-    EXPECT_EQ(amount_text(size.drag), "× 1.30 in XY");
+    EXPECT_EQ(amount_text(size.drag), "S  × 1.30  in world XY");
     Scene shift(TransformKind::translate);
     shift.drag.snap = true;
     shift.move({600, 300});
     shift.constrain(0);
-    EXPECT_EQ(amount_text(shift.drag), "0.500 along X");
+    EXPECT_EQ(amount_text(shift.drag), "G  X 0.500  along world X");
     shift.constrain(1, true);
-    EXPECT_EQ(amount_text(shift.drag), "0.500, 0.000 in XZ");
+    EXPECT_EQ(amount_text(shift.drag), "G  X 0.500  Z 0.000  in world XZ");
     shift.drag.constraint = {};
-    EXPECT_EQ(amount_text(shift.drag), "0.500, 0.000, 0.000");
+    EXPECT_EQ(amount_text(shift.drag), "G  X 0.500  Y 0.000  Z 0.000");
     shift.type("2");
-    EXPECT_EQ(amount_text(shift.drag), "2 along X");
+    EXPECT_EQ(amount_text(shift.drag), "G  X [2]  Y 0.000  Z 0.000");
+    shift.constrain(0, true);
+    EXPECT_EQ(amount_text(shift.drag), "G  Y [2]  Z 0.000  in world YZ");
+}
+
+TEST(AmountText, NothingIsNeverNegative) {
+    Scene shift(TransformKind::translate);
+    shift.move({499.99, 300.01});
+    EXPECT_EQ(amount_text(shift.drag), "G  X 0.000  Y 0.000  Z 0.000");
+    shift.move({300, 300});
+    EXPECT_EQ(amount_text(shift.drag).find("-0.0"), std::string::npos);
+    EXPECT_NE(amount_text(shift.drag).find("X -"), std::string::npos);
+    Scene turn(TransformKind::rotate);
+    turn.move({499.99, 300.01});
+    EXPECT_EQ(amount_text(turn.drag), "R  0.0°");
 }
 
 } // namespace

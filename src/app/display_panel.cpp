@@ -17,20 +17,23 @@ void choose(const Ui& ui, Coloring coloring, const std::string& attribute = {}) 
     display.automatic_range = true;
 }
 
-std::string chosen_name(const Display& display) {
-    return display.coloring == Coloring::attribute ? display.attribute : name_of(display.coloring);
+std::string chosen_name(const Ui& ui) {
+    const Display& display = ui.state.display;
+    if (display.coloring == Coloring::attribute) return display.attribute;
+    const bool has_none = display.coloring == Coloring::file && !has_colors(*ui.editor.opened.cloud);
+    return name_of(has_none ? Coloring::plain : display.coloring);
 }
 
 void coloring_choice(const Ui& ui) {
     inline_caption("Colour by", ui.scaled(92));
     const Display& display = ui.state.display;
-    if (!ImGui::BeginCombo("##coloring", chosen_name(display).c_str(), ImGuiComboFlags_HeightLarge)) return;
+    if (!ImGui::BeginCombo("##coloring", chosen_name(ui).c_str(), ImGuiComboFlags_HeightLarge)) return;
     const PointCloud& cloud = *ui.editor.opened.cloud;
     for (const Coloring coloring : {Coloring::file, Coloring::plain, Coloring::height, Coloring::normal,
                                     Coloring::displacement, Coloring::stretch, Coloring::parts}) {
         if (coloring == Coloring::file && !has_colors(cloud)) continue;
         if (coloring == Coloring::normal && ui.editor.frame.normals.empty()) continue;
-        if (ImGui::Selectable(name_of(coloring), display.coloring == coloring)) choose(ui, coloring);
+        if (ImGui::Selectable(name_of(coloring), chosen_name(ui) == name_of(coloring))) choose(ui, coloring);
     }
     const std::vector<std::string> columns = scalar_columns(cloud);
     if (!columns.empty()) {

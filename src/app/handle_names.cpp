@@ -22,10 +22,9 @@ float icon_size(const Ui& ui) {
     return ui.scaled(11);
 }
 
-// While something is being done the others only distract; G, R and S leave the view to the handle itself.
+// While points are being selected, or a session is played, the others only distract.
 bool only_the_chosen(const Ui& ui) {
-    const Tools& tools = ui.editor.tools;
-    return tools.drag || !tools.band.empty() || ui.editor.status.playing;
+    return !ui.editor.tools.band.empty() || ui.editor.status.playing;
 }
 
 std::optional<Name> name_of(const Ui& ui, std::size_t number) {
@@ -101,8 +100,7 @@ void draw_name(const Ui& ui, ImDrawList& list, const Name& name, const PlacedLab
 } // namespace
 
 void draw_handle_names(const Ui& ui, ImDrawList& list) {
-    const bool modal = ui.editor.tools.drag && ui.editor.tools.modal;
-    if (!ui.state.display.names || ui.editor.frame.positions.empty() || modal) return;
+    if (!ui.state.display.names || ui.editor.frame.positions.empty() || ui.editor.tools.drag) return;
     ImGui::PushFont(ui.state.fonts.small);
     std::vector<Name> names;
     for (std::size_t i = 0; i < ui.editor.document->handles.size(); ++i)

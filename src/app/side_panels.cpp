@@ -29,7 +29,7 @@ void draw_side_panels(const Ui& ui, Rectangle where) {
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
     // Closer than elsewhere, so that all of it is seen on a small display.
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, ui.scaled(6)});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, ui.scaled(5)});
     ImGui::PushItemWidth(-1);
     const struct {
         const char* title;

@@ -116,7 +116,9 @@ bool refresh(Editor& editor) {
     bool changed = refresh_opening(editor);
     if (editor.opening) editor.status = editor.opening->status();
     if (!editor.live) return changed;
+    const auto playing = editor.status.playing;
     if (!editor.opening) editor.status = editor.live->status();
+    changed |= playing != editor.status.playing;
     forget_refused(editor);
     changed |= refresh_view(editor);
     editor.saved = editor.live->saved();

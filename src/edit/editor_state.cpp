@@ -127,6 +127,8 @@ std::string next_step(const Editor& editor) {
         return "Press Shift+H to keep the selection where it is, or H to make it move.";
     if (!moving) return "Draw a lasso round the part that should move.";
     if (!held) return "Nothing holds the rest yet: draw a lasso round what should stay, and press Shift+H.";
+    if (editor.selected > 0)
+        return "H makes the selection a handle that moves, Shift+H one that stays; Esc selects nothing.";
     if (!chosen_handle(editor) || chosen_handle(editor)->role != HandleRole::moving)
         return "Click a moving handle to choose it.";
     if (!editor.document->posed) return "Drag the gizmo, or press G to move, R to turn, S to scale.";

@@ -119,6 +119,7 @@ public:
             std::size_t frame = 0;  // the one that is shown, from 1; 0: none yet
             std::size_t frames = 0; // of the drag, or of what comes to rest
             bool held = false;
+            bool operator==(const Playing&) const = default;
         };
         std::optional<Playing> playing;
     };

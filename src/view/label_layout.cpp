@@ -1,7 +1,5 @@
 #include "view/label_layout.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

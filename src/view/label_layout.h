@@ -2,6 +2,7 @@
 // Where labels go that stand beside things in a picture, so that none lies on another or on what is in the
 // way.
 
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
 #include <span>

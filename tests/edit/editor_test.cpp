@@ -196,6 +196,8 @@ TEST_F(BarEditor, LeadsTheArtistFromStepToStep) {
     press('H', {.shift = true});
     calm();
     EXPECT_NE(next_step(editor_).find("gizmo"), std::string::npos);
+    select_heights(-1, 1);
+    EXPECT_NE(next_step(editor_).find("H makes the selection a handle"), std::string::npos);
 }
 
 TEST_F(BarEditor, HandlesMadeInQuickSuccessionHaveNamesOfTheirOwn) {

@@ -92,9 +92,10 @@ std::optional<Desktop> Desktop::start(const std::filesystem::path& folder, std::
         }
     std::array<int, 2> pipe{};
     if (::pipe(pipe.data()) != 0) return std::nullopt;
-    Process server(
-        {"Xvfb", "-displayfd", std::to_string(pipe[1]), "-screen", "0", "1280x800x24", "-nolisten", "tcp"},
-        {}, folder / "xvfb.log");
+    // Without -noreset it starts anew whenever its last client leaves, and refuses whoever comes meanwhile.
+    Process server({"Xvfb", "-displayfd", std::to_string(pipe[1]), "-screen", "0", "1280x800x24", "-nolisten",
+                    "tcp", "-noreset"},
+                   {}, folder / "xvfb.log");
     ::close(pipe[1]);
     std::string number;
     for (char c = 0; ::read(pipe[0], &c, 1) == 1 && c != '\n';) number += c;

@@ -196,27 +196,31 @@ void handle_list(const Ui& ui, const std::vector<Handle>& handles) {
         content - std::exchange(state.list_height, height) + 2 * ImGui::GetStyle().WindowPadding.y;
 }
 
-// What is done to the chosen handle, in one row.
-void chosen_buttons(const Ui& ui, const Handle& handle) {
+// What is done to the chosen handle, in one row; it is there without one, too, so that nothing below it
+// jumps.
+void chosen_buttons(const Ui& ui) {
+    const Handle* handle = chosen_handle(ui.editor);
+    const std::string name = handle ? handle->name : std::string();
     const float gap = ui.scaled(4);
     const float quarter = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
-    if (ImGui::Button("Select", {quarter, 0})) ui.tell(SelectHandlePoints{handle.name, SelectMode::replace});
+    ImGui::BeginDisabled(!handle);
+    if (ImGui::Button("Select", {quarter, 0})) ui.tell(SelectHandlePoints{name, SelectMode::replace});
     explain("Selects the points of the chosen handle (Shift+L)");
     ImGui::SameLine(0, gap);
-    ImGui::BeginDisabled(handle.role != HandleRole::moving || !ui.editor.document->posed);
-    if (ImGui::Button("Reset", {quarter, 0})) ui.tell(ResetPose{handle.name});
+    ImGui::BeginDisabled(!handle || handle->role != HandleRole::moving || !ui.editor.document->posed);
+    if (ImGui::Button("Reset", {quarter, 0})) ui.tell(ResetPose{name});
     explain("Puts the chosen handle back where it was at rest, and unwinds its turns (Alt+R)");
     ImGui::EndDisabled();
     ImGui::SameLine(0, gap);
     if (ImGui::Button("Mirror", {quarter, 0})) ImGui::OpenPopup("mirror");
     explain("Makes the same handle on the other side of the cloud, its pose mirrored");
-    if (ImGui::BeginPopup("mirror")) {
-        mirror_items(ui, handle);
-        ImGui::EndPopup();
-    }
     ImGui::SameLine(0, gap);
-    if (ImGui::Button("Delete", {quarter, 0})) ui.tell(DeleteHandle{handle.name});
+    if (ImGui::Button("Delete", {quarter, 0})) ui.tell(DeleteHandle{name});
     explain("Deletes the chosen handle; its points stay (Del)");
+    ImGui::EndDisabled();
+    if (!handle || !ImGui::BeginPopup("mirror")) return;
+    mirror_items(ui, *handle);
+    ImGui::EndPopup();
 }
 
 } // namespace
@@ -231,7 +235,7 @@ void handles_panel(const Ui& ui) {
     if (handles.empty()) return;
     ImGui::Dummy({0, ui.scaled(2)});
     handle_list(ui, handles);
-    if (const Handle* handle = chosen_handle(ui.editor)) chosen_buttons(ui, *handle);
+    chosen_buttons(ui);
     ImGui::BeginDisabled(!ui.editor.document->posed);
     if (key_button("Commit the pose", "Enter", true)) ui.tell(CommitPose{});
     explain("Makes the shape as it is now the new rest shape, from which the next edit starts");

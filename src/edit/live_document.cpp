@@ -108,7 +108,7 @@ std::shared_ptr<const DocumentView> LiveDocument::view() const {
 }
 
 bool LiveDocument::take_frame(PosedFrame& frame) {
-    return shared_->with([&](LiveShared& shared) {
+    return shared_->change([&](LiveShared& shared) { // the document may wait for this
         if (shared.frame.version <= frame.version) return false;
         std::swap(shared.frame, frame);
         return true;

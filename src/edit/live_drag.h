@@ -14,6 +14,9 @@ struct LiveDrag {
     Transform shown = {};                  // how far it was followed
     std::size_t repeats = 0;               // frames since the last new pose
     bool rests = true;                     // nothing changes until the hand moves
+
+    // Whether frames only repeat a pose, and the shape converges.
+    bool repeats_pose() const { return wanted && shown == wanted->transform; }
 };
 
 // The transform of the next frame on the way from what is shown to what is wanted: the wanted one, but for

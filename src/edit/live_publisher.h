@@ -19,6 +19,7 @@ public:
         double solve = 0, upsample = 0; // seconds
     };
     void shape(const RestShape& shape, const FrameFacts& facts);
+    std::uint64_t shapes() const { return frames_; } // so many: the version of the last one
 
     // The document between two acts.
     struct ViewFacts {

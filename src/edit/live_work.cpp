@@ -15,9 +15,10 @@ namespace {
 
 using Stage = LiveDocument::Stage;
 
-// Frames of a pose that rests come no faster than this, in seconds: nobody sees more, the recording stays
-// short, and the window has the processor to itself meanwhile.
-constexpr double shortest_frame = 0.008;
+// Frames of a pose that rests come no faster than this, in seconds, nor, up to the second number, than the
+// window takes them: nobody sees more, the recording stays short, and the window has the processor to itself
+// meanwhile.
+constexpr double shortest_frame = 0.008, longest_frame = 0.05;
 
 bool ends_drag(const LiveTask& task) {
     return std::holds_alternative<task::EndDrag>(task) || std::holds_alternative<task::CancelDrag>(task);
@@ -135,9 +136,16 @@ void LiveWork::wait_for_next_frame() {
             });
         return;
     }
-    const double left = shortest_frame - since_frame_.seconds();
-    if (left > 0 && something_to_do())
-        shared_.wait(left, [](const LiveShared& s) { return s.stop || !s.inbox.empty() || s.wanted; });
+    if (!something_to_do()) return;
+    const auto wait = [&](double until, auto&& enough) {
+        const double left = until - since_frame_.seconds();
+        if (left <= 0) return;
+        shared_.wait(
+            left, [&](const LiveShared& s) { return s.stop || !s.inbox.empty() || s.wanted || enough(s); });
+    };
+    wait(shortest_frame, [](const LiveShared&) { return false; });
+    if (drag_ && drag_->repeats_pose())
+        wait(longest_frame, [&](const LiveShared& s) { return s.frame.version != publisher_.shapes(); });
 }
 
 bool LiveWork::something_to_do() const {

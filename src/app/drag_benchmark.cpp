@@ -77,10 +77,10 @@ public:
 
     bool done() const override { return stage_ == Stage::done; }
 
-    void shown(const Editor& editor, const std::string& opengl) override {
+    void shown(const Editor& editor, const ShownPicture& picture) override {
         const Clock::time_point now = Clock::now();
         if (stage_ == Stage::handles && result_.opened == 0) result_.opened = seconds_between(start_, now);
-        result_.opengl = opengl;
+        result_.opengl = picture.opengl;
         if (stage_ != Stage::dragging || !editor.frame.shows_pose) return;
         if (result_.pictures == 0) first_picture_ = now;
         if (result_.pictures > 0) frames_.push_back(seconds_between(last_picture_, now));
@@ -90,6 +90,8 @@ public:
         last_version_ = editor.frame.version;
         ages_.push_back(seconds_between(editor.frame.pose_set, now));
         solves_.push_back(editor.frame.solve);
+        points_.push_back(static_cast<double>(picture.points));
+        result_.whole += picture.whole_pixels ? 1 : 0;
         if (editor.document) result_.samples = editor.document->samples;
         if (ages_.back() < result_.age_largest) return;
         result_.age_largest = ages_.back();
@@ -103,6 +105,8 @@ public:
         result_.frame_median = quantile(frames_, 0.5);
         result_.frame_95 = quantile(frames_, 0.95);
         result_.solve_median = quantile(solves_, 0.5);
+        result_.points_median = quantile(points_, 0.5);
+        result_.points_least = quantile(points_, 0);
         return result_;
     }
 
@@ -156,7 +160,7 @@ private:
     double reach_ = 0;
     std::size_t motions_ = 0;
     std::uint64_t last_version_ = 0;
-    std::vector<double> ages_, frames_, solves_;
+    std::vector<double> ages_, frames_, solves_, points_;
     DragBenchmark result_;
 };
 
@@ -184,10 +188,13 @@ std::string drag_benchmark_text(const DragBenchmark& result) {
         "new poses on the screen      %8.1f a second\n"
         "from picture to picture      %8.1f ms median, %.1f ms 95 %%\n"
         "age of the pose when shown   %8.1f ms median, %.1f ms 95 %%, %.1f ms largest (after %.1f s)\n"
-        "a frame of the solver        %8.1f ms median\n",
+        "a frame of the solver        %8.1f ms median\n"
+        "points in a picture          %8.0f median, %.0f least; %.0f %% of the pictures with every pixel\n",
         result.points, result.samples, result.opengl.c_str(), result.opened, result.seconds, poses,
         1e3 * result.frame_median, 1e3 * result.frame_95, 1e3 * result.age_median, 1e3 * result.age_95,
-        1e3 * result.age_largest, result.largest_at, 1e3 * result.solve_median);
+        1e3 * result.age_largest, result.largest_at, 1e3 * result.solve_median, result.points_median,
+        result.points_least,
+        100.0 * static_cast<double>(result.whole) / static_cast<double>(result.pictures));
     return text;
 }
 
@@ -197,10 +204,11 @@ std::string drag_benchmark_json(const DragBenchmark& result) {
         text, sizeof text,
         "{\"points\": %zu, \"samples\": %zu, \"opened\": %.6g, \"seconds\": %.6g, \"pictures\": %zu, "
         "\"poses\": %zu, \"frame\": {\"median\": %.6g, \"p95\": %.6g}, "
-        "\"age\": {\"median\": %.6g, \"p95\": %.6g, \"largest\": %.6g}, \"solve\": %.6g}\n",
+        "\"age\": {\"median\": %.6g, \"p95\": %.6g, \"largest\": %.6g}, \"solve\": %.6g, "
+        "\"drawn\": {\"median\": %.6g, \"least\": %.6g}, \"whole\": %zu}\n",
         result.points, result.samples, result.opened, result.seconds, result.pictures, result.poses,
         result.frame_median, result.frame_95, result.age_median, result.age_95, result.age_largest,
-        result.solve_median);
+        result.solve_median, result.points_median, result.points_least, result.whole);
     return text;
 }
 

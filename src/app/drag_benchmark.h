@@ -24,9 +24,11 @@ struct DragBenchmark {
     std::size_t poses = 0;    // of them with a pose that was not shown before
     double age_median = 0, age_95 = 0, age_largest = 0; // of the pose on the screen when it is shown, seconds
     double largest_at = 0; // when the largest was shown, seconds after the first picture of the drag
-    double frame_median = 0, frame_95 = 0; // from one picture to the next, seconds
-    double solve_median = 0;               // of the document's thread, seconds a frame
-    std::string opengl;                    // what draws
+    double frame_median = 0, frame_95 = 0;      // from one picture to the next, seconds
+    double solve_median = 0;                    // of the document's thread, seconds a frame
+    double points_median = 0, points_least = 0; // in a picture
+    std::size_t whole = 0;                      // pictures with every pixel, not half as many each way
+    std::string opengl;                         // what draws
 };
 
 // Throws what run_editor() throws, and Error (input) if the cloud cannot be opened.

@@ -35,7 +35,7 @@ struct Loop {
     Editor editor;
     UiState state;
     Scene scene;
-    DrawBudget budget;
+    DrawBudget orbiting{1.0 / 33}, dragging{1.0 / 29}; // 30 pictures a second, and more than 24
     Work work{options, editor, state, false};
 
     std::vector<Command> commands;
@@ -269,13 +269,24 @@ void draw_panels(Loop& loop) {
     draw_dialogs(ui);
 }
 
-void clear_window(const Window::Size& size) {
-    const ImVec4 color = as_vector(palette::window);
+void clear_to(ImU32 color) {
+    const ImVec4 c = as_vector(color);
+    glClearColor(c.x, c.y, c.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+}
+
+// What the panels lie on; they draw no background of their own.
+void clear_window(const Loop& loop, const Window::Size& size) {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, size.width, size.height);
     glDisable(GL_SCISSOR_TEST);
-    glClearColor(color.x, color.y, color.z, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
+    clear_to(loop.editor.document ? palette::panel : palette::window);
+    if (loop.editor.document) return;
+    const auto menu = static_cast<int>(std::lround(loop.state.view.y * loop.state.pixel_ratio));
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, size.height - menu, size.width, menu);
+    clear_to(palette::panel);
+    glDisable(GL_SCISSOR_TEST);
 }
 
 // Whether the picture to be drawn differs from the one before by a motion, or did a moment ago.
@@ -289,17 +300,22 @@ bool moves(Loop& loop) {
     return now - loop.moved_last < rest_seconds;
 }
 
+DrawBudget& budget_of(Loop& loop) {
+    return loop.editor.status.solving ? loop.dragging : loop.orbiting;
+}
+
 DrawResult draw_scene(Loop& loop, int window_height) {
     if (!loop.editor.document) return {.complete = true};
     loop.scene.take_in(loop.editor, loop.state);
     PointLook look = loop.state.display.look;
     look.pixel_scale = loop.state.scale * loop.state.pixel_ratio;
-    loop.is_coarse = moves(loop) && loop.budget.coarse;
-    const DrawResult result = loop.scene.draw(loop.editor, look, loop.budget.points, loop.is_coarse);
+    const DrawBudget& budget = budget_of(loop);
+    loop.is_coarse = moves(loop) && budget.coarse();
     const Rectangle& view = loop.state.view;
-    loop.scene.show(static_cast<int>(view.x * loop.state.pixel_ratio),
-                    static_cast<int>(view.y * loop.state.pixel_ratio), loop.editor.viewport, window_height);
-    return result;
+    const auto left = static_cast<int>(view.x * loop.state.pixel_ratio);
+    const auto top = static_cast<int>(view.y * loop.state.pixel_ratio);
+    return loop.scene.draw(loop.editor, look, budget.points(), loop.is_coarse, left,
+                           window_height - top - loop.editor.viewport.height);
 }
 
 void measure(Loop& loop, const DrawResult& result, double seconds) {
@@ -314,7 +330,9 @@ void measure(Loop& loop, const DrawResult& result, double seconds) {
     measured.upsample = loop.editor.frame.upsample;
     // Only pictures of something that moves: the others have all the time in the world.
     if (result.drawn == 0 || loop.moved_last < ImGui::GetTime()) return;
-    loop.budget.learn(result.drawn, seconds);
+    // A graphics card draws while the processor goes on: all of its time is taken for that of the points.
+    const bool in_software = loop.scene.is_drawn_in_software();
+    budget_of(loop).learn(result.drawn, in_software ? result.seconds : seconds, seconds);
     measured.frame = measured.frame > 0 ? 0.8 * measured.frame + 0.2 * seconds : seconds;
 }
 
@@ -326,7 +344,7 @@ void draw(Loop& loop) {
     draw_panels(loop);
     play_on(loop.ui);
     carry_out_wishes(loop);
-    clear_window(size);
+    clear_window(loop, size);
     const bool another_cloud = loop.editor.changes.cloud;
     const DrawResult result = draw_scene(loop, size.height);
     loop.window.end_frame();
@@ -392,7 +410,9 @@ void run_editor(const EditorOptions& options) {
         }
         if (!events && !news && !shows_motion(loop)) continue;
         draw(loop);
-        if (options.observer) options.observer->shown(loop.editor, loop.window.drawn_by());
+        if (options.observer)
+            options.observer->shown(loop.editor,
+                                    {loop.window.drawn_by(), loop.state.measured.drawn, !loop.is_coarse});
         loop.frames_to_draw = std::max(0, loop.frames_to_draw - 1);
     }
     // Whoever closes the window has saved what they wanted to keep.

@@ -12,6 +12,12 @@
 namespace knead {
 
 // Someone who works the window instead of a hand, and looks at what it shows: the benchmark.
+struct ShownPicture {
+    std::string opengl;       // who drew it
+    std::size_t points = 0;   // in it
+    bool whole_pixels = true; // or half as many each way
+};
+
 class EditorObserver {
 public:
     virtual ~EditorObserver() = default;
@@ -19,8 +25,8 @@ public:
     virtual std::vector<Input> play(Editor& editor) = 0;
     // Whether the window is to close.
     virtual bool done() const = 0;
-    // A picture of the editor as it is was put on the screen; `opengl`: who drew it.
-    virtual void shown(const Editor& editor, const std::string& opengl) = 0;
+    // A picture of the editor as it is was put on the screen.
+    virtual void shown(const Editor& editor, const ShownPicture& picture) = 0;
 };
 
 struct EditorOptions {

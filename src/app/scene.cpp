@@ -3,17 +3,12 @@
 #include "app/estimated_normals.h"
 #include "app/scene_lines.h"
 
-#include <epoxy/gl.h>
-
 #include <algorithm>
 
 namespace knead {
 
 struct Scene::State {
     PointRenderer renderer;
-    GLuint framebuffer = 0, color = 0;
-    int width = 0, height = 0;
-
     // As handed to the renderer last.
     Coloring coloring{};
     std::vector<std::uint8_t> marks; // as drawn
@@ -29,31 +24,6 @@ struct Scene::State {
     bool lit = false; // by them
     std::vector<HandleLook> looks;
     std::vector<std::uint32_t> colors;
-
-    State() {
-        glGenFramebuffers(1, &framebuffer);
-        glGenTextures(1, &color);
-    }
-    ~State() {
-        glDeleteFramebuffers(1, &framebuffer);
-        glDeleteTextures(1, &color);
-    }
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
-
-    void resize(Viewport viewport) {
-        if (viewport.width == width && viewport.height == height) return;
-        width = viewport.width;
-        height = viewport.height;
-        glBindTexture(GL_TEXTURE_2D, color);
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-        glBindTexture(GL_TEXTURE_2D, 0);
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
-        glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    }
 };
 
 Scene::Scene() : state_(std::make_unique<State>()) {}
@@ -155,29 +125,26 @@ void Scene::take_in(Editor& editor, UiState& state) {
     }
 }
 
-DrawResult Scene::draw(const Editor& editor, PointLook look, std::size_t budget, bool coarse) {
+DrawResult Scene::draw(const Editor& editor, PointLook look, std::size_t budget, bool coarse, int left,
+                       int bottom) {
+    PictureTarget target(0);
+    target.left = left;
+    target.bottom = bottom;
+    target.size = editor.viewport;
     Viewport viewport = editor.viewport;
     if (coarse) {
         viewport = {std::max(1, viewport.width / 2), std::max(1, viewport.height / 2)};
         look.pixel_scale /= 2;
     }
-    state_->resize(viewport);
-    return state_->renderer.draw(editor.camera, viewport, look, budget, state_->framebuffer);
+    return state_->renderer.draw(editor.camera, viewport, look, budget, target);
+}
+
+bool Scene::is_drawn_in_software() const {
+    return state_->renderer.is_software();
 }
 
 bool Scene::expects_more() const {
     return state_->estimated.expected();
-}
-
-void Scene::show(int left, int top, Viewport viewport, int window_height) {
-    const State& own = *state_;
-    const int bottom = window_height - top - viewport.height;
-    const bool same_size = own.width == viewport.width && own.height == viewport.height;
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, own.framebuffer);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glBlitFramebuffer(0, 0, own.width, own.height, left, bottom, left + viewport.width,
-                      bottom + viewport.height, GL_COLOR_BUFFER_BIT, same_size ? GL_NEAREST : GL_LINEAR);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
 } // namespace knead

@@ -20,16 +20,17 @@ public:
     // Uploads what changed in the editor and in the way it is shown, and clears editor.changes.
     void take_in(Editor& editor, UiState& state);
 
+    // Whether the processor draws the points.
+    bool is_drawn_in_software() const;
+
     // Whether the cloud will soon look different though nothing happens: call take_in() again in a moment.
     bool expects_more() const;
 
-    // Draws the cloud, or goes on with what is missing; with half as many pixels each way if it is to be
+    // Draws the cloud, or goes on with what is missing, into the window's framebuffer, as large as the view
+    // and with its lower left corner there, in pixels; with half as many pixels each way if it is to be
     // coarse.
-    DrawResult draw(const Editor& editor, PointLook look, std::size_t budget, bool coarse);
-
-    // Copies the picture into the window's framebuffer, its upper left corner there, in pixels from the
-    // window's upper left, as large as the viewport.
-    void show(int left, int top, Viewport viewport, int window_height);
+    DrawResult draw(const Editor& editor, PointLook look, std::size_t budget, bool coarse, int left,
+                    int bottom);
 
 private:
     struct State;

@@ -46,7 +46,8 @@ void set_colors(ImGuiStyle& style) {
     using namespace palette;
     set(ImGuiCol_Text, text);
     set(ImGuiCol_TextDisabled, faint);
-    set(ImGuiCol_WindowBg, panel);
+    set(ImGuiCol_WindowBg,
+        0); // the main loop clears the window's edges to the panels' colour, which is quicker
     set(ImGuiCol_ChildBg, 0);
     set(ImGuiCol_PopupBg, with_alpha(raised, 0.98f));
     set(ImGuiCol_Border, line);
@@ -57,7 +58,7 @@ void set_colors(ImGuiStyle& style) {
     set(ImGuiCol_TitleBg, raised);
     set(ImGuiCol_TitleBgActive, raised);
     set(ImGuiCol_TitleBgCollapsed, raised);
-    set(ImGuiCol_MenuBarBg, panel);
+    set(ImGuiCol_MenuBarBg, 0);
     set(ImGuiCol_ScrollbarBg, 0);
     set(ImGuiCol_ScrollbarGrab, field);
     set(ImGuiCol_ScrollbarGrabHovered, field_hovered);

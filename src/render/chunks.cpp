@@ -6,11 +6,11 @@
 
 namespace knead {
 
-void bound_chunks(std::span<const float> positions, std::vector<Chunk>& chunks) {
+void bound_chunks(std::span<const float> positions, std::vector<Chunk>& chunks, Workers& workers) {
     const std::size_t points = positions.size() / 3;
     chunks.resize((points + points_in_chunk - 1) / points_in_chunk);
     constexpr float huge = std::numeric_limits<float>::max();
-    for (std::size_t c = 0; c < chunks.size(); ++c) {
+    workers.for_each(chunks.size(), 16, [&](std::size_t c) {
         const std::size_t end = std::min(points, (c + 1) * points_in_chunk);
         glm::vec3 lowest(huge), highest(-huge);
         for (std::size_t i = c * points_in_chunk; i < end; ++i) {
@@ -21,7 +21,7 @@ void bound_chunks(std::span<const float> positions, std::vector<Chunk>& chunks) 
             highest = glm::max(highest, p);
         }
         chunks[c] = {lowest, highest};
-    }
+    });
 }
 
 Box3 box_around(std::span<const Chunk> chunks) {

@@ -2,6 +2,7 @@
 // Private to this room: ranges of consecutive points and the boxes around them, so that what lies outside the
 // view is skipped without looking at its points.
 
+#include "base/workers.h"
 #include "view/camera.h"
 
 #include <cstddef>
@@ -18,7 +19,7 @@ struct Chunk {
     glm::vec3 lowest{0.0f}, highest{0.0f};
     bool empty() const { return !(lowest.x <= highest.x); }
 };
-void bound_chunks(std::span<const float> positions, std::vector<Chunk>& chunks);
+void bound_chunks(std::span<const float> positions, std::vector<Chunk>& chunks, Workers& workers);
 
 // The box around all of them; the unit box where all are empty.
 Box3 box_around(std::span<const Chunk> chunks);

@@ -86,6 +86,10 @@ public:
         return drawn;
     }
 
+    void finish(const ScreenPass& pass, Layer& shown, bool /*is_new*/, Layer& finished) override {
+        screen_.draw(pass, shown, finished);
+    }
+
 private:
     std::size_t list_ranges(std::span<const PointRange> ranges, std::size_t subset, std::size_t stride) {
         firsts_.clear();
@@ -140,6 +144,7 @@ private:
     GlBuffer positions_, normals_, colors_;
     GlVertexArray array_;
     std::array<std::array<std::optional<PointProgram>, 3>, 2> programs_; // [shaded][shape]
+    GlScreen screen_;
     std::vector<GLint> firsts_;
     std::vector<GLsizei> counts_;
 };

@@ -173,7 +173,7 @@ Picture draw_picture(PointRenderer& renderer, const Camera& camera, Viewport vie
 
     PointLook large = look;
     large.pixel_scale *= static_cast<float>(factor);
-    renderer.draw(camera, drawn, large, renderer.points() + 1, target);
+    renderer.draw(camera, drawn, large, renderer.points() + 1, PictureTarget(target));
     std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(drawn.width) *
                                      static_cast<std::size_t>(drawn.height));
     glPixelStorei(GL_PACK_ALIGNMENT, 1);

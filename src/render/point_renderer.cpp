@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
+#include "base/stopwatch.h"
 #include "render/chunks.h"
 #include "render/layer.h"
 #include "render/shaders.h"
@@ -29,7 +30,7 @@ constexpr float widest_flat = 8;    // pixels; wider splats are curved, which co
 constexpr glm::vec3 key_light(-0.35f, 0.55f, 0.9f);
 
 // Whether OpenGL runs on the processor.
-bool is_software() {
+bool opengl_is_software() {
     const std::string name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     for (const char* known : {"llvmpipe", "softpipe", "SwiftShader", "Software"})
         if (name.find(known) != std::string::npos) return true;
@@ -39,10 +40,6 @@ bool is_software() {
 void set_matrix(GLint location, const glm::dmat4& matrix) {
     const glm::mat4 narrowed(matrix);
     glUniformMatrix4fv(location, 1, GL_FALSE, &narrowed[0][0]);
-}
-
-void set_vector(GLint location, const glm::vec3& v) {
-    glUniform3f(location, v.x, v.y, v.z);
 }
 
 const void* offset(std::size_t bytes) {
@@ -69,6 +66,7 @@ struct PointRenderer::State {
     std::vector<HandleLook> looks;
     bool tints_are_stale = false;
     std::vector<Chunk> chunks;
+    Workers workers;
     std::unique_ptr<Splats> splats;
     std::uint64_t points_version = 0;
 
@@ -80,11 +78,7 @@ struct PointRenderer::State {
     std::uint64_t overlay_version = 0;
 
     // --- The programs ---
-    std::optional<GlProgram> compose_programs[2][2]; // [with relief][with patterns]
-    GlProgram background =
-        make_program(embedded::screen_vert, embedded::compose_frag, "#define BACKGROUND\n");
     GlProgram line_program = make_program(embedded::lines_vert, embedded::lines_frag);
-    GlVertexArray nothing; // for the pass over the screen
 
     // --- The picture in the making ---
     Layer shown, growing; // what is on the screen, and the whole cloud as far as it has come
@@ -105,9 +99,8 @@ struct PointRenderer::State {
     void begin(const Scene& next, std::size_t budget);
     SplatView view_of(double enlargement) const;
     std::size_t draw_subset(std::size_t subset, double enlargement, Layer& layer, bool clear);
-    void finish();
-    GLuint compose_program();
-    void set_compose_uniforms(GLuint compose);
+    ScreenPass screen_pass() const;
+    void finish(bool is_new);
     void draw_lines();
     DrawResult draw(const Scene& next, std::size_t budget);
 };
@@ -188,80 +181,53 @@ std::size_t PointRenderer::State::draw_subset(std::size_t subset, double enlarge
     return splats->draw(in_view.ranges, subset, one_in, view, layer, clear);
 }
 
-// The pass over the screen, and the overlay: from `shown` to `finished`.
-void PointRenderer::State::finish() {
-    bind_layer(finished, scene.viewport, false);
-    glViewport(0, 0, scene.viewport.width, scene.viewport.height);
-    glBindVertexArray(nothing);
-    const auto use = [this](GLuint with) {
-        glUseProgram(with);
-        set_vector(glGetUniformLocation(with, "top"), scene.look.background_top);
-        set_vector(glGetUniformLocation(with, "bottom"), scene.look.background_bottom);
-        glUniform1f(glGetUniformLocation(with, "height"), static_cast<float>(scene.viewport.height));
-    };
-    use(background);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    const GLuint compose = compose_program();
-    use(compose);
-    set_compose_uniforms(compose);
-    // In software every pixel of this pass costs as if it were the cloud's.
-    const glm::dvec2 screen(scene.viewport.width, scene.viewport.height), reach(widest_splat);
-    const glm::ivec2 from(glm::floor((0.5 + 0.5 * in_view.lowest) * screen - reach));
-    const glm::ivec2 to(glm::ceil((0.5 + 0.5 * in_view.highest) * screen + reach));
+ScreenPass PointRenderer::State::screen_pass() const {
+    const PointLook& look = scene.look;
+    ScreenPass pass;
+    pass.viewport = scene.viewport;
+    pass.top = look.background_top;
+    pass.bottom = look.background_bottom;
     if (in_view.points > 0) {
-        glEnable(GL_SCISSOR_TEST);
-        glScissor(from.x, from.y, to.x - from.x, to.y - from.y);
-        glDrawArrays(GL_TRIANGLES, 0, 3);
-        glDisable(GL_SCISSOR_TEST);
+        const glm::dvec2 screen(scene.viewport.width, scene.viewport.height), reach(widest_splat);
+        pass.from = glm::floor((0.5 + 0.5 * in_view.lowest) * screen - reach);
+        pass.to = glm::ceil((0.5 + 0.5 * in_view.highest) * screen + reach);
     }
+    const double pixel = 2 / (projection[1][1] * scene.viewport.height); // its length, at w = 1
+    const double a = projection[2][2], b = projection[3][2];
+    pass.depth_scale = scene.camera.orthographic ? glm::dvec3(2 / (std::abs(a) * pixel), 1, 0)
+                                                 : glm::dvec3(2 / (std::abs(b) * pixel), (a - 1) / b,
+                                                              2 / b); // 1 / z = (2 depth - 1 + a) / b
+    pass.near = std::max(1, static_cast<int>(std::lround(look.pixel_scale)));
+    pass.far = 3 * pass.near;
+    pass.strength = look.eye_dome ? 1.0f : 0.0f;
+    pass.grain = static_cast<float>(0.5 * usual_splat);
+    pass.key = glm::normalize(key_light);
+    pass.pattern = look.pixel_scale;
+    pass.relief = look.shading && !has_normals;
+    pass.patterns = !marks.empty();
+    pass.lines = lines > 0;
+    return pass;
+}
+
+// The pass over the screen, and the overlay: from `shown` to `finished`.
+void PointRenderer::State::finish(bool is_new) {
+    splats->finish(screen_pass(), shown, is_new, finished);
     if (lines > 0) draw_lines();
     finished_overlay = overlay_version;
 }
 
-GLuint PointRenderer::State::compose_program() {
-    const bool relief = scene.look.shading && !has_normals, patterns = !marks.empty();
-    std::optional<GlProgram>& program = compose_programs[relief ? 1 : 0][patterns ? 1 : 0];
-    if (!program) {
-        const std::string defines =
-            std::string(relief ? "#define RELIEF\n" : "") + (patterns ? "#define PATTERNS\n" : "");
-        program = make_program(embedded::screen_vert, embedded::compose_frag, defines.c_str());
-    }
-    return *program;
-}
-
-void PointRenderer::State::set_compose_uniforms(GLuint compose) {
-    const PointLook& look = scene.look;
-    const auto at = [compose](const char* name) { return glGetUniformLocation(compose, name); };
-    glActiveTexture(GL_TEXTURE1);
-    glBindTexture(GL_TEXTURE_2D, *shown.depth);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, *shown.color);
-    glUniform1i(at("colors"), 0);
-    glUniform1i(at("depths"), 1);
-    const double pixel = 2 / (projection[1][1] * scene.viewport.height); // its length, at w = 1
-    const double a = projection[2][2], b = projection[3][2];
-    if (scene.camera.orthographic)
-        glUniform3f(at("depth_scale"), static_cast<float>(2 / (std::abs(a) * pixel)), 1, 0);
-    else // 1 / z = (2 depth - 1 + a) / b
-        glUniform3f(at("depth_scale"), static_cast<float>(2 / (std::abs(b) * pixel)),
-                    static_cast<float>((a - 1) / b), static_cast<float>(2 / b));
-    const int near = std::max(1, static_cast<int>(std::lround(look.pixel_scale)));
-    glUniform2i(at("taps"), near, 3 * near);
-    glUniform1f(at("strength"), look.eye_dome ? 1.0f : 0.0f);
-    glUniform1f(at("grain"), static_cast<float>(0.5 * usual_splat));
-    set_vector(at("key"), glm::normalize(key_light));
-    glUniform1f(at("pattern"), look.pixel_scale);
-    glUniform2i(at("last"), scene.viewport.width - 1, scene.viewport.height - 1);
-}
-
 void PointRenderer::State::draw_lines() {
     overlay_target.emplace();
+    glViewport(0, 0, scene.viewport.width, scene.viewport.height);
     glBindFramebuffer(GL_FRAMEBUFFER, *overlay_target);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *finished.color, 0);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *shown.depth, 0);
     glUseProgram(line_program);
     const auto at = [&](const char* name) { return glGetUniformLocation(line_program, name); };
-    set_matrix(at("to_clip"), to_clip);
+    const double up = splats->from_top() ? -1 : 1;
+    set_matrix(at("to_clip"), glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, up, 0, 0),
+                                         glm::dvec4(0, 0, 1, 0), glm::dvec4(0, 0, 0, 1)) *
+                                  to_clip);
     glUniform2f(at("screen"), static_cast<float>(scene.viewport.width),
                 static_cast<float>(scene.viewport.height));
     glUniform1f(at("scale"), scene.look.pixel_scale);
@@ -285,7 +251,8 @@ void PointRenderer::State::draw_lines() {
 
 DrawResult PointRenderer::State::draw(const Scene& next, std::size_t budget) {
     DrawResult result;
-    bool changed = true;
+    bool is_new = true, changed = true;
+    const Stopwatch clock;
     if (!matches(next)) {
         begin(next, budget);
         const double enlargement = std::min(std::sqrt(static_cast<double>(one_in)), largest_enlargement);
@@ -295,14 +262,15 @@ DrawResult PointRenderer::State::draw(const Scene& next, std::size_t budget) {
     } else if (next_subset < one_in) {
         result.drawn = draw_subset(next_subset, 1, growing, next_subset == 0);
         ++next_subset;
-        if (next_subset == one_in)
-            std::swap(shown, growing);
-        else
-            changed = finished_overlay != overlay_version;
+        is_new = next_subset == one_in;
+        if (is_new) std::swap(shown, growing);
+        changed = is_new || finished_overlay != overlay_version;
     } else {
+        is_new = false;
         changed = finished_overlay != overlay_version;
     }
-    if (changed) finish();
+    result.seconds = clock.seconds();
+    if (changed) finish(is_new);
     result.complete = next_subset == one_in;
     result.in_view = in_view.points;
     result.one_in = result.complete ? 1 : one_in;
@@ -317,8 +285,9 @@ PointRenderer::PointRenderer(Drawing drawing) {
                         reinterpret_cast<const char*>(glGetString(GL_RENDERER)) + ")");
     state_ = std::make_unique<State>();
     State& s = *state_;
-    const bool in_software = drawing == Drawing::chosen ? is_software() : drawing == Drawing::by_processor;
-    s.splats = in_software ? make_software_splats() : make_gl_splats();
+    const bool in_software =
+        drawing == Drawing::chosen ? opengl_is_software() : drawing == Drawing::by_processor;
+    s.splats = in_software ? make_software_splats(s.workers) : make_gl_splats();
     glBindVertexArray(s.line_array);
     glBindBuffer(GL_ARRAY_BUFFER, s.line_buffer);
     const auto attribute = [](GLuint location, GLint size, GLenum type, std::size_t at) {
@@ -335,6 +304,10 @@ PointRenderer::PointRenderer(Drawing drawing) {
 }
 
 PointRenderer::~PointRenderer() = default;
+
+bool PointRenderer::is_software() const {
+    return state_->splats->from_top();
+}
 
 void PointRenderer::set_points(std::size_t n, double spacing) {
     State& s = *state_;
@@ -356,7 +329,7 @@ std::size_t PointRenderer::points() const {
 void PointRenderer::set_positions(std::span<const float> positions) {
     require(positions.size() == 3 * state_->n, "three coordinates a point");
     state_->splats->set_positions(positions);
-    bound_chunks(positions, state_->chunks);
+    bound_chunks(positions, state_->chunks, state_->workers);
     ++state_->points_version;
 }
 
@@ -390,6 +363,7 @@ void PointRenderer::set_handle_looks(std::span<const HandleLook> looks) {
 
 void PointRenderer::set_overlay(std::span<const OverlayLine> lines) {
     State& s = *state_;
+    if (lines.empty() != (s.lines == 0)) ++s.points_version; // the depths are needed, or not any more
     s.lines = lines.size();
     glBindBuffer(GL_ARRAY_BUFFER, s.line_buffer);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(lines.size_bytes()), lines.data(), GL_DYNAMIC_DRAW);
@@ -409,18 +383,21 @@ void PointRenderer::set_overlay(std::span<const OverlayLine> lines) {
 }
 
 DrawResult PointRenderer::draw(const Camera& camera, Viewport viewport, const PointLook& look,
-                               std::size_t budget, unsigned target_framebuffer) {
+                               std::size_t budget, const PictureTarget& target) {
     State& s = *state_;
     for (const GLenum what : {GL_SCISSOR_TEST, GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST})
         glDisable(what);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glViewport(0, 0, viewport.width, viewport.height);
     const DrawResult result = s.draw({camera, viewport, look, s.points_version}, budget);
+    const Viewport size = target.size.width > 0 ? target.size : viewport;
+    const bool same_size = size.width == viewport.width && size.height == viewport.height;
+    const int low = s.splats->from_top() ? viewport.height : 0;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, *s.finished.framebuffer);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target_framebuffer);
-    glBlitFramebuffer(0, 0, viewport.width, viewport.height, 0, 0, viewport.width, viewport.height,
-                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    glBindFramebuffer(GL_FRAMEBUFFER, target_framebuffer);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer);
+    glBlitFramebuffer(0, low, viewport.width, viewport.height - low, target.left, target.bottom,
+                      target.left + size.width, target.bottom + size.height, GL_COLOR_BUFFER_BIT,
+                      same_size ? GL_NEAREST : GL_LINEAR);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     glBindVertexArray(0);
     glUseProgram(0);
     return result;

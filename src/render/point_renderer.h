@@ -48,11 +48,20 @@ struct OverlayLine {
     float width = 1; // pixels
 };
 
+// Where a picture goes: a framebuffer (0: the window's), and a rectangle of it in pixels from its lower left.
+struct PictureTarget {
+    PictureTarget(unsigned framebuffer_) : framebuffer(framebuffer_) {}
+    unsigned framebuffer;
+    int left = 0, bottom = 0;
+    Viewport size{0, 0}; // 0: as large as the picture
+};
+
 struct DrawResult {
     bool complete = false;   // all points are there; else draw again, and more of them will be
     std::size_t in_view = 0; // points that are not skipped for lying outside the view
     std::size_t drawn = 0;   // points drawn by this call
     std::size_t one_in = 1;  // the picture shows one point in so many
+    double seconds = 0;      // what this call's points took; where OpenGL draws them, only to list them
 };
 
 // Owns its OpenGL objects. Make, use and destroy it with one context current. Positions are relative to the
@@ -69,6 +78,8 @@ public:
     PointRenderer(const PointRenderer&) = delete;
     PointRenderer& operator=(const PointRenderer&) = delete;
 
+    bool is_software() const; // the processor draws the splats
+
     // Begins anew with n points, all grey, unmarked and at the origin. `spacing`: the usual distance of
     // neighbouring points (usual_spacing() in view/framing.h).
     void set_points(std::size_t n, double spacing);
@@ -83,15 +94,15 @@ public:
     void set_handle_looks(std::span<const HandleLook> looks);
     void set_overlay(std::span<const OverlayLine> lines);
 
-    // Draws at most about `budget` points, into a framebuffer of the viewport's size (0: the window's). If
-    // nothing changed since the last call it goes on with the points that are still missing, behind the
+    // Draws at most about `budget` points of a picture of the viewport's size, and copies it to the target.
+    // If nothing changed since the last call it goes on with the points that are still missing, behind the
     // picture as it is, and shows them when all are there; once complete a call copies the finished picture
     // and costs next to nothing.
     //
-    // The near and far planes enclose the points and the overlay. Leaves the target bound with its viewport
-    // set, and depth test, blending and scissor off.
+    // The near and far planes enclose the points and the overlay. Leaves the target bound, and depth test,
+    // blending and scissor off.
     DrawResult draw(const Camera& camera, Viewport viewport, const PointLook& look, std::size_t budget,
-                    unsigned target_framebuffer);
+                    const PictureTarget& target);
 
 private:
     struct State;

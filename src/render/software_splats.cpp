@@ -1,10 +1,8 @@
-#include "base/workers.h"
+#include "render/software_pixels.h"
 #include "render/splats.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <vector>
 
 namespace knead {
 
@@ -14,7 +12,7 @@ namespace {
 constexpr float square_radius = 1.5f;
 constexpr int rows_in_band = 32;
 
-// A point on the screen. Pixels from the lower left corner.
+// A point on the screen. Pixels from the upper left corner.
 struct Splat {
     float x, y, depth, radius;
     std::uint32_t color;
@@ -25,17 +23,6 @@ struct Splat {
 struct Batch {
     std::size_t first = 0, count = 0; // of the splats
     float lowest = 0, highest = 0;    // the rows that they reach
-};
-
-// Colours (as tinted) and depths (0 … 1), rows from the bottom as in OpenGL.
-struct Pixels {
-    int width = 0, height = 0;
-    std::vector<std::uint32_t> colors;
-    std::vector<float> depths;
-
-    // Rows are padded, so that several pixels at once may be looked at beyond their ends.
-    static constexpr std::size_t padding = 16;
-    std::size_t row() const { return static_cast<std::size_t>(width) + padding; }
 };
 
 struct Points {
@@ -66,7 +53,7 @@ bool project(const Points& points, std::size_t i, const SplatView& view, const P
     const float part = 1 / clip.w;
     const float width = static_cast<float>(layer.width), height = static_cast<float>(layer.height);
     splat.x = (0.5f + 0.5f * clip.x * part) * width;
-    splat.y = (0.5f + 0.5f * clip.y * part) * height;
+    splat.y = (0.5f - 0.5f * clip.y * part) * height;
     const float diameter = std::clamp(view.fixed + view.by_distance * part, view.smallest, view.largest);
     splat.radius = 0.5f * diameter;
     if (!(splat.x > -splat.radius && splat.x < width + splat.radius && splat.y > -splat.radius &&
@@ -107,21 +94,6 @@ void draw_square(const Splat& splat, int bottom, int top, Pixels& layer) {
         }
     }
 }
-
-// Compiled twice where the compiler can: once for processors of the last ten years, chosen when the program
-// starts. Both round alike.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&     \
-    !defined(__SANITIZE_THREAD__)
-#define KNEAD_FOR_NEW_PROCESSORS_TOO __attribute__((target_clones("avx2", "default")))
-#else
-#define KNEAD_FOR_NEW_PROCESSORS_TOO
-#endif
-
-// Eight pixels of a row at a time, in the vectors of GCC and Clang.
-constexpr int lanes = 8;
-using Floats = float __attribute__((vector_size(4 * lanes)));
-using Words = std::uint32_t __attribute__((vector_size(4 * lanes)));
-using Mask = std::int32_t __attribute__((vector_size(4 * lanes)));
 
 // `dx`: from the splat's middle to the first pixel's; `depth`: in this row's middle. Pixels farther than
 // √reach from the row's middle are left alone.
@@ -169,16 +141,14 @@ void draw_in_band(const Splat& splat, int bottom, int top, Pixels& layer) {
 
 class SoftwareSplats final : public Splats {
 public:
+    explicit SoftwareSplats(Workers& workers) : workers_(workers) {}
+
     void set_points(std::size_t n) override {
         points_.positions.resize(3 * n);
         points_.tinted.resize(n);
     }
-    void set_positions(std::span<const float> positions) override {
-        points_.positions.assign(positions.begin(), positions.end());
-    }
-    void set_normals(std::span<const float> normals) override {
-        points_.normals.assign(normals.begin(), normals.end());
-    }
+    void set_positions(std::span<const float> positions) override { copy(positions, points_.positions); }
+    void set_normals(std::span<const float> normals) override { copy(normals, points_.normals); }
     void set_tinted(std::span<const std::uint32_t> tinted) override {
         points_.tinted.assign(tinted.begin(), tinted.end());
     }
@@ -186,7 +156,7 @@ public:
     // The result does not depend on the number of threads: every band of rows belongs to one, who draws all
     // splats in their order.
     std::size_t draw(std::span<const PointRange> ranges, std::size_t subset, std::size_t stride,
-                     const SplatView& view, Layer& layer, bool clear) override {
+                     const SplatView& view, Layer& /*layer*/, bool clear) override {
         if (clear) clear_pixels(view.viewport);
         const std::size_t drawn = make_room(ranges, subset, stride);
         workers_.for_each(ranges.size(), 4, [&](std::size_t r) {
@@ -195,11 +165,38 @@ public:
         const auto bands = static_cast<std::size_t>((pixels_.height + rows_in_band - 1) / rows_in_band);
         workers_.for_each(bands, 1,
                           [&](std::size_t band) { draw_band(static_cast<int>(band) * rows_in_band); });
-        send(view.viewport, layer);
         return drawn;
     }
 
+    void finish(const ScreenPass& pass, Layer& shown, bool is_new, Layer& finished) override {
+        if (is_new) screen_.compose(pass, pixels_, workers_);
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(pixels_.row()));
+        glActiveTexture(GL_TEXTURE0);
+        const auto send = [&](GLuint texture, GLenum format, GLenum type, const void* pixels) {
+            glBindTexture(GL_TEXTURE_2D, texture);
+            glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, pass.viewport.width, pass.viewport.height, format, type,
+                            pixels);
+        };
+        if (is_new && pass.lines) {
+            bind_layer(shown, pass.viewport, true);
+            send(*shown.depth, GL_DEPTH_COMPONENT, GL_FLOAT, pixels_.depths.data());
+        }
+        bind_layer(finished, pass.viewport, false);
+        send(*finished.color, GL_BGRA, GL_UNSIGNED_BYTE, screen_.picture().data());
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    }
+
+    bool from_top() const override { return true; }
+
 private:
+    void copy(std::span<const float> from, std::vector<float>& to) {
+        to.resize(from.size());
+        workers_.for_chunks(from.size(), std::size_t{1} << 16U, [&](std::size_t begin, std::size_t end) {
+            std::copy(from.data() + begin, from.data() + end, to.data() + begin);
+        });
+    }
+
     void clear_pixels(Viewport size) {
         pixels_.width = size.width;
         pixels_.height = size.height;
@@ -249,31 +246,18 @@ private:
         }
     }
 
-    void send(Viewport size, Layer& layer) const {
-        bind_layer(layer, size, true);
-        glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-        glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(pixels_.row()));
-        glActiveTexture(GL_TEXTURE0);
-        glBindTexture(GL_TEXTURE_2D, *layer.color);
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                        pixels_.colors.data());
-        glBindTexture(GL_TEXTURE_2D, *layer.depth);
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.width, size.height, GL_DEPTH_COMPONENT, GL_FLOAT,
-                        pixels_.depths.data());
-        glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-    }
-
-    Workers workers_;
+    Workers& workers_;
     Points points_;
     Pixels pixels_;
+    SoftwareScreen screen_;
     std::vector<Splat> splats_;
     std::vector<Batch> batches_;
 };
 
 } // namespace
 
-std::unique_ptr<Splats> make_software_splats() {
-    return std::make_unique<SoftwareSplats>();
+std::unique_ptr<Splats> make_software_splats(Workers& workers) {
+    return std::make_unique<SoftwareSplats>(workers);
 }
 
 } // namespace knead

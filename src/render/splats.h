@@ -3,7 +3,7 @@
 // processor.
 
 #include "render/chunks.h"
-#include "render/layer.h"
+#include "render/screen_pass.h"
 
 #include <cstdint>
 #include <memory>
@@ -38,6 +38,12 @@ public:
     // clears it. Returns how many.
     virtual std::size_t draw(std::span<const PointRange> ranges, std::size_t subset, std::size_t stride,
                              const SplatView& view, Layer& layer, bool clear) = 0;
+
+    // Makes the picture of what was drawn into `shown`. `is_new`: since the last call.
+    virtual void finish(const ScreenPass& pass, Layer& shown, bool is_new, Layer& finished) = 0;
+
+    // Whether finished pictures, and the depths below them, have their first row at the top.
+    virtual bool from_top() const { return false; }
 };
 
 std::unique_ptr<Splats> make_gl_splats();
@@ -45,7 +51,7 @@ std::unique_ptr<Splats> make_gl_splats();
 // Mesa's software renderer takes half a microsecond and more for every point, of which a small splat needs a
 // few nanoseconds. Where OpenGL runs in software the processor draws the splats itself, on threads of its
 // own, into the same textures, and everything else is as always. One layer is drawn into at a time.
-std::unique_ptr<Splats> make_software_splats();
+std::unique_ptr<Splats> make_software_splats(Workers& workers);
 
 // The elements of a range in a strided array: element e is point subset + e · stride.
 struct Elements {

@@ -311,26 +311,43 @@ TEST_P(Drawing, both_ways_draw_the_same) {
     const std::vector<float> positions = ball(n);
     PointRenderer other(GetParam() == PointRenderer::Drawing::by_opengl ? PointRenderer::Drawing::by_processor
                                                                         : PointRenderer::Drawing::by_opengl);
+    using Pattern = HandleLook::Pattern;
+    const std::vector<HandleLook> looks = {
+        {{1, 0, 0}, Pattern::solid}, {{0, 1, 0}, Pattern::stripes}, {{0, 0, 1}, Pattern::dots}};
+    std::vector<std::uint8_t> marks;
+    for (std::size_t i = 0; i < n; ++i)
+        marks.push_back(positions[3 * i] < -0.5f  ? handle_mark(i % 3)
+                        : positions[3 * i] < 0.0f ? mark_selected
+                                                  : std::uint8_t{0});
+    const std::vector<OverlayLine> lines = {{{-1, -1, -1}, {1, 1, 1}, rgba(0, 255, 0), 2}};
     PointLook look; // as an artist sees it
-    for (const double spacing : {0.005, 0.03, 0.2}) {
-        std::vector<std::vector<Pixel>> pictures;
-        for (PointRenderer* const one : {&*renderer, &other}) {
-            one->set_points(n, spacing);
-            one->set_positions(positions);
-            one->set_colors(many_colors(n));
-            one->set_normals(positions); // not of unit length, but alike
-            one->draw(some_camera(false), screen, look, n, target(screen));
-            pictures.push_back(read(screen));
-        }
-        // A pixel at a rim may fall to either side.
-        std::size_t different = 0;
-        for (std::size_t i = 0; i < pictures[0].size(); ++i)
-            for (std::size_t c = 0; c < 3; ++c)
-                if (std::abs(pictures[0][i][c] - pictures[1][i][c]) > 3) {
-                    ++different;
-                    break;
+    for (const bool with_normals : {true, false}) {
+        for (const bool orthographic : {true, false}) {
+            for (const double spacing : {0.005, 0.03, 0.2}) {
+                std::vector<std::vector<Pixel>> pictures;
+                for (PointRenderer* const one : {&*renderer, &other}) {
+                    one->set_points(n, spacing);
+                    one->set_positions(positions);
+                    one->set_colors(many_colors(n));
+                    one->set_marks(marks);
+                    one->set_handle_looks(looks);
+                    one->set_overlay(lines);
+                    if (with_normals) one->set_normals(positions); // not of unit length, but alike
+                    one->draw(some_camera(orthographic), screen, look, n, target(screen));
+                    pictures.push_back(read(screen));
                 }
-        EXPECT_LT(different, pictures[0].size() / 50) << spacing;
+                // A pixel at a rim may fall to either side, and darken those around it.
+                std::size_t different = 0;
+                for (std::size_t i = 0; i < pictures[0].size(); ++i)
+                    for (std::size_t c = 0; c < 3; ++c)
+                        if (std::abs(pictures[0][i][c] - pictures[1][i][c]) > 3) {
+                            ++different;
+                            break;
+                        }
+                EXPECT_LT(different, pictures[0].size() / 50)
+                    << spacing << ' ' << with_normals << ' ' << orthographic;
+            }
+        }
     }
 }
 

@@ -1,3 +1,4 @@
+#include "render/gl_lines.h"
 #include "render/shaders.h"
 #include "render/splats.h"
 
@@ -86,8 +87,10 @@ public:
         return drawn;
     }
 
-    void finish(const ScreenPass& pass, Layer& shown, bool /*is_new*/, Layer& finished) override {
+    void finish(const ScreenPass& pass, const Overlay& overlay, Layer& shown, bool /*is_new*/,
+                Layer& finished) override {
         screen_.draw(pass, shown, finished);
+        if (!overlay.lines.empty()) lines_.draw(overlay.lines, overlay.view, shown, finished);
     }
 
 private:
@@ -145,6 +148,7 @@ private:
     GlVertexArray array_;
     std::array<std::array<std::optional<PointProgram>, 3>, 2> programs_; // [shaded][shape]
     GlScreen screen_;
+    GlLines lines_;
     std::vector<GLint> firsts_;
     std::vector<GLsizei> counts_;
 };

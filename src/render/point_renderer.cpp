@@ -5,7 +5,6 @@
 #include "base/stopwatch.h"
 #include "render/chunks.h"
 #include "render/layer.h"
-#include "render/shaders.h"
 #include "render/splats.h"
 #include "render/tinting.h"
 
@@ -37,15 +36,6 @@ bool opengl_is_software() {
     return false;
 }
 
-void set_matrix(GLint location, const glm::dmat4& matrix) {
-    const glm::mat4 narrowed(matrix);
-    glUniformMatrix4fv(location, 1, GL_FALSE, &narrowed[0][0]);
-}
-
-const void* offset(std::size_t bytes) {
-    return reinterpret_cast<const void*>(bytes);
-}
-
 } // namespace
 
 // What a picture shows; a picture of the same scene is not drawn again.
@@ -71,19 +61,13 @@ struct PointRenderer::State {
     std::uint64_t points_version = 0;
 
     // --- The overlay ---
-    std::size_t lines = 0;
+    std::vector<OverlayLine> lines;
     Box3 lines_box;
-    GlBuffer line_buffer;
-    GlVertexArray line_array;
     std::uint64_t overlay_version = 0;
-
-    // --- The programs ---
-    GlProgram line_program = make_program(embedded::lines_vert, embedded::lines_frag);
 
     // --- The picture in the making ---
     Layer shown, growing; // what is on the screen, and the whole cloud as far as it has come
     Layer finished;       // `shown` after the pass over the screen, with the overlay
-    std::optional<GlFramebuffer> overlay_target; // the colours of `finished` with the depth of `shown`
     Scene scene;
     bool is_drawn = false; // whether `shown` is of `scene`
     glm::dmat4 projection{1.0}, to_clip{1.0};
@@ -100,8 +84,8 @@ struct PointRenderer::State {
     SplatView view_of(double enlargement) const;
     std::size_t draw_subset(std::size_t subset, double enlargement, Layer& layer, bool clear);
     ScreenPass screen_pass() const;
+    Overlay overlay() const;
     void finish(bool is_new);
-    void draw_lines();
     DrawResult draw(const Scene& next, std::size_t budget);
 };
 
@@ -121,7 +105,7 @@ bool PointRenderer::State::matches(const Scene& other) const {
 
 // Takes the projection whose near and far planes enclose the box and the overlay.
 void PointRenderer::State::project_onto(Box3 box) {
-    if (lines > 0) {
+    if (!lines.empty()) {
         box.lowest = glm::min(box.lowest, lines_box.lowest);
         box.highest = glm::max(box.highest, lines_box.highest);
     }
@@ -205,48 +189,21 @@ ScreenPass PointRenderer::State::screen_pass() const {
     pass.pattern = look.pixel_scale;
     pass.relief = look.shading && !has_normals;
     pass.patterns = !marks.empty();
-    pass.lines = lines > 0;
     return pass;
 }
 
-// The pass over the screen, and the overlay: from `shown` to `finished`.
-void PointRenderer::State::finish(bool is_new) {
-    splats->finish(screen_pass(), shown, is_new, finished);
-    if (lines > 0) draw_lines();
-    finished_overlay = overlay_version;
-}
-
-void PointRenderer::State::draw_lines() {
-    overlay_target.emplace();
-    glViewport(0, 0, scene.viewport.width, scene.viewport.height);
-    glBindFramebuffer(GL_FRAMEBUFFER, *overlay_target);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *finished.color, 0);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *shown.depth, 0);
-    glUseProgram(line_program);
-    const auto at = [&](const char* name) { return glGetUniformLocation(line_program, name); };
-    const double up = splats->from_top() ? -1 : 1;
-    set_matrix(at("to_clip"), glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, up, 0, 0),
-                                         glm::dvec4(0, 0, 1, 0), glm::dvec4(0, 0, 0, 1)) *
-                                  to_clip);
-    glUniform2f(at("screen"), static_cast<float>(scene.viewport.width),
-                static_cast<float>(scene.viewport.height));
-    glUniform1f(at("scale"), scene.look.pixel_scale);
+Overlay PointRenderer::State::overlay() const {
     // Three spacings at the pivot's distance, as a difference of depths.
     const double z = scene.camera.distance;
     const double slope =
         scene.camera.orthographic ? std::abs(projection[2][2]) : std::abs(projection[3][2]) / (z * z);
-    glUniform1f(at("nearer"), static_cast<float>(3 * spacing * slope));
-    glBindVertexArray(line_array);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LEQUAL);
-    glDepthMask(GL_FALSE);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(lines));
-    glDisable(GL_BLEND);
-    glDepthMask(GL_TRUE);
-    glDisable(GL_DEPTH_TEST);
-    overlay_target.reset();
+    return {lines, {glm::mat4(to_clip), scene.look.pixel_scale, static_cast<float>(3 * spacing * slope)}};
+}
+
+// The pass over the screen, and the overlay: from `shown` to `finished`.
+void PointRenderer::State::finish(bool is_new) {
+    splats->finish(screen_pass(), overlay(), shown, is_new, finished);
+    finished_overlay = overlay_version;
 }
 
 DrawResult PointRenderer::State::draw(const Scene& next, std::size_t budget) {
@@ -288,25 +245,12 @@ PointRenderer::PointRenderer(Drawing drawing) {
     const bool in_software =
         drawing == Drawing::chosen ? opengl_is_software() : drawing == Drawing::by_processor;
     s.splats = in_software ? make_software_splats(s.workers) : make_gl_splats();
-    glBindVertexArray(s.line_array);
-    glBindBuffer(GL_ARRAY_BUFFER, s.line_buffer);
-    const auto attribute = [](GLuint location, GLint size, GLenum type, std::size_t at) {
-        glVertexAttribPointer(location, size, type, type == GL_UNSIGNED_BYTE, sizeof(OverlayLine),
-                              offset(at));
-        glVertexAttribDivisor(location, 1);
-        glEnableVertexAttribArray(location);
-    };
-    attribute(0, 3, GL_FLOAT, offsetof(OverlayLine, from));
-    attribute(1, 3, GL_FLOAT, offsetof(OverlayLine, to));
-    attribute(2, 4, GL_UNSIGNED_BYTE, offsetof(OverlayLine, rgba));
-    attribute(3, 1, GL_FLOAT, offsetof(OverlayLine, width));
-    glBindVertexArray(0);
 }
 
 PointRenderer::~PointRenderer() = default;
 
 bool PointRenderer::is_software() const {
-    return state_->splats->from_top();
+    return state_->splats->by_processor();
 }
 
 void PointRenderer::set_points(std::size_t n, double spacing) {
@@ -363,10 +307,7 @@ void PointRenderer::set_handle_looks(std::span<const HandleLook> looks) {
 
 void PointRenderer::set_overlay(std::span<const OverlayLine> lines) {
     State& s = *state_;
-    if (lines.empty() != (s.lines == 0)) ++s.points_version; // the depths are needed, or not any more
-    s.lines = lines.size();
-    glBindBuffer(GL_ARRAY_BUFFER, s.line_buffer);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(lines.size_bytes()), lines.data(), GL_DYNAMIC_DRAW);
+    s.lines.assign(lines.begin(), lines.end());
     Box3 box;
     for (const OverlayLine& line : lines) {
         const glm::dvec3 from(line.from), to(line.to);
@@ -379,6 +320,7 @@ void PointRenderer::set_overlay(std::span<const OverlayLine> lines) {
         s.lines_box = box;
         ++s.points_version;
     }
+    if (s.splats->by_processor()) ++s.points_version;
     ++s.overlay_version;
 }
 
@@ -391,7 +333,7 @@ DrawResult PointRenderer::draw(const Camera& camera, Viewport viewport, const Po
     const DrawResult result = s.draw({camera, viewport, look, s.points_version}, budget);
     const Viewport size = target.size.width > 0 ? target.size : viewport;
     const bool same_size = size.width == viewport.width && size.height == viewport.height;
-    const int low = s.splats->from_top() ? viewport.height : 0;
+    const int low = s.splats->by_processor() ? viewport.height : 0;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, *s.finished.framebuffer);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer);
     glBlitFramebuffer(0, low, viewport.width, viewport.height - low, target.left, target.bottom,

@@ -21,7 +21,6 @@ struct ScreenPass {
     float pattern = 1;                 // pixels in a unit of the patterns
     bool relief = false;               // lit by the slopes of the depths
     bool patterns = false;             // of handles and selection
-    bool lines = false;                // come later, and need the depths
 };
 
 // By OpenGL.

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <vector>
 
 namespace knead {
@@ -36,10 +37,13 @@ using Floats = float __attribute__((vector_size(4 * lanes)));
 using Words = std::uint32_t __attribute__((vector_size(4 * lanes)));
 using Mask = std::int32_t __attribute__((vector_size(4 * lanes)));
 
+struct FlatLine; // software_lines.h
+
 // The pass over the screen, on the processor. Keeps its last picture.
 class SoftwareScreen {
 public:
-    void compose(const ScreenPass& pass, const Pixels& pixels, Workers& workers);
+    void compose(const ScreenPass& pass, const Pixels& pixels, std::span<const FlatLine> lines,
+                 Workers& workers);
 
     // Rows from the top, as long as those of the pixels; bytes b, g, r, a.
     const std::vector<std::uint32_t>& picture() const { return picture_; }

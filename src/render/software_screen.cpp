@@ -1,6 +1,6 @@
 // The same as shaders/compose.frag, eight pixels at a time. Mesa's software renderer takes ten times as long.
 
-#include "render/software_pixels.h"
+#include "render/software_lines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -232,7 +232,8 @@ void SoftwareScreen::draw_background(const ScreenPass& pass, const Pixels& pixel
     });
 }
 
-void SoftwareScreen::compose(const ScreenPass& pass, const Pixels& pixels, Workers& workers) {
+void SoftwareScreen::compose(const ScreenPass& pass, const Pixels& pixels, std::span<const FlatLine> lines,
+                             Workers& workers) {
     draw_background(pass, pixels, workers);
     picture_.resize(background_.size());
     ScreenPass clipped = pass;
@@ -240,20 +241,22 @@ void SoftwareScreen::compose(const ScreenPass& pass, const Pixels& pixels, Worke
     clipped.to = glm::min(pass.to, glm::ivec2(pixels.width, pixels.height));
     const int first = pixels.height - clipped.to.y, end = pixels.height - clipped.from.y; // rows from the top
     const std::size_t length = pixels.row();
+    const auto draw_rows = [&](int begins, int ends) {
+        if (begins >= ends) return;
+        const Surroundings depths(pixels, begins, ends, clipped.far);
+        for (int y = begins; y < ends; ++y) {
+            const std::size_t at = static_cast<std::size_t>(y) * length;
+            compose_row(clipped, depths, y, pixels.colors.data() + at, background_.data() + at,
+                        picture_.data() + at);
+        }
+    };
     workers.for_chunks(static_cast<std::size_t>(pixels.height), rows_at_once,
                        [&](std::size_t b, std::size_t e) {
-                           std::copy(background_.begin() + static_cast<std::ptrdiff_t>(b * length),
-                                     background_.begin() + static_cast<std::ptrdiff_t>(e * length),
-                                     picture_.begin() + static_cast<std::ptrdiff_t>(b * length));
-                           const int begins = std::max(first, static_cast<int>(b)),
-                                     ends = std::min(end, static_cast<int>(e));
-                           if (begins >= ends) return;
-                           const Surroundings depths(pixels, begins, ends, clipped.far);
-                           for (int y = begins; y < ends; ++y) {
-                               const std::size_t at = static_cast<std::size_t>(y) * length;
-                               compose_row(clipped, depths, y, pixels.colors.data() + at,
-                                           background_.data() + at, picture_.data() + at);
-                           }
+                           std::copy(background_.data() + b * length, background_.data() + e * length,
+                                     picture_.data() + b * length);
+                           const int top = static_cast<int>(b), bottom = static_cast<int>(e);
+                           draw_rows(std::max(first, top), std::min(end, bottom));
+                           draw_lines(lines, top, bottom, pixels, picture_.data());
                        });
 }
 

@@ -2,6 +2,7 @@
 #include "render/splats.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace knead {
@@ -19,10 +20,27 @@ struct Splat {
     float bulge; // how much deeper the rim is than the middle
 };
 
+// Some splats that follow each other, and so lie close together: where they are, and the nearest depth. Most
+// that lie behind others are left out by that alone.
+constexpr std::size_t splats_in_group = 64;
+struct Group {
+    float left = 1e30f, right = -1e30f, top = 1e30f, bottom = -1e30f;
+    float depth = 2;
+
+    void add(const Splat& splat) {
+        left = std::min(left, splat.x - splat.radius);
+        right = std::max(right, splat.x + splat.radius);
+        top = std::min(top, splat.y - splat.radius);
+        bottom = std::max(bottom, splat.y + splat.radius);
+        depth = std::min(depth, splat.depth);
+    }
+};
+
 // What is seen of a range of points.
 struct Batch {
     std::size_t first = 0, count = 0; // of the splats
-    float lowest = 0, highest = 0;    // the rows that they reach
+    float top = 0, bottom = 0;        // the rows that they reach
+    std::array<Group, points_in_chunk / splats_in_group> groups;
 };
 
 struct Points {
@@ -81,8 +99,8 @@ Span middles_between(float low, float high, int least, int most) {
     return {std::max(first, least), std::min(end, most)};
 }
 
-void draw_square(const Splat& splat, int bottom, int top, Pixels& layer) {
-    const Span rows = middles_between(splat.y - splat.radius, splat.y + splat.radius, bottom, top);
+void draw_square(const Splat& splat, int first, int end, Pixels& layer) {
+    const Span rows = middles_between(splat.y - splat.radius, splat.y + splat.radius, first, end);
     const Span columns = middles_between(splat.x - splat.radius, splat.x + splat.radius, 0, layer.width);
     for (int y = rows.first; y < rows.end; ++y) {
         const std::size_t row = static_cast<std::size_t>(y) * layer.row();
@@ -113,9 +131,9 @@ void draw_square(const Splat& splat, int bottom, int top, Pixels& layer) {
 }
 
 KNEAD_FOR_NEW_PROCESSORS_TOO
-void draw_disc(const Splat& splat, int bottom, int top, Pixels& layer) {
+void draw_disc(const Splat& splat, int first, int end, Pixels& layer) {
     const float squared = splat.radius * splat.radius, curve = splat.bulge / squared;
-    const Span rows = middles_between(splat.y - splat.radius, splat.y + splat.radius, bottom, top);
+    const Span rows = middles_between(splat.y - splat.radius, splat.y + splat.radius, first, end);
     const Span columns = middles_between(splat.x - splat.radius, splat.x + splat.radius, 0, layer.width);
     const float dx = static_cast<float>(columns.first) + 0.5f - splat.x;
     for (int y = rows.first; y < rows.end; ++y) {
@@ -129,14 +147,36 @@ void draw_disc(const Splat& splat, int bottom, int top, Pixels& layer) {
     }
 }
 
-void draw_in_band(const Splat& splat, int bottom, int top, Pixels& layer) {
-    if (splat.y + splat.radius < static_cast<float>(bottom) ||
-        splat.y - splat.radius > static_cast<float>(top))
+// Whether all of the group's pixels in these rows already show something nearer.
+KNEAD_FOR_NEW_PROCESSORS_TOO
+bool is_hidden(const Group& group, int first, int end, const Pixels& layer) {
+    const Span rows = middles_between(group.top, group.bottom, first, end);
+    const Span columns = middles_between(group.left, group.right, 0, layer.width);
+    for (int y = rows.first; y < rows.end; ++y) {
+        const float* const depths = layer.depths.data() + static_cast<std::size_t>(y) * layer.row();
+        Mask farther{};
+        for (int x = columns.first; x < columns.end; x += lanes) {
+            Floats there;
+            std::memcpy(&there, depths + x, sizeof there);
+            constexpr Mask places = {0, 1, 2, 3, 4, 5, 6, 7};
+            farther |= (there > group.depth) & (places < columns.end - x);
+        }
+        for (int i = 0; i < lanes; ++i)
+            if (farther[i] != 0) return false;
+    }
+    return true;
+}
+
+void draw_group(const Group& group, std::span<const Splat> splats, int first, int end, Pixels& layer) {
+    if (group.bottom < static_cast<float>(first) || group.top > static_cast<float>(end) ||
+        is_hidden(group, first, end, layer))
         return;
-    if (splat.radius <= square_radius)
-        draw_square(splat, bottom, top, layer);
-    else
-        draw_disc(splat, bottom, top, layer);
+    for (const Splat& splat : splats) {
+        if (splat.radius <= square_radius)
+            draw_square(splat, first, end, layer);
+        else
+            draw_disc(splat, first, end, layer);
+    }
 }
 
 class SoftwareSplats final : public Splats {
@@ -168,26 +208,21 @@ public:
         return drawn;
     }
 
-    void finish(const ScreenPass& pass, Layer& shown, bool is_new, Layer& finished) override {
-        if (is_new) screen_.compose(pass, pixels_, workers_);
+    void finish(const ScreenPass& pass, const Overlay& overlay, Layer& /*shown*/, bool is_new,
+                Layer& finished) override {
+        if (is_new)
+            screen_.compose(pass, pixels_, flat_lines(overlay.lines, overlay.view, pass.viewport), workers_);
+        bind_layer(finished, pass.viewport, false);
         glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
         glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(pixels_.row()));
         glActiveTexture(GL_TEXTURE0);
-        const auto send = [&](GLuint texture, GLenum format, GLenum type, const void* pixels) {
-            glBindTexture(GL_TEXTURE_2D, texture);
-            glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, pass.viewport.width, pass.viewport.height, format, type,
-                            pixels);
-        };
-        if (is_new && pass.lines) {
-            bind_layer(shown, pass.viewport, true);
-            send(*shown.depth, GL_DEPTH_COMPONENT, GL_FLOAT, pixels_.depths.data());
-        }
-        bind_layer(finished, pass.viewport, false);
-        send(*finished.color, GL_BGRA, GL_UNSIGNED_BYTE, screen_.picture().data());
+        glBindTexture(GL_TEXTURE_2D, *finished.color);
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, pass.viewport.width, pass.viewport.height, GL_BGRA,
+                        GL_UNSIGNED_BYTE, screen_.picture().data());
         glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     }
 
-    bool from_top() const override { return true; }
+    bool by_processor() const override { return true; }
 
 private:
     void copy(std::span<const float> from, std::vector<float>& to) {
@@ -224,25 +259,32 @@ private:
 
     void see(const PointRange& range, const Elements& elements, std::size_t subset, std::size_t stride,
              const SplatView& view, Batch& batch) {
-        Splat* next = splats_.data() + batch.first;
-        batch.lowest = static_cast<float>(pixels_.height);
-        batch.highest = 0;
+        const std::span<Splat> seen(splats_.data() + batch.first, elements.end - elements.first);
+        batch.count = 0;
+        batch.groups.fill({});
         for (std::size_t i = subset + elements.first * stride; i < range.end; i += stride) {
-            if (!project(points_, i, view, pixels_, *next)) continue;
-            batch.lowest = std::min(batch.lowest, next->y - next->radius);
-            batch.highest = std::max(batch.highest, next->y + next->radius);
-            ++next;
+            Splat& next = seen[batch.count];
+            if (!project(points_, i, view, pixels_, next)) continue;
+            batch.groups[batch.count / splats_in_group].add(next);
+            ++batch.count;
         }
-        batch.count = static_cast<std::size_t>(next - splats_.data()) - batch.first;
+        batch.top = static_cast<float>(pixels_.height);
+        batch.bottom = 0;
+        for (const Group& group : batch.groups) {
+            batch.top = std::min(batch.top, group.top);
+            batch.bottom = std::max(batch.bottom, group.bottom);
+        }
     }
 
-    void draw_band(int bottom) {
-        const int top = std::min(bottom + rows_in_band, pixels_.height);
+    void draw_band(int first) {
+        const int end = std::min(first + rows_in_band, pixels_.height);
         for (const Batch& batch : batches_) {
-            if (batch.highest < static_cast<float>(bottom) || batch.lowest > static_cast<float>(top))
-                continue;
-            for (std::size_t s = batch.first; s < batch.first + batch.count; ++s)
-                draw_in_band(splats_[s], bottom, top, pixels_);
+            if (batch.bottom < static_cast<float>(first) || batch.top > static_cast<float>(end)) continue;
+            const std::span<const Splat> splats(splats_.data() + batch.first, batch.count);
+            for (std::size_t s = 0; s < splats.size(); s += splats_in_group) {
+                const std::size_t count = std::min(splats_in_group, splats.size() - s);
+                draw_group(batch.groups[s / splats_in_group], splats.subspan(s, count), first, end, pixels_);
+            }
         }
     }
 

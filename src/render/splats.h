@@ -4,6 +4,7 @@
 
 #include "render/chunks.h"
 #include "render/screen_pass.h"
+#include "render/software_lines.h"
 
 #include <cstdint>
 #include <memory>
@@ -25,6 +26,12 @@ struct SplatView {
     bool shaded = false;              // by the normals
 };
 
+// Lines over the points.
+struct Overlay {
+    std::span<const OverlayLine> lines;
+    LineView view;
+};
+
 class Splats {
 public:
     virtual ~Splats() = default;
@@ -39,11 +46,14 @@ public:
     virtual std::size_t draw(std::span<const PointRange> ranges, std::size_t subset, std::size_t stride,
                              const SplatView& view, Layer& layer, bool clear) = 0;
 
-    // Makes the picture of what was drawn into `shown`. `is_new`: since the last call.
-    virtual void finish(const ScreenPass& pass, Layer& shown, bool is_new, Layer& finished) = 0;
+    // Makes the picture of what was drawn into `shown`, with the overlay. `is_new`: anything changed since
+    // the last call.
+    virtual void finish(const ScreenPass& pass, const Overlay& overlay, Layer& shown, bool is_new,
+                        Layer& finished) = 0;
 
-    // Whether finished pictures, and the depths below them, have their first row at the top.
-    virtual bool from_top() const { return false; }
+    // Whether the processor draws. Its finished pictures have their first row at the top, and of another
+    // overlay it has to draw the points again.
+    virtual bool by_processor() const { return false; }
 };
 
 std::unique_ptr<Splats> make_gl_splats();

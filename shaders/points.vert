@@ -5,6 +5,7 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 color;
 layout(location = 2) in vec3 normal;
+layout(location = 3) in float width; // where size is by distance: times 2^(width · 255 / 64)
 
 uniform mat4 to_clip;
 uniform vec2 size;     // pixels: size.x + size.y / w
@@ -19,7 +20,7 @@ flat out vec2 splat_depth;
 
 void main() {
     gl_Position = to_clip * vec4(position, 1.0);
-    float diameter = clamp(size.x + size.y / gl_Position.w, extremes.x, extremes.y);
+    float diameter = clamp(size.x + size.y * exp2(width * (255.0 / 64.0)) / gl_Position.w, extremes.x, extremes.y);
     gl_PointSize = diameter;
 #ifdef SHADED
     // Both sides are lit: a normal that faces away is turned round.

@@ -18,6 +18,7 @@ struct Scene::State {
     ValueRange range;
     bool colored = false;
     bool parts_known = false;
+    std::shared_ptr<const std::vector<float>> spacings;
     UpAxis up = UpAxis::z;
     SceneLinesOf lines;
     EstimatedNormals estimated;
@@ -70,6 +71,7 @@ void Scene::take_in(Editor& editor, UiState& state) {
         if (display.coloring == Coloring::attribute) // of the cloud before
             state.display.coloring = Coloring::file;
         own.renderer.set_points(editor.marks.size(), editor.opened.spacing);
+        own.spacings.reset();
         own.colored = false;
         own.looks.clear();
         own.lines = {};
@@ -98,6 +100,11 @@ void Scene::take_in(Editor& editor, UiState& state) {
     }
     const bool graph_came = !own.parts_known && editor.document->components != nullptr;
     own.parts_known = editor.document->components != nullptr;
+    if (own.spacings != editor.document->spacings) {
+        own.spacings = editor.document->spacings;
+        own.renderer.set_spacings(own.spacings ? std::span<const float>(*own.spacings)
+                                               : std::span<const float>());
+    }
     const bool needs_graph = display.coloring == Coloring::stretch || display.coloring == Coloring::parts;
     if (!own.colored || own.coloring != display.coloring || own.attribute != display.attribute ||
         own.automatic_range != display.automatic_range || own.up != editor.camera.up ||

@@ -43,8 +43,10 @@ struct DocumentView {
     std::size_t undoable_steps = 0, redoable_steps = 0;
     std::size_t samples = 0; // 0: not chosen yet
     Pipeline::Strays strays;
-    std::shared_ptr<const Graph> graph;                        // of the vertices; null until it was built
-    std::shared_ptr<const Components> components;              // and what hangs together in it; null as long
+    std::shared_ptr<const Graph> graph;           // of the vertices; null until it was built
+    std::shared_ptr<const Components> components; // and what hangs together in it; null as long
+    std::shared_ptr<const std::vector<float>>
+        spacings; // of the points as opened; null until the graph was built
     std::shared_ptr<const std::vector<Index>> sample_vertices; // where the samples are; null before a drag
     std::shared_ptr<const Graph> sample_graph;                 // between them; null before a drag
     std::string device;

@@ -1,5 +1,7 @@
 #include "edit/live_publisher.h"
 
+#include "graph/local_spacing.h"
+
 namespace knead {
 
 void LivePublisher::say(Notice::Kind kind, const std::string& words) {
@@ -38,6 +40,8 @@ void LivePublisher::view(const Document& document, const LiveRecording& recordin
     view->strays = pipeline.strays();
     view->graph = pipeline.shared_graph();
     view->components = pipeline.shared_components();
+    note_spacings(pipeline);
+    view->spacings = spacings_;
     note_samples(pipeline);
     view->sample_vertices = sample_vertices_;
     view->sample_graph = sample_graph_;
@@ -53,6 +57,17 @@ void LivePublisher::strays(const Pipeline::Strays& strays) {
     const std::string words = words_about(strays);
     if (!words.empty() && words != told_of_strays_) say(Notice::Kind::information, words);
     told_of_strays_ = words;
+}
+
+void LivePublisher::note_spacings(const Pipeline& pipeline) {
+    if (!pipeline.shared_graph() || pipeline.shared_graph() == graph_seen_) return;
+    graph_seen_ = pipeline.shared_graph();
+    const PointOrder& order = pipeline.order();
+    const std::vector<float> places = vertex_positions(order, pipeline.opened().positions, workers_);
+    const std::vector<float> of_vertices = local_spacing(*graph_seen_, places, workers_);
+    std::vector<float> spacings(order.points());
+    for (std::size_t i = 0; i < spacings.size(); ++i) spacings[i] = of_vertices[order.vertex[i]];
+    spacings_ = std::make_shared<const std::vector<float>>(std::move(spacings));
 }
 
 void LivePublisher::note_samples(const Pipeline& pipeline) {

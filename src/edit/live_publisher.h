@@ -8,7 +8,7 @@ namespace knead {
 
 class LivePublisher {
 public:
-    explicit LivePublisher(Locked<LiveShared>& shared) : shared_(shared) {}
+    LivePublisher(Locked<LiveShared>& shared, Workers& workers) : shared_(shared), workers_(workers) {}
 
     void say(Notice::Kind kind, const std::string& words);
     void refuse(StepNumber step);
@@ -36,8 +36,10 @@ public:
 
 private:
     void note_samples(const Pipeline& pipeline);
+    void note_spacings(const Pipeline& pipeline);
 
     Locked<LiveShared>& shared_;
+    Workers& workers_;
     PosedFrame back_; // the next frame to hand over; the window gives the one before back
     std::uint64_t frames_ = 0;
     std::string told_of_strays_;
@@ -45,6 +47,8 @@ private:
     std::uint64_t samples_seen_ = 0;
     std::shared_ptr<const std::vector<Index>> sample_vertices_;
     std::shared_ptr<const Graph> sample_graph_;
+    std::shared_ptr<const Graph> graph_seen_;
+    std::shared_ptr<const std::vector<float>> spacings_;
 };
 
 } // namespace knead

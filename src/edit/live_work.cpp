@@ -27,8 +27,8 @@ bool ends_drag(const LiveTask& task) {
 } // namespace
 
 LiveWork::LiveWork(OpenRequest request, Locked<LiveShared>& shared)
-    : request_(std::move(request)), shared_(shared), publisher_(shared), progress_(shared),
-      workers_(request_.threads) {}
+    : request_(std::move(request)), shared_(shared), progress_(shared), workers_(request_.threads),
+      publisher_(shared, workers_) {}
 
 void LiveWork::open() {
     Session session = session_to_open(request_, progress_);

@@ -87,9 +87,9 @@ private:
 
     OpenRequest request_;
     Locked<LiveShared>& shared_;
-    LivePublisher publisher_;
     LiveProgress progress_;
     Workers workers_;
+    LivePublisher publisher_;
     std::unique_ptr<Upsampler> upsampler_;
     std::unique_ptr<Document> document_;
     std::unique_ptr<LiveRecording> recording_;

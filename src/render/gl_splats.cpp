@@ -57,7 +57,7 @@ class GlSplats final : public Splats {
 public:
     void set_points(std::size_t n) override {
         n_ = n;
-        has_normal_buffer_ = false;
+        has_normal_buffer_ = has_widths_ = false;
         allocate(positions_, 12 * n);
         allocate(colors_, 4 * n);
     }
@@ -66,6 +66,12 @@ public:
         if (!has_normal_buffer_) allocate(normals_, 12 * n_);
         has_normal_buffer_ = true;
         upload(normals_, normals);
+    }
+    void set_widths(std::span<const std::uint8_t> widths) override {
+        has_widths_ = !widths.empty();
+        if (!has_widths_) return;
+        allocate(widths_, n_);
+        upload(widths_, widths);
     }
     void set_tinted(std::span<const std::uint32_t> tinted) override { upload(colors_, tinted); }
 
@@ -134,6 +140,12 @@ private:
                                   reinterpret_cast<const void*>(bytes * subset));
             glEnableVertexAttribArray(location);
         };
+        if (has_widths_) {
+            attribute(3, widths_, 1, GL_UNSIGNED_BYTE, 1);
+        } else {
+            glDisableVertexAttribArray(3);
+            glVertexAttrib1f(3, 0);
+        }
         attribute(0, positions_, 3, GL_FLOAT, 12);
         attribute(1, colors_, 4, GL_UNSIGNED_BYTE, 4);
         if (shaded)
@@ -143,8 +155,8 @@ private:
     }
 
     std::size_t n_ = 0;
-    bool has_normal_buffer_ = false;
-    GlBuffer positions_, normals_, colors_;
+    bool has_normal_buffer_ = false, has_widths_ = false;
+    GlBuffer positions_, normals_, colors_, widths_;
     GlVertexArray array_;
     std::array<std::array<std::optional<PointProgram>, 3>, 2> programs_; // [shaded][shape]
     GlScreen screen_;

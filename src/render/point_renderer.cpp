@@ -22,6 +22,7 @@ namespace {
 constexpr double closing_factor = 2.0;
 // A subset of one in k is drawn √k larger, up to this.
 constexpr double largest_enlargement = 4;
+constexpr double most_wider = 4;    // where points lie farther apart than usual
 constexpr float largest_splat = 96; // pixels
 constexpr float widest_flat = 8;    // pixels; wider splats are curved, which costs
 
@@ -56,6 +57,7 @@ struct PointRenderer::State {
     std::vector<HandleLook> looks;
     bool tints_are_stale = false;
     std::vector<Chunk> chunks;
+    std::uint8_t widest_width = 0; // of the splats, see Splats::set_widths()
     Workers workers;
     std::unique_ptr<Splats> splats;
     std::uint64_t points_version = 0;
@@ -146,7 +148,9 @@ SplatView PointRenderer::State::view_of(double enlargement) const {
     view.largest = largest_splat * look.pixel_scale;
     view.curved = widest_flat * look.pixel_scale;
     view.widest =
-        std::clamp(static_cast<float>(fixed + by_distance / in_view.nearest), view.smallest, view.largest);
+        std::clamp(static_cast<float>(fixed + by_distance * std::exp2(widest_width / widths_in_double) /
+                                                  in_view.nearest),
+                   view.smallest, view.largest);
     view.pixel_size = static_cast<float>(1 / pixels_a_unit);
     const glm::mat3 axes = glm::mat3_cast(glm::quat(scene.camera.orientation));
     view.forward = -axes[2];
@@ -261,6 +265,7 @@ void PointRenderer::set_points(std::size_t n, double spacing) {
     s.colors.assign(n, 0xffb8b8b8);
     s.marks.clear();
     s.tints_are_stale = true;
+    s.widest_width = 0;
     s.splats->set_points(n);
     s.chunks.clear();
     ++s.points_version;
@@ -290,6 +295,20 @@ void PointRenderer::set_colors(std::span<const std::uint32_t> rgba) {
     state_->colors.assign(rgba.begin(), rgba.end());
     state_->tints_are_stale = true;
     ++state_->points_version;
+}
+
+void PointRenderer::set_spacings(std::span<const float> spacings) {
+    State& s = *state_;
+    require(spacings.empty() || spacings.size() == s.n, "a spacing a point");
+    std::vector<std::uint8_t> widths(spacings.size());
+    s.widest_width = 0;
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+        const double wider = std::clamp(static_cast<double>(spacings[i]) / s.spacing, 1.0, most_wider);
+        widths[i] = static_cast<std::uint8_t>(std::lround(widths_in_double * std::log2(wider)));
+        s.widest_width = std::max(s.widest_width, widths[i]);
+    }
+    s.splats->set_widths(widths);
+    ++s.points_version;
 }
 
 void PointRenderer::set_marks(std::span<const std::uint8_t> marks) {

@@ -90,7 +90,10 @@ public:
     void set_positions(std::span<const float> positions); // 3n
     void set_normals(std::span<const float> normals);     // 3n, unit; or empty: none
     void set_colors(std::span<const std::uint32_t> rgba); // bytes r, g, b, ignored
-    void set_marks(std::span<const std::uint8_t> marks);  // view/marks.h; or empty: none
+    // How far apart the points lie around each, in the same unit as `spacing`, which is the least that
+    // counts: splats are so much wider. Or empty: all alike.
+    void set_spacings(std::span<const float> spacings);
+    void set_marks(std::span<const std::uint8_t> marks); // view/marks.h; or empty: none
     void set_handle_looks(std::span<const HandleLook> looks);
     void set_overlay(std::span<const OverlayLine> lines);
 

@@ -13,6 +13,7 @@ constexpr int rows_at_once = 16; // by one thread
 
 // GCC passes such vectors differently with and without AVX; these are always inlined.
 #define KNEAD_INLINE [[gnu::always_inline]] inline
+#define KNEAD_INLINED __attribute__((always_inline)) // a lambda
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
@@ -83,13 +84,14 @@ KNEAD_INLINE Floats shade_of(const Eight& at, const ScreenPass& pass) {
     const Floats scale = pass.depth_scale.x / (pass.depth_scale.y + pass.depth_scale.z * at.depth);
     const float near = static_cast<float>(pass.near), far = static_cast<float>(pass.far);
     const Floats by_near = scale / near, by_far = scale / (1.41421f * far);
-    const auto close = [&](Floats other) { return beyond((at.depth - other) * by_near, pass.grain / near); };
+    const auto close = [&](Floats other)
+                           KNEAD_INLINED { return beyond((at.depth - other) * by_near, pass.grain / near); };
     const Floats upper_right = (at.depth - at.upper_right) * by_far,
                  lower_left = (at.depth - at.lower_left) * by_far,
                  lower_right = (at.depth - at.lower_right) * by_far,
                  upper_left = (at.depth - at.upper_left) * by_far;
     const float far_step = 0.5f * pass.grain / far;
-    const auto at_least = [](Floats v, float least) { return v < least ? splat_of(least) : v; };
+    const auto at_least = [](Floats v, float least) KNEAD_INLINED { return v < least ? splat_of(least) : v; };
     const Floats hollow_close = at_least(close(at.right) + close(at.left), -0.5f) +
                                 at_least(close(at.above) + close(at.below), -0.5f);
     const Floats hollow_far = at_least(beyond(upper_right, far_step) + beyond(lower_left, far_step), -0.6f) +
@@ -126,9 +128,8 @@ KNEAD_INLINE void add_patterns(const Eight& at, const ScreenPass& pass, Colors& 
     lit = (bits & 4U) != 0U ? lit * dotted : lit;
     shade = selected ? shade : shade * lit;
     const Mask hatch = selected & (fraction((px - py) / 7.0f) >= 0.7f);
-    const auto mixed = [&](Floats color, float with) {
-        return hatch ? 0.28f * color + 0.72f * 255.0f * with : color;
-    };
+    const auto mixed = [&](Floats color, float with)
+                           KNEAD_INLINED { return hatch ? 0.28f * color + 0.72f * 255.0f * with : color; };
     colors = {mixed(colors.r, 1.0f), mixed(colors.g, 0.95f), mixed(colors.b, 0.78f)};
 }
 
@@ -137,7 +138,9 @@ KNEAD_INLINE Words as_bytes(Floats value) {
 }
 
 KNEAD_INLINE Words composed(const Eight& at, const ScreenPass& pass) {
-    const auto part = [&](int bits) { return __builtin_convertvector(at.colors >> bits & 0xffU, Floats); };
+    const auto part = [&](int bits) KNEAD_INLINED {
+        return __builtin_convertvector(at.colors >> bits & 0xffU, Floats);
+    };
     Colors colors{part(0), part(8), part(16)};
     Floats shade = shade_of(at, pass);
     if (pass.patterns) add_patterns(at, pass, colors, shade);

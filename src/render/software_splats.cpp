@@ -46,7 +46,19 @@ struct Batch {
 struct Points {
     std::vector<float> positions, normals;
     std::vector<std::uint32_t> tinted;
+    std::vector<std::uint8_t> widths; // or empty
 };
+
+// Times the usual width.
+float width_of(std::uint8_t width) {
+    static const auto table = [] {
+        std::array<float, 256> widths{};
+        for (std::size_t w = 0; w < widths.size(); ++w)
+            widths[w] = static_cast<float>(std::exp2(static_cast<double>(w) / widths_in_double));
+        return widths;
+    }();
+    return table[width];
+}
 
 std::uint32_t lit(std::uint32_t color, const float* normal, const SplatView& view) {
     const glm::vec3 n(normal[0], normal[1], normal[2]);
@@ -72,7 +84,9 @@ bool project(const Points& points, std::size_t i, const SplatView& view, const P
     const float width = static_cast<float>(layer.width), height = static_cast<float>(layer.height);
     splat.x = (0.5f + 0.5f * clip.x * part) * width;
     splat.y = (0.5f - 0.5f * clip.y * part) * height;
-    const float diameter = std::clamp(view.fixed + view.by_distance * part, view.smallest, view.largest);
+    const float wider = points.widths.empty() ? 1 : width_of(points.widths[i]);
+    const float diameter =
+        std::clamp(view.fixed + view.by_distance * wider * part, view.smallest, view.largest);
     splat.radius = 0.5f * diameter;
     if (!(splat.x > -splat.radius && splat.x < width + splat.radius && splat.y > -splat.radius &&
           splat.y < height + splat.radius))
@@ -186,9 +200,13 @@ public:
     void set_points(std::size_t n) override {
         points_.positions.resize(3 * n);
         points_.tinted.resize(n);
+        points_.widths.clear();
     }
     void set_positions(std::span<const float> positions) override { copy(positions, points_.positions); }
     void set_normals(std::span<const float> normals) override { copy(normals, points_.normals); }
+    void set_widths(std::span<const std::uint8_t> widths) override {
+        points_.widths.assign(widths.begin(), widths.end());
+    }
     void set_tinted(std::span<const std::uint32_t> tinted) override {
         points_.tinted.assign(tinted.begin(), tinted.end());
     }

@@ -32,6 +32,8 @@ struct Overlay {
     LineView view;
 };
 
+inline constexpr double widths_in_double = 64;
+
 class Splats {
 public:
     virtual ~Splats() = default;
@@ -39,6 +41,8 @@ public:
     virtual void set_points(std::size_t n) = 0; // the rest comes before draw()
     virtual void set_positions(std::span<const float> positions) = 0;
     virtual void set_normals(std::span<const float> normals) = 0; // not empty
+    // Splats by distance are 2^(w / widths_in_double) as wide as the view says; empty: all 0.
+    virtual void set_widths(std::span<const std::uint8_t> widths) = 0;
     virtual void set_tinted(std::span<const std::uint32_t> tinted) = 0;
 
     // Draws points subset, subset + stride, … of these ranges into the layer, over what is there, or first

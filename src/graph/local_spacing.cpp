@@ -1,0 +1,43 @@
+#include "graph/local_spacing.h"
+
+#include <algorithm>
+#include <array>
+
+namespace knead {
+
+namespace {
+
+constexpr std::size_t nearest = 5;
+constexpr float most_over_neighbors = 2;
+constexpr std::size_t most_looked_at = 64; // links of a vertex; nearly all have fewer
+
+// The value of that rank among those of a row.
+template<typename ValueOf>
+float value_of_rank(std::span<const Index> row, std::size_t rank, ValueOf&& value_of) {
+    std::array<float, most_looked_at> values;
+    const std::size_t count = std::min(row.size(), most_looked_at);
+    if (count == 0) return 0;
+    for (std::size_t i = 0; i < count; ++i) values[i] = value_of(row[i]);
+    const auto found = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, count - 1));
+    std::nth_element(values.begin(), found, values.begin() + static_cast<std::ptrdiff_t>(count));
+    return *found;
+}
+
+} // namespace
+
+std::vector<float> local_spacing(const Graph& graph, std::span<const float> positions, Workers& workers) {
+    const auto place = [&](std::size_t v) { return Eigen::Map<const Vec3f>(positions.data() + 3 * v); };
+    std::vector<float> alone(graph.size()), result(graph.size());
+    workers.for_each(graph.size(), 4096, [&](std::size_t v) {
+        alone[v] =
+            value_of_rank(graph.row(v), nearest - 1, [&](Index u) { return (place(u) - place(v)).norm(); });
+    });
+    workers.for_each(graph.size(), 4096, [&](std::size_t v) {
+        const auto row = graph.row(v);
+        const float around = value_of_rank(row, row.size() / 2, [&](Index u) { return alone[u]; });
+        result[v] = std::min(alone[v], most_over_neighbors * around);
+    });
+    return result;
+}
+
+} // namespace knead

@@ -1,0 +1,17 @@
+#pragma once
+// How far apart points lie, place by place.
+
+#include "base/workers.h"
+#include "graph/csr.h"
+
+#include <span>
+#include <vector>
+
+namespace knead {
+
+// Of every vertex, the distance to its fifth nearest neighbour (the farthest, where it has fewer; 0: it has
+// none), but hardly more than where its neighbours lie: a stray point has a dense surface for its neighbours,
+// and is not one of a sparse one. `positions`: 3 floats a vertex.
+std::vector<float> local_spacing(const Graph& graph, std::span<const float> positions, Workers& workers);
+
+} // namespace knead

@@ -1,0 +1,51 @@
+#include "graph/local_spacing.h"
+
+#include "graph/neighbors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace knead::test {
+namespace {
+
+// A square of points, as far apart as told, from there on.
+void add_square(std::vector<float>& positions, float from, float step) {
+    for (int y = 0; y < 20; ++y)
+        for (int x = 0; x < 20; ++x)
+            positions.insert(positions.end(),
+                             {from + step * static_cast<float>(x), step * static_cast<float>(y), 0.0f});
+}
+
+std::vector<float> spacing_of(const std::vector<float>& positions) {
+    Workers workers(2);
+    SilentProgress progress;
+    return local_spacing(neighbor_graph(positions, 6, workers, progress), positions, workers);
+}
+
+TEST(LocalSpacing, follows_the_density) {
+    std::vector<float> positions;
+    add_square(positions, 0, 1);
+    add_square(positions, 1000, 4);
+    const std::vector<float> spacing = spacing_of(positions);
+    // Inside a square the fifth nearest is one of the diagonal ones.
+    EXPECT_NEAR(spacing[10 * 20 + 10], std::sqrt(2.0), 1e-4);
+    EXPECT_NEAR(spacing[400 + 10 * 20 + 10], 4 * std::sqrt(2.0), 1e-3);
+}
+
+TEST(LocalSpacing, a_stray_point_is_no_sparse_surface) {
+    std::vector<float> positions;
+    add_square(positions, 0, 1);
+    positions.insert(positions.end(), {10, 10, 30});
+    const std::vector<float> spacing = spacing_of(positions);
+    EXPECT_LT(spacing[400], 3);
+    for (std::size_t v = 0; v < 400; ++v) EXPECT_LT(spacing[v], 3) << v; // its links back change nothing
+}
+
+TEST(LocalSpacing, a_point_alone_has_none) {
+    EXPECT_EQ(spacing_of({0, 0, 0}), std::vector{0.0f});
+    EXPECT_TRUE(spacing_of({}).empty());
+}
+
+} // namespace
+} // namespace knead::test

@@ -7,6 +7,8 @@
 // approche perceptive", thesis, Université Joseph Fourier, Grenoble 2009. A pixel is darkened by how far it
 // lies behind its neighbours. Here the difference of depths is told in pixels at the depth of the pixel, which
 // makes it a slope: neither zooming nor the size of the cloud changes the picture.
+//
+// src/render/software_screen.cpp computes the same where OpenGL runs in software.
 
 uniform sampler2D colors;
 uniform sampler2D depths;

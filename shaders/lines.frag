@@ -1,4 +1,5 @@
 #version 410 core
+// As in src/render/software_lines.cpp.
 flat in vec4 line_color;
 flat in vec4 ends;
 flat in float half_width;

@@ -68,8 +68,8 @@ struct DrawResult {
 // cloud's origin, as everything in view/camera.h.
 class PointRenderer {
 public:
-    // Who draws the splats; all else is OpenGL's. Chosen: the processor where OpenGL runs in software, which
-    // would take ten times as long for them.
+    // Who draws the picture. Chosen: the processor where OpenGL runs in software, which would take ten times
+    // as long; OpenGL then only shows it.
     enum class Drawing { chosen, by_opengl, by_processor };
 
     // Throws Error (usage) where OpenGL is older than 4.1, with its name and version.

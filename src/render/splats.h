@@ -63,8 +63,8 @@ public:
 std::unique_ptr<Splats> make_gl_splats();
 
 // Mesa's software renderer takes half a microsecond and more for every point, of which a small splat needs a
-// few nanoseconds. Where OpenGL runs in software the processor draws the splats itself, on threads of its
-// own, into the same textures, and everything else is as always. One layer is drawn into at a time.
+// few nanoseconds. Where OpenGL runs in software the processor draws the whole picture itself, and OpenGL
+// only gets the finished one. One layer is drawn into at a time.
 std::unique_ptr<Splats> make_software_splats(Workers& workers);
 
 // The elements of a range in a strided array: element e is point subset + e · stride.

@@ -2,6 +2,8 @@
 
 #include "graph/local_spacing.h"
 
+#include <algorithm>
+
 namespace knead {
 
 void LivePublisher::say(Notice::Kind kind, const std::string& words) {
@@ -13,8 +15,14 @@ void LivePublisher::refuse(StepNumber step) {
 }
 
 void LivePublisher::shape(const RestShape& shape, const FrameFacts& facts) {
-    back_.positions.assign(shape.positions.begin(), shape.positions.end());
-    back_.normals.assign(shape.normals.begin(), shape.normals.end());
+    const auto copy = [this](const std::vector<float>& from, std::vector<float>& to) {
+        to.resize(from.size());
+        workers_.for_chunks(from.size(), std::size_t{1} << 16U, [&](std::size_t begin, std::size_t end) {
+            std::copy(from.data() + begin, from.data() + end, to.data() + begin);
+        });
+    };
+    copy(shape.positions, back_.positions);
+    copy(shape.normals, back_.normals);
     back_.version = ++frames_;
     back_.shows_pose = facts.pose_set.has_value();
     if (facts.pose_set) back_.pose_set = *facts.pose_set;

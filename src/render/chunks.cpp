@@ -1,26 +1,69 @@
 #include "render/chunks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace knead {
 
+namespace {
+
+constexpr float huge = std::numeric_limits<float>::max();
+
+// The box of the finite ones among some points.
+Chunk box_of(std::span<const float> positions) {
+    glm::vec3 lowest(huge), highest(-huge);
+    for (std::size_t i = 0; i < positions.size(); i += 3) {
+        const glm::vec3 p(positions[i], positions[i + 1], positions[i + 2]);
+        // A difference with itself is 0 for finite numbers only.
+        if (!(p.x - p.x + (p.y - p.y) + (p.z - p.z) == 0.0f)) continue;
+        lowest = glm::min(lowest, p);
+        highest = glm::max(highest, p);
+    }
+    return {lowest, highest};
+}
+
+// Loops that a compiler makes vectors of: while something is dragged this is done for every frame.
+constexpr std::size_t at_once = 24; // numbers: eight points
+
+bool all_finite(std::span<const float> numbers) {
+    std::array<float, at_once> sums{};
+    std::size_t i = 0;
+    for (; i + at_once <= numbers.size(); i += at_once)
+        for (std::size_t k = 0; k < at_once; ++k) sums[k] += numbers[i + k] - numbers[i + k];
+    for (; i < numbers.size(); ++i) sums[0] += numbers[i] - numbers[i];
+    return std::ranges::all_of(sums, [](float sum) { return sum == 0.0f; });
+}
+
+Chunk box_of_finite(std::span<const float> positions) {
+    std::array<float, at_once> low, high;
+    low.fill(huge);
+    high.fill(-huge);
+    const std::size_t whole = positions.size() / at_once * at_once;
+    for (std::size_t i = 0; i < whole; i += at_once) {
+        for (std::size_t k = 0; k < at_once; ++k) {
+            low[k] = positions[i + k] < low[k] ? positions[i + k] : low[k];
+            high[k] = positions[i + k] > high[k] ? positions[i + k] : high[k];
+        }
+    }
+    Chunk box = box_of(positions.subspan(whole));
+    for (std::size_t k = 0; k < at_once; k += 3) {
+        box.lowest = glm::min(box.lowest, glm::vec3(low[k], low[k + 1], low[k + 2]));
+        box.highest = glm::max(box.highest, glm::vec3(high[k], high[k + 1], high[k + 2]));
+    }
+    return box;
+}
+
+} // namespace
+
 void bound_chunks(std::span<const float> positions, std::vector<Chunk>& chunks, Workers& workers) {
     const std::size_t points = positions.size() / 3;
     chunks.resize((points + points_in_chunk - 1) / points_in_chunk);
-    constexpr float huge = std::numeric_limits<float>::max();
     workers.for_each(chunks.size(), 16, [&](std::size_t c) {
-        const std::size_t end = std::min(points, (c + 1) * points_in_chunk);
-        glm::vec3 lowest(huge), highest(-huge);
-        for (std::size_t i = c * points_in_chunk; i < end; ++i) {
-            const glm::vec3 p(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
-            // A difference with itself is 0 for finite numbers only.
-            if (!(p.x - p.x + (p.y - p.y) + (p.z - p.z) == 0.0f)) continue;
-            lowest = glm::min(lowest, p);
-            highest = glm::max(highest, p);
-        }
-        chunks[c] = {lowest, highest};
+        const std::size_t first = c * points_in_chunk, end = std::min(points, first + points_in_chunk);
+        const std::span<const float> own = positions.subspan(3 * first, 3 * (end - first));
+        chunks[c] = all_finite(own) ? box_of_finite(own) : box_of(own);
     });
 }
 

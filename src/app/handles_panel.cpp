@@ -9,6 +9,8 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace knead {
@@ -59,9 +61,41 @@ void mirror_items(const Ui& ui, const Handle& handle) {
     if (ImGui::MenuItem("Along Z")) ui.tell(MirrorHandle{handle.name, 2});
 }
 
+// How far the handle pulls what is around it, in parts of the cloud's diagonal.
+void falloff_menu(const Ui& ui, const Handle& handle) {
+    const Bounds& bounds = ui.editor.opened.bounds;
+    const double diagonal = (bounds.highest - bounds.lowest).norm();
+    const auto pull = [&](double part) {
+        ui.tell(ChangeHold{handle.name, handle.free_rotation, part * diagonal});
+    };
+    if (ImGui::MenuItem("None", nullptr, handle.falloff == 0)) pull(0);
+    for (const int percent : {2, 5, 10, 20, 40}) {
+        const double part = percent / 100.0;
+        const bool is_now = std::abs(handle.falloff - part * diagonal) < 1e-9 * diagonal;
+        char words[64];
+        std::snprintf(words, sizeof words, "%d %% of the cloud (%.3g)", percent, part * diagonal);
+        if (ImGui::MenuItem(words, nullptr, is_now)) pull(part);
+    }
+}
+
+// What holds, and how.
+void hold_items(const Ui& ui, const Handle& handle) {
+    if (handle.role == HandleRole::region_of_interest) return;
+    if (ImGui::MenuItem("Holds rotation", nullptr, !handle.free_rotation))
+        ui.tell(ChangeHold{handle.name, !handle.free_rotation, handle.falloff});
+    explain("Off: the handle gives its points their positions only, and the surface turns there as it likes");
+    if (ImGui::BeginMenu("Falloff")) {
+        falloff_menu(ui, handle);
+        ImGui::EndMenu();
+    }
+    explain("How far along the surface the handle pulls what is around it, the less the farther");
+    ImGui::Separator();
+}
+
 void handle_menu(const Ui& ui, const Handle& handle) {
     role_items(ui, handle);
     ImGui::Separator();
+    hold_items(ui, handle);
     if (ImGui::MenuItem("Rename", "F2")) {
         ui.state.renaming = ui.state.name_text = handle.name;
         ui.state.renaming_begins = true;
@@ -109,7 +143,9 @@ bool row_button(const Ui& ui, const Handle& handle, ImVec2 size, bool renaming) 
     }
     if (!ImGui::IsPopupOpen("menu"))
         explain(handle.name + ": " + words_for(handle.role) + ", " + grouped(handle.points->size()) +
-                " points\nClick chooses it, a double click renames it, the right button has more.");
+                " points" + (handle.free_rotation ? ", positions only" : "") +
+                (handle.falloff > 0 ? ", with a falloff" : "") +
+                "\nClick chooses it, a double click renames it, the right button has more.");
     return hovered;
 }
 

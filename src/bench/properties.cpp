@@ -85,7 +85,8 @@ void check_rigid_frame(const PointCloud& cloud, const AutomaticHandles& automati
     const std::vector<HandleMotion> motions(2, motion);
     SampleState state = pipeline.rest_state();
     pipeline.follow_handles(motions, state);
-    for (unsigned i = 0; i < input.settings.iterations; ++i) pipeline.iterate(motions, state);
+    Acceleration acceleration;
+    for (unsigned i = 0; i < input.settings.iterations; ++i) pipeline.iterate(motions, state, acceleration);
     pipeline.upsample(motions, state);
     result.strays = pipeline.strays().points;
     result.rigid = deviation_from(motion, pipeline, pipeline.posed().positions, bounds_of(cloud).diagonal());

@@ -88,6 +88,7 @@ void measure_frames(const PointCloud& cloud, const BendingPipelineInput& bending
                     Progress& progress, RowFigures& figures) {
     std::vector<double> solve, upsample;
     SampleState state = pipeline.rest_state();
+    Acceleration acceleration;
     std::vector<HandleMotion> motions(2);
     pipeline.follow_handles(motions, state);
     for (std::size_t f = 0; f < warm_up_frames + frames; ++f) {
@@ -95,9 +96,10 @@ void measure_frames(const PointCloud& cloud, const BendingPipelineInput& bending
         const double degrees = bend_degrees * static_cast<double>(f + 1) / (warm_up_frames + frames);
         motions[1] = motion_of(bent_by(bending.automatic, degrees), bending.automatic.pivot, cloud.origin,
                                motions[1].rotation);
+        forget(acceleration);
         Stopwatch clock;
         for (unsigned i = 0; i < bending.input.settings.iterations; ++i) {
-            pipeline.iterate(motions, state);
+            pipeline.iterate(motions, state, acceleration);
             const double seconds = clock.lap();
             if (f >= warm_up_frames) solve.push_back(seconds);
         }

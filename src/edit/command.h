@@ -54,6 +54,11 @@ struct ChangeRole {
     std::string handle;
     HandleRole role = HandleRole::moving;
 };
+struct ChangeHold { // how a fixed or moving handle holds
+    std::string handle;
+    bool free_rotation = false;
+    double falloff = 0; // a length, ≥ 0
+};
 struct DeleteHandle {
     std::string handle;
 };
@@ -113,9 +118,9 @@ struct SetPivotUnder { // a double click: the point under the cursor becomes the
 };
 
 using Command = std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints,
-                             ChangeHidden, MakeHandle, ChooseHandle, RenameHandle, ChangeRole, DeleteHandle,
-                             ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag, SetPivot,
-                             ChangeSettings, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying,
+                             ChangeHidden, MakeHandle, ChooseHandle, RenameHandle, ChangeRole, ChangeHold,
+                             DeleteHandle, ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag,
+                             SetPivot, ChangeSettings, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying,
                              AdvancePlaying, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
 
 } // namespace knead

@@ -122,6 +122,7 @@ double Document::drag_frame(const HandlePose& pose, const std::string& place, Pr
     try {
         motion = next;
         pipeline_.follow_handles(drag.next.motions, drag.samples);
+        forget(drag.acceleration);
         for (unsigned i = 0; i < drag.next.settings.iterations; ++i) {
             progress.stop_if_cancelled();
             way = iterate_once(drag);
@@ -328,7 +329,7 @@ void Document::prepare(Progress& progress) {
 // Returns the longest way that a sample went, over the cloud's size.
 double Document::iterate_once(UnderWay& act) {
     const Stopwatch clock;
-    const double way = pipeline_.iterate(act.next.motions, act.samples);
+    const double way = pipeline_.iterate(act.next.motions, act.samples, act.acceleration);
     log_.iteration.push_back(clock.seconds());
     return pipeline_.cloud_size() > 0 ? way / pipeline_.cloud_size() : way;
 }

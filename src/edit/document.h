@@ -154,6 +154,7 @@ private:
         Index handle = no_index;                  // no_index: settling
         DragLine line = {};                       // its frames so far
         unsigned iterations = 0;                  // of settling
+        Acceleration acceleration = {};           // of this frame, or of the whole settling
     };
 
     Index find_handle(const std::string& name, const std::string& place) const;

@@ -112,10 +112,12 @@ std::shared_ptr<const SampleState> Document::samples_of(const State& state, Prog
 void Document::repeat(const Posed& posed, SampleState& samples, Progress& progress) {
     const State& from = history_[posed.made_from];
     std::vector<HandleMotion> motions = from.motions;
+    Acceleration acceleration;
     const auto iterate = [&](unsigned iterations) {
+        forget(acceleration);
         for (unsigned i = 0; i < iterations; ++i) {
             progress.stop_if_cancelled();
-            pipeline_.iterate(motions, samples);
+            pipeline_.iterate(motions, samples, acceleration);
         }
     };
     if (const auto* settling = std::get_if<SettleLine>(&posed.act)) return iterate(settling->iterations);

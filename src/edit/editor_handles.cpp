@@ -98,6 +98,21 @@ void carry_out(Editor& editor, const ChangeRole& command) {
     post_step(editor, {std::move(line)});
 }
 
+void carry_out(Editor& editor, const ChangeHold& command) {
+    const auto number = number_of(editor, command.handle);
+    if (!number) return;
+    const Handle& handle = editor.document->handles[*number];
+    const bool is_new = handle.free_rotation != command.free_rotation || handle.falloff != command.falloff;
+    if (!is_new || handle.role == HandleRole::region_of_interest) return;
+    HandleLine line;
+    line.name = handle.name;
+    line.role = handle.role;
+    line.points = ranges_of(*handle.points);
+    line.free_rotation = command.free_rotation;
+    line.falloff = command.falloff;
+    post_step(editor, {std::move(line)});
+}
+
 void carry_out(Editor& editor, const DeleteHandle& command) {
     if (number_of(editor, command.handle)) post_step(editor, {DeleteLine{command.handle}});
 }

@@ -330,8 +330,9 @@ void Pipeline::follow_handles(const std::vector<HandleMotion>& motions, SampleSt
     knead::follow_handles(system_, all_motions(motions), state, workers_);
 }
 
-double Pipeline::iterate(const std::vector<HandleMotion>& motions, SampleState& state) {
-    return knead::iterate(system_, all_motions(motions), state, workers_);
+double Pipeline::iterate(const std::vector<HandleMotion>& motions, SampleState& state,
+                         Acceleration& acceleration) {
+    return knead::iterate(system_, all_motions(motions), state, acceleration, workers_);
 }
 
 void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {

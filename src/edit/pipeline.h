@@ -20,6 +20,7 @@
 //               surface and do not pull, and what is too far away to be joined is carried
 
 #include "base/progress.h"
+#include "deform/acceleration.h"
 #include "deform/sample_system.h"
 #include "edit/carried_parts.h"
 #include "edit/falloffs.h"
@@ -79,12 +80,13 @@ public:
     // All samples at rest.
     SampleState rest_state() const { return knead::rest_state(system_); }
 
-    // The start of every frame: hands the handles' turns since the last one on to the samples. `motions`: one
-    // a handle.
+    // The start of every frame: hands the handles' turns since the last one on to the samples; where all
+    // handles are back at rest, so are the samples. `motions`: one a handle.
     void follow_handles(const std::vector<HandleMotion>& motions, SampleState& state);
 
-    // One iteration; returns the longest way that a sample went.
-    double iterate(const std::vector<HandleMotion>& motions, SampleState& state);
+    // One iteration; returns the longest way that a sample would have gone in a plain one. `acceleration`
+    // goes with iterations at unchanging motions.
+    double iterate(const std::vector<HandleMotion>& motions, SampleState& state, Acceleration& acceleration);
 
     // Every point's position and normal for a state of the samples, into buffers that the pipeline keeps.
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);

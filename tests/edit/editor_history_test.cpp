@@ -77,13 +77,13 @@ TEST_F(BarEditor, MirroringAfterACommitSaysThatThereIsNoPose) {
     EXPECT_EQ(editor_.chosen, "high mirrored");
 }
 
-TEST_F(BarEditor, ResettingAPoseOfTwoTurnsUnwindsThem) {
+TEST_F(BarEditor, ResettingAPoseOfAWholeTurnUnwindsIt) {
     make_handles();
     const std::vector<float> rest = editor_.frame.positions;
     move({400, 100});
     press('R');
     press('Z');
-    type("720");
+    type("360");
     press(Key::enter);
     calm();
     apply(editor_, ResetPose{"high"});

@@ -171,6 +171,28 @@ TEST_F(BarEditor, MirroringTakesThePointsAndThePoseAcross) {
     EXPECT_NEAR(turn.axis().x() * first.axis().x(), -1, 1e-9);
 }
 
+TEST_F(BarEditor, AHandleIsToldHowItHoldsAndKeepsItThroughItsRole) {
+    make_handles();
+    apply(editor_, ChangeHold{"high", true, 0.25});
+    calm();
+    const auto high = [&] {
+        const auto& handles = editor_.document->handles;
+        return *std::ranges::find(handles, "high", &Handle::name);
+    };
+    EXPECT_TRUE(high().free_rotation);
+    EXPECT_EQ(high().falloff, 0.25);
+    apply(editor_, ChangeRole{"high", HandleRole::fixed});
+    calm();
+    EXPECT_EQ(high().role, HandleRole::fixed);
+    EXPECT_TRUE(high().free_rotation);
+    EXPECT_EQ(high().falloff, 0.25);
+    apply(editor_, UndoStep{});
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_FALSE(high().free_rotation);
+    EXPECT_EQ(high().falloff, 0);
+}
+
 TEST_F(BarEditor, AFailedOpeningLeavesThePresentDocument) {
     make_handles();
     OpenRequest request;

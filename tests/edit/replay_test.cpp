@@ -134,7 +134,8 @@ TEST(Replay, ReportsWhatItDid) {
     EXPECT_EQ(report.components, 1U);
     EXPECT_EQ(report.strays, 0U);
     EXPECT_EQ(report.frames, 5U);
-    EXPECT_EQ(report.iterations, 5U * 3 + 25 + 10);
+    EXPECT_GT(report.iterations, 5U * 3);           // of the frames
+    EXPECT_LE(report.iterations, 5U * 3 + 25 + 10); // settling stops by itself at rest
     EXPECT_GE(report.samples, 1000U);
     EXPECT_LT(report.handle_error, 1e-5);
     EXPECT_NEAR(report.diagonal, std::sqrt(27), 0.05);

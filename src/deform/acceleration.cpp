@@ -1,0 +1,108 @@
+#include "deform/acceleration.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <span>
+
+namespace knead {
+
+namespace {
+
+// Of the diagonal: steps that say the same must not be played off against each other.
+constexpr double regularization = 1e-10;
+
+constexpr double too_much_worse = 4; // of the squared residual
+
+using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Acceleration::most_remembered,
+                            Acceleration::most_remembered>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Acceleration::most_remembered, 1>;
+using Vector = Eigen::Map<const Eigen::VectorXd>;
+
+Vector as_vector(std::span<const double> values) {
+    return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+void read_displacements(const SampleSystem& system, const SampleState& state, std::vector<double>& into) {
+    into.resize(3 * system.moving_rows);
+    for (std::size_t row = 0; row < system.moving_rows; ++row)
+        Eigen::Map<Vec3d>(into.data() + 3 * row) = state.displacement[system.free_sample[row]];
+}
+
+std::span<const double> column(const std::vector<double>& columns, std::size_t which, std::size_t size) {
+    return std::span(columns).subspan(which * size, size);
+}
+
+// The last iteration's differences in the place of the oldest.
+void remember(Acceleration& memory, std::span<const double> result, std::span<const double> residual) {
+    const std::size_t size = result.size();
+    memory.result_steps.resize(Acceleration::most_remembered * size);
+    memory.residual_steps.resize(Acceleration::most_remembered * size);
+    for (std::size_t i = 0; i < size; ++i) {
+        memory.result_steps[memory.next * size + i] = result[i] - memory.result[i];
+        memory.residual_steps[memory.next * size + i] = residual[i] - memory.residual[i];
+    }
+    memory.next = (memory.next + 1) % Acceleration::most_remembered;
+    memory.remembered = std::min(memory.remembered + 1, Acceleration::most_remembered);
+}
+
+// γ.
+SmallVector best_combination(const Acceleration& memory, std::span<const double> residual) {
+    const std::size_t size = residual.size();
+    const auto count = static_cast<Eigen::Index>(memory.remembered);
+    Small products = Small::Zero(count, count);
+    SmallVector side = SmallVector::Zero(count);
+    for (Eigen::Index a = 0; a < count; ++a) {
+        const Vector step = as_vector(column(memory.residual_steps, static_cast<std::size_t>(a), size));
+        for (Eigen::Index b = 0; b <= a; ++b)
+            products(a, b) = products(b, a) =
+                step.dot(as_vector(column(memory.residual_steps, static_cast<std::size_t>(b), size)));
+        side[a] = step.dot(as_vector(residual));
+    }
+    const double trace = products.trace();
+    products.diagonal().array() += regularization * trace;
+    if (!(trace > 0)) return SmallVector::Zero(count);
+    return products.ldlt().solve(side);
+}
+
+} // namespace
+
+void forget(Acceleration& memory) {
+    memory.remembered = memory.next = 0;
+    memory.result.clear();
+    memory.residual.clear();
+}
+
+double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
+               Acceleration& memory, Workers& workers) {
+    std::vector<double>& residual = memory.before;
+    read_displacements(system, state, memory.before);
+    const double way = iterate(system, handles, state, workers);
+    read_displacements(system, state, memory.now);
+    for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = memory.now[i] - residual[i];
+
+    const bool is_first = memory.result.empty();
+    if (!is_first) {
+        const double before = as_vector(memory.residual).squaredNorm();
+        if (as_vector(residual).squaredNorm() > too_much_worse * before)
+            memory.remembered = memory.next = 0;
+        else
+            remember(memory, memory.now, residual);
+    }
+    std::swap(memory.result, memory.now);
+    std::swap(memory.residual, memory.before);
+    if (memory.remembered == 0) return way;
+
+    const SmallVector combination = best_combination(memory, memory.residual);
+    const std::size_t size = memory.result.size();
+    for (std::size_t row = 0; row < system.moving_rows; ++row) {
+        Vec3d place(memory.result[3 * row], memory.result[3 * row + 1], memory.result[3 * row + 2]);
+        for (std::size_t k = 0; k < memory.remembered; ++k)
+            place -= combination[static_cast<Eigen::Index>(k)] *
+                     Eigen::Map<const Vec3d>(memory.result_steps.data() + k * size + 3 * row);
+        state.displacement[system.free_sample[row]] = place;
+    }
+    return way;
+}
+
+} // namespace knead

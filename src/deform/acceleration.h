@@ -1,0 +1,41 @@
+#pragma once
+// Iterations that learn from the ones before: Anderson's acceleration of the fixed point.
+
+#include "deform/sample_system.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace knead {
+
+// What the last iterations told, of the displacements of the samples that have a free position. One of these
+// goes with a sequence of iterations at unchanging poses, from its first to its last.
+struct Acceleration {
+    static constexpr std::size_t most_remembered = 5;
+
+    std::size_t remembered = 0; // of the two below, the newest in turn at `next`
+    std::size_t next = 0;
+    std::vector<double> result_steps;     // most_remembered columns: G(u) of an iteration less the one before
+    std::vector<double> residual_steps;   // likewise of G(u) - u
+    std::vector<double> result, residual; // of the last iteration; empty before the first
+    std::vector<double> now, before;      // work space
+};
+
+// Forgets everything, and keeps the memory: the poses change.
+void forget(Acceleration& acceleration);
+
+// One iteration, as iterate() does, and then the combination with the last ones whose residual is the
+// smallest by least squares (D. G. Anderson, "Iterative procedures for nonlinear integral equations", 1965;
+// with the differences as in H. F. Walker and P. Ni, "Anderson acceleration for fixed-point iterations",
+// 2011): with G(u) what iterate() makes of the displacements u, f = G(u) - u and Δ the differences of
+// succeeding iterations,
+//
+//     u ← G(u) - ΔG γ,   γ = argmin |f - ΔF γ|.
+//
+// G depends on the displacements alone, as rotations follow from them. Where an iteration has more than twice
+// the residual of the one before, everything is forgotten, and its own result stands. Allocates in its first
+// iteration only. Returns the longest way of a sample from u to G(u).
+double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
+               Acceleration& acceleration, Workers& workers);
+
+} // namespace knead

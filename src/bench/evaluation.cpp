@@ -13,6 +13,13 @@ namespace {
 
 constexpr const char* twisted_name = "made-bar";
 constexpr const char* elasticity_name = "elasticity";
+constexpr const char* sampling_name = "sampling";
+constexpr const char* turns_name = "turns";
+constexpr const char* stiffness_name = "stiffness";
+
+std::string samples_name(const ScanOfThePaper& scan) {
+    return std::string("samples-") + scan.name;
+}
 
 // Generated clouds on which properties are checked.
 struct MadeCloud {
@@ -59,6 +66,23 @@ void evaluate_tasks(const EvaluationOptions& options, Workers& workers, Upsample
     }
 }
 
+void evaluate_studies(const EvaluationOptions& options, Workers& workers, Upsampler& upsampler,
+                      Progress& progress, Evaluation& result) {
+    if (is_chosen(options, twisted_name)) result.twist = evaluate_twist(workers, upsampler, progress);
+    if (is_chosen(options, elasticity_name)) {
+        const std::optional<std::uint64_t> counts[] = {200U, 1000U, std::nullopt};
+        result.stretches = evaluate_elasticity(counts, workers, upsampler, progress);
+    }
+    if (is_chosen(options, sampling_name))
+        result.samplings = evaluate_sampling(options.survey, workers, upsampler, progress);
+    if (is_chosen(options, turns_name)) result.turns = evaluate_turns(workers, upsampler, progress);
+    if (is_chosen(options, stiffness_name))
+        result.stiffnesses = evaluate_stiffness(workers, upsampler, progress);
+    for (const ScanOfThePaper& scan : scans_of_the_paper())
+        if (is_chosen(options, samples_name(scan)))
+            result.scans.push_back(evaluate_scan_samples(scan, options.scans, workers, upsampler, progress));
+}
+
 void evaluate_clouds(const EvaluationOptions& options, Progress& progress, Evaluation& result) {
     const auto check = [&](const std::string& name, const PointCloud& cloud) {
         result.clouds.push_back(evaluate_cloud(name, cloud, options.device, options.threads, progress));
@@ -84,7 +108,9 @@ std::vector<std::string> evaluation_names(const EvaluationOptions& options) {
     std::vector<std::string> names = task_names(options);
     for (const MadeCloud& made : made_clouds)
         if (std::ranges::find(names, made.name) == names.end()) names.emplace_back(made.name);
-    names.emplace_back(elasticity_name);
+    for (const char* name : {elasticity_name, sampling_name, turns_name, stiffness_name})
+        names.emplace_back(name);
+    for (const ScanOfThePaper& scan : scans_of_the_paper()) names.push_back(samples_name(scan));
     for (const auto& path : data_files(options.scans, ".ply")) names.push_back(path.stem().string());
     return names;
 }
@@ -99,12 +125,7 @@ Evaluation evaluate(const EvaluationOptions& options, Progress& progress) {
         result.device = choice.upsampler->device();
         if (!choice.warning.empty()) result.warnings.push_back(choice.warning);
         evaluate_tasks(options, workers, *choice.upsampler, progress, result);
-        if (is_chosen(options, twisted_name))
-            result.twist = evaluate_twist(workers, *choice.upsampler, progress);
-        if (is_chosen(options, elasticity_name)) {
-            const std::optional<std::uint64_t> counts[] = {200U, 1000U, std::nullopt};
-            result.stretches = evaluate_elasticity(counts, workers, *choice.upsampler, progress);
-        }
+        evaluate_studies(options, workers, *choice.upsampler, progress, result);
         const std::string words = choice.upsampler->take_warning();
         if (!words.empty()) result.warnings.push_back(words);
     }

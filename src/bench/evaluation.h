@@ -6,6 +6,10 @@
 #include "bench/machine.h"
 #include "bench/properties.h"
 #include "bench/quality.h"
+#include "bench/sampling.h"
+#include "bench/scan_samples.h"
+#include "bench/stiffness.h"
+#include "bench/turns.h"
 
 #include <optional>
 #include <span>
@@ -24,17 +28,22 @@ struct EvaluationOptions {
 struct Evaluation {
     Machine machine;
     std::string device;
-    bool has_survey = false;              // else the tasks are likenesses
-    std::string remark;                   // where the survey is missing; else empty
-    std::vector<TaskQuality> tasks;       // the survey's shapes, or their likenesses
-    std::vector<CloudProperties> clouds;  // generated ones, then the scans
-    std::optional<TwistResult> twist;     // with "made-bar"
-    std::vector<StretchResult> stretches; // with "elasticity"
-    std::vector<std::string> warnings;    // of the device
+    bool has_survey = false;                  // else the tasks are likenesses
+    std::string remark;                       // where the survey is missing; else empty
+    std::vector<TaskQuality> tasks;           // the survey's shapes, or their likenesses
+    std::vector<CloudProperties> clouds;      // generated ones, then the scans
+    std::optional<TwistResult> twist;         // with "made-bar"
+    std::vector<StretchResult> stretches;     // with "elasticity"
+    std::vector<ScanSamples> scans;           // with "samples-bunny" …
+    std::vector<SamplingResult> samplings;    // with "sampling"
+    std::vector<TurnResult> turns;            // with "turns"
+    std::vector<StiffnessResult> stiffnesses; // with "stiffness"
+    std::vector<std::string> warnings;        // of the device
 };
 
 // The names that `shapes` may hold with these folders: the tasks, generated clouds ("made-knot"),
-// "elasticity", and the scans' file names without ".ply".
+// "elasticity", "sampling", "turns", "stiffness", "samples-bunny" and the other scans of the paper, and the
+// scans' file names without ".ply", for their properties.
 std::vector<std::string> evaluation_names(const EvaluationOptions& options);
 
 // Throws Error (usage) for a name or a device that is not there, Error (input) for a file that cannot be

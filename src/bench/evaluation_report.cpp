@@ -1,9 +1,7 @@
 // The evaluation as text and as JSON.
 
 #include "bench/evaluation.h"
-#include "bench/text_table.h"
-
-#include <nlohmann/json.hpp>
+#include "bench/report.h"
 
 #include <cmath>
 
@@ -11,22 +9,8 @@ namespace knead {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // How far off a kept twist may be measured: slices are not infinitely thin.
 constexpr double twist_tolerance_degrees = 2;
-
-std::string asked_text(const std::optional<std::uint64_t>& asked) {
-    return asked ? count_text(*asked) : "every point";
-}
-
-std::string percent_text(double fraction) {
-    return digits_text(100 * fraction, 2);
-}
-
-std::string verdict_text(bool holds) {
-    return holds ? "pass" : "FAIL";
-}
 
 bool holds(const SampleQuality& count) {
     return !count.bar || count.deviation.rms <= *count.bar;
@@ -58,18 +42,30 @@ std::string tasks_text(const std::vector<TaskQuality>& tasks) {
     return format_table(table);
 }
 
+bool holds(const Convergence::Step& step) {
+    return !step.bar || step.deviation.largest <= *step.bar;
+}
+
+// A column for every number of iterations, and one for the verdict where something is aimed at.
+void add_convergence_columns(const Convergence& convergence, std::vector<std::string>& heads) {
+    for (const auto& step : convergence.steps) {
+        heads.push_back(std::to_string(step.iterations));
+        if (step.bar) heads.push_back("aim " + digits_text(100 * *step.bar, 1));
+    }
+}
+
 std::string convergence_text(const std::vector<TaskQuality>& tasks) {
     TextTable table{{"Largest distance from the settled shape, % of D, after so many iterations from rest"},
                     {"shape", "samples"}};
     for (const TaskQuality& task : tasks)
         for (const Convergence& convergence : task.convergence) {
-            if (table[1].size() == 2)
-                for (const auto& step : convergence.steps)
-                    table[1].push_back(std::to_string(step.iterations));
+            if (table[1].size() == 2) add_convergence_columns(convergence, table[1]);
             std::vector<std::string> line{&convergence == &task.convergence.front() ? task.name : "",
                                           asked_text(convergence.asked)};
-            for (const auto& step : convergence.steps)
+            for (const auto& step : convergence.steps) {
                 line.push_back(digits_text(100 * step.deviation.largest, 3));
+                if (step.bar) line.push_back(verdict_text(holds(step)));
+            }
             table.push_back(std::move(line));
         }
     return format_table(table);
@@ -114,18 +110,10 @@ std::string stretches_text(const std::vector<StretchResult>& stretches) {
     return format_table(table);
 }
 
-Json json_of(const Deviation& deviation) {
-    return {{"rms", deviation.rms}, {"largest", deviation.largest}};
-}
-
-Json json_of(const std::optional<std::uint64_t>& asked) {
-    return asked ? Json(*asked) : Json("all");
-}
-
-Json json_of(const StretchResult& stretch) {
+ReportJson json_of(const StretchResult& stretch) {
     return {{"solid", stretch.solid},
             {"points", stretch.points},
-            {"asked_samples", json_of(stretch.asked_samples)},
+            {"asked_samples", asked_json(stretch.asked_samples)},
             {"asked", stretch.asked},
             {"measured", stretch.measured},
             {"along", stretch.along},
@@ -135,31 +123,34 @@ Json json_of(const StretchResult& stretch) {
             {"at_rest", stretch.at_rest}};
 }
 
-Json json_of(const TaskQuality& task) {
-    Json json{{"name", task.name}, {"points", task.points}, {"diagonal", task.diagonal}};
+ReportJson json_of(const TaskQuality& task) {
+    ReportJson json{{"name", task.name}, {"points", task.points}, {"diagonal", task.diagonal}};
     for (const SampleQuality& count : task.counts)
-        json["samples"].push_back({{"asked", json_of(count.asked)},
+        json["samples"].push_back({{"asked", asked_json(count.asked)},
                                    {"samples", count.samples},
                                    {"rms", count.deviation.rms},
                                    {"largest", count.deviation.largest},
-                                   {"bar", count.bar ? Json(*count.bar) : Json()},
-                                   {"holds", count.bar ? Json(holds(count)) : Json()},
+                                   {"bar", count.bar ? ReportJson(*count.bar) : ReportJson()},
+                                   {"holds", count.bar ? ReportJson(holds(count)) : ReportJson()},
                                    {"handle_error", count.handle_error},
                                    {"iterations", count.iterations},
                                    {"at_rest", count.at_rest}});
     for (const Convergence& convergence : task.convergence) {
-        Json steps = Json::array();
+        ReportJson steps = ReportJson::array();
         for (const auto& step : convergence.steps) {
-            Json entry = json_of(step.deviation);
+            ReportJson entry = json_of(step.deviation);
             entry["iterations"] = step.iterations;
+            entry["bar"] = step.bar ? ReportJson(*step.bar) : ReportJson();
+            entry["holds"] = step.bar ? ReportJson(holds(step)) : ReportJson();
             steps.push_back(std::move(entry));
         }
-        json["convergence"].push_back({{"asked", json_of(convergence.asked)}, {"steps", std::move(steps)}});
+        json["convergence"].push_back(
+            {{"asked", asked_json(convergence.asked)}, {"steps", std::move(steps)}});
     }
     return json;
 }
 
-Json json_of(const CloudProperties& cloud) {
+ReportJson json_of(const CloudProperties& cloud) {
     return {{"name", cloud.name},
             {"points", cloud.points},
             {"stray_points", cloud.strays},
@@ -182,21 +173,29 @@ std::string evaluation_text(const Evaluation& evaluation) {
     if (!evaluation.tasks.empty())
         text += "\n" + tasks_text(evaluation.tasks) + "\n" + convergence_text(evaluation.tasks);
     if (evaluation.twist) text += "\n" + twist_text(*evaluation.twist);
+    if (!evaluation.scans.empty()) text += "\n" + scan_samples_text(evaluation.scans);
+    if (!evaluation.samplings.empty()) text += "\n" + sampling_text(evaluation.samplings);
+    if (!evaluation.turns.empty()) text += "\n" + turns_text(evaluation.turns);
     if (!evaluation.stretches.empty()) text += "\n" + stretches_text(evaluation.stretches);
+    if (!evaluation.stiffnesses.empty()) text += "\n" + stiffness_text(evaluation.stiffnesses);
     if (!evaluation.clouds.empty()) text += "\n" + clouds_text(evaluation.clouds);
     return text;
 }
 
 std::string evaluation_json(const Evaluation& evaluation) {
-    Json json{{"version", evaluation.machine.version},
-              {"commit", evaluation.machine.commit},
-              {"device", evaluation.device},
-              {"survey", evaluation.has_survey},
-              {"warnings", evaluation.warnings},
-              {"tasks", Json::array()},
-              {"clouds", Json::array()},
-              {"elasticity", Json::array()},
-              {"twist", Json()}};
+    ReportJson json{{"version", evaluation.machine.version},
+                    {"commit", evaluation.machine.commit},
+                    {"device", evaluation.device},
+                    {"survey", evaluation.has_survey},
+                    {"warnings", evaluation.warnings},
+                    {"tasks", ReportJson::array()},
+                    {"clouds", ReportJson::array()},
+                    {"elasticity", ReportJson::array()},
+                    {"scan_samples", scan_samples_json(evaluation.scans)},
+                    {"sampling", sampling_json(evaluation.samplings)},
+                    {"turns", turns_json(evaluation.turns)},
+                    {"stiffness", stiffness_json(evaluation.stiffnesses)},
+                    {"twist", ReportJson()}};
     for (const TaskQuality& task : evaluation.tasks) json["tasks"].push_back(json_of(task));
     for (const StretchResult& stretch : evaluation.stretches) json["elasticity"].push_back(json_of(stretch));
     for (const CloudProperties& cloud : evaluation.clouds) json["clouds"].push_back(json_of(cloud));
@@ -209,7 +208,7 @@ std::string evaluation_json(const Evaluation& evaluation) {
                          {"settled_uneven_degrees", twist->settled_uneven},
                          {"holds", twist_is_kept(*twist, twist->measured)},
                          {"settled_holds", twist_is_kept(*twist, twist->settled)}};
-    return json.dump(2, ' ', false, Json::error_handler_t::replace);
+    return json.dump(2, ' ', false, ReportJson::error_handler_t::replace);
 }
 
 } // namespace knead

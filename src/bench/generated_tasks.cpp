@@ -1,8 +1,8 @@
 // Likenesses of the survey's shapes, from knead's own generator.
 
 #include "base/require.h"
-#include "bench/made_cloud.h"
 #include "bench/survey.h"
+#include "shapes/shapes.h"
 
 #include <functional>
 #include <numbers>
@@ -47,19 +47,26 @@ std::vector<std::string> generated_names() {
 }
 
 DeformationTask generated_task(std::string_view name, Workers& workers, Progress& progress) {
+    ShapeOptions sampling;
+    sampling.points = name == "made-bar" ? 6000 : name == "made-cylinder" ? 5000 : 10'000;
+    return generated_task(name, sampling, workers, progress);
+}
+
+DeformationTask generated_task(std::string_view name, const ShapeOptions& sampling, Workers& workers,
+                               Progress& progress) {
     DeformationTask task;
     task.name = name;
     if (name == "made-bar") {
-        task.cloud = made_cloud(Shape::bar, 6000, workers, progress);
+        task.cloud = make_shape(Shape::bar, sampling, workers, progress);
         hold_ends(task);
         task.pose.rotate = turn(135, Vec3d::UnitZ());
     } else if (name == "made-cylinder") {
-        task.cloud = made_cloud(Shape::cylinder, 5000, workers, progress);
+        task.cloud = make_shape(Shape::cylinder, sampling, workers, progress);
         hold_ends(task);
         bend(task, 120);
     } else {
         require(name == "made-plane", "the name of a generated task");
-        task.cloud = made_cloud(Shape::plane, 10'000, workers, progress);
+        task.cloud = make_shape(Shape::plane, sampling, workers, progress);
         hold(
             task, [](const Vec3d& p) { return p.x() <= 0.1; }, [](const Vec3d& p) { return p.x() >= 0.9; });
         task.pose.translate = {-0.3, 0, 0.55};

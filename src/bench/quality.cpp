@@ -1,20 +1,21 @@
 #include "bench/quality.h"
 
-#include "base/require.h"
-#include "bench/automatic_handles.h"
-#include "edit/document.h"
+#include "bench/posing.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace knead {
 
 namespace {
 
+bool is_of_the_survey(std::string_view name) {
+    const std::vector<std::string> names = survey_names();
+    return std::ranges::find(names, name) != names.end();
+}
+
 // What is aimed at on every survey shape: RMS over D with so many samples.
 std::optional<double> bar_for(std::string_view name, const std::optional<std::uint64_t>& samples) {
-    const std::vector<std::string> names = survey_names();
-    if (std::ranges::find(names, name) == names.end() || !samples) return std::nullopt;
+    if (!is_of_the_survey(name) || !samples) return std::nullopt;
     switch (*samples) {
     case 1000:
         return 0.002;
@@ -27,55 +28,50 @@ std::optional<double> bar_for(std::string_view name, const std::optional<std::ui
     }
 }
 
-DragLine whole_motion(const DeformationTask& task) {
-    return {"handle", task.pivot, {task.pose}};
+// What is aimed at on every survey shape: the largest distance over D after so many iterations.
+std::optional<double> bar_after(std::string_view name, unsigned iterations) {
+    if (!is_of_the_survey(name)) return std::nullopt;
+    if (iterations == 5) return 0.005;
+    if (iterations == 10) return 0.001;
+    return std::nullopt;
 }
 
-// A document of the task, and the shape it settles into.
+// The task's document; every pose is taken back again.
 class TaskRun {
 public:
     TaskRun(const DeformationTask& task, const std::optional<std::uint64_t>& samples, Workers& workers,
             Upsampler& upsampler)
-        : task_(task), document_(task.cloud, settings_of(samples), workers, upsampler) {
-        document_.declare(handle_line("fixed", HandleRole::fixed, task.fixed), task.name);
-        document_.declare(handle_line("handle", HandleRole::moving, task.handle), task.name);
-    }
+        : task_(task), document_(open_task(task, with_samples(samples), workers, upsampler)) {}
 
     std::vector<float> settled(SampleQuality& quality, Progress& progress) {
-        document_.drag(whole_motion(task_), task_.name, progress);
-        const std::size_t dragged = document_.log().iteration.size();
-        document_.settle({settle_limit}, progress);
-        quality.iterations = document_.log().iteration.size();
-        quality.at_rest = quality.iterations < dragged + settle_limit;
-        quality.samples = document_.pipeline().samples().size();
-        quality.handle_error = document_.handle_error(progress);
-        std::vector<float> positions = document_.positions(progress);
-        document_.undo(task_.name);
-        document_.undo(task_.name);
+        document_->drag(whole_motion(task_), task_.name, progress);
+        const Settling settling = settle(*document_, settle_limit, progress);
+        quality.iterations = settling.iterations;
+        quality.at_rest = settling.at_rest;
+        quality.samples = document_->pipeline().samples().size();
+        quality.handle_error = document_->handle_error(progress);
+        std::vector<float> positions = document_->positions(progress);
+        document_->undo(task_.name);
+        document_->undo(task_.name);
         return positions;
     }
 
     std::vector<float> after(unsigned iterations, Progress& progress) {
         SettingsChange change;
         change.iterations = iterations;
-        document_.change_settings(change, task_.name);
-        document_.drag(whole_motion(task_), task_.name, progress);
-        std::vector<float> positions = document_.positions(progress);
-        document_.undo(task_.name);
+        document_->change_settings(change, task_.name);
+        document_->drag(whole_motion(task_), task_.name, progress);
+        std::vector<float> positions = document_->positions(progress);
+        document_->undo(task_.name);
         return positions;
     }
 
-    double diagonal() const { return document_.bounds().diagonal(); }
+    const std::string& name() const { return task_.name; }
+    double diagonal() const { return document_->bounds().diagonal(); }
 
 private:
-    static Settings settings_of(const std::optional<std::uint64_t>& samples) {
-        Settings settings;
-        settings.samples = samples;
-        return settings;
-    }
-
     const DeformationTask& task_;
-    Document document_;
+    std::unique_ptr<Document> document_;
 };
 
 Convergence converge(TaskRun& run, const std::optional<std::uint64_t>& asked,
@@ -83,31 +79,13 @@ Convergence converge(TaskRun& run, const std::optional<std::uint64_t>& asked,
     Convergence result;
     result.asked = asked;
     for (const unsigned iterations : {0U, 1U, 3U, 5U, 10U})
-        result.steps.push_back(
-            {iterations, deviation_between(run.after(iterations, progress), settled, run.diagonal())});
+        result.steps.push_back({iterations,
+                                deviation_between(run.after(iterations, progress), settled, run.diagonal()),
+                                bar_after(run.name(), iterations)});
     return result;
 }
 
 } // namespace
-
-Deviation deviation_between(std::span<const float> a, std::span<const float> b, double diagonal) {
-    require(a.size() == b.size(), "two poses of one cloud");
-    double sum = 0;
-    double largest = 0;
-    for (std::size_t i = 0; i + 3 <= a.size(); i += 3) {
-        double square = 0;
-        for (std::size_t c = i; c < i + 3; ++c) {
-            if (!std::isfinite(a[c])) continue;
-            const double way = double{a[c]} - double{b[c]};
-            square += way * way;
-        }
-        sum += square;
-        largest = std::max(largest, square);
-    }
-    const double unit = diagonal > 0 ? diagonal : 1;
-    const double points = std::max(1.0, static_cast<double>(a.size()) / 3);
-    return {std::sqrt(sum / points) / unit, std::sqrt(largest) / unit};
-}
 
 TaskQuality evaluate_task(const DeformationTask& task, Workers& workers, Upsampler& upsampler,
                           Progress& progress) {

@@ -2,11 +2,11 @@
 // How good the deformed shapes are: how far few samples are from every point a sample, and how fast the
 // iterations get there.
 
+#include "bench/deviation.h"
 #include "bench/survey.h"
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -14,16 +14,6 @@ namespace knead {
 
 class Upsampler;
 class Workers;
-
-// Between two poses of one cloud, in units of D, the diagonal of its bounding box at rest.
-struct Deviation {
-    double rms = 0;
-    double largest = 0;
-};
-
-// Both 3n; points that are not finite at rest must not be counted, so they have to be equal in both.
-// `diagonal` of 0 leaves the cloud's units.
-Deviation deviation_between(std::span<const float> a, std::span<const float> b, double diagonal);
 
 // The task with so many samples, settled, beside every point a sample, settled alike.
 struct SampleQuality {
@@ -42,6 +32,7 @@ struct Convergence {
     struct Step {
         unsigned iterations = 0;
         Deviation deviation;
+        std::optional<double> bar; // what `deviation.largest` must not exceed, as a fraction
     };
     std::vector<Step> steps;
 };

@@ -16,6 +16,7 @@
 namespace knead {
 
 class Workers;
+struct ShapeOptions;
 
 // One handle stays, the other takes `pose` about `pivot` (the file's coordinates), in one frame.
 struct DeformationTask {
@@ -41,5 +42,8 @@ std::optional<std::filesystem::path> survey_folder(const DataFolders& folders);
 // aside and up, each of some thousand points.
 std::vector<std::string> generated_names();
 DeformationTask generated_task(std::string_view name, Workers& workers, Progress& progress);
+// The same with other points; strays among them are held where they lie in a handle's reach.
+DeformationTask generated_task(std::string_view name, const ShapeOptions& sampling, Workers& workers,
+                               Progress& progress);
 
 } // namespace knead

@@ -32,8 +32,11 @@ int run_evaluate(const EvaluateArguments& arguments, Terminal& terminal) {
 void add_evaluate(CLI::App& app, Job& job) {
     const auto arguments = std::make_shared<EvaluateArguments>();
     CLI::App* command = app.add_subcommand("evaluate", "Measure how good the deformed shapes are");
-    command->add_option("--shape", arguments->shapes,
-                        "Only these: a survey shape, a generated one, a scan without .ply (default: all)");
+    command->add_option(
+        "--shape", arguments->shapes,
+        "Only these: bar, cactus, cylinder, plane (the survey's), made-bar (and a long one twisted), "
+        "made-solid-bar, made-knot, made-creature; elasticity, sampling, turns, stiffness; "
+        "samples-bunny, samples-armadillo, samples-dragon; a scan without .ply (default: all)");
     command
         ->add_option("--survey", arguments->survey,
                      "The folder of the survey shapes (default: KNEAD_SURVEY, then ../shared/survey)")

@@ -1,0 +1,159 @@
+#include "bench/sampling.h"
+
+#include "bench/made_cloud.h"
+#include "bench/posing.h"
+
+#include <cmath>
+#include <utility>
+
+namespace knead {
+
+namespace {
+
+constexpr unsigned settle_limit = 600;
+
+// Points that a task's pose sends somewhere, at rest and posed, in the coordinates of the file.
+struct Field {
+    std::vector<float> rest, posed;
+    double diagonal = 0;
+    bool at_rest = false;
+};
+
+std::vector<float> in_file_coordinates(const PointCloud& cloud, std::vector<float> positions) {
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        positions[i] += static_cast<float>(cloud.origin[static_cast<Eigen::Index>(i % 3)]);
+    return positions;
+}
+
+Field settled_field(const DeformationTask& task, const std::optional<std::uint64_t>& samples,
+                    Workers& workers, Upsampler& upsampler, Progress& progress) {
+    const auto document = open_task(task, with_samples(samples), workers, upsampler);
+    document->drag(whole_motion(task), task.name, progress);
+    Field field;
+    field.at_rest = settle(*document, settle_limit, progress).at_rest;
+    field.rest = in_file_coordinates(task.cloud, task.cloud.positions);
+    field.posed = in_file_coordinates(task.cloud, document->positions(progress));
+    field.diagonal = document->bounds().diagonal();
+    return field;
+}
+
+// One line of the table: a cloud beside its twin.
+struct Pair {
+    std::string shape, sampling;
+    DeformationTask task, twin;
+    std::size_t counted = 0;
+};
+
+constexpr std::size_t made_points = 10'000;
+
+ShapeOptions even(std::uint64_t seed = 1) {
+    ShapeOptions options;
+    options.points = made_points;
+    options.seed = seed;
+    return options;
+}
+
+// Denser by 20 from end to end.
+ShapeOptions graded() {
+    ShapeOptions options = even();
+    options.gradient = 20;
+    return options;
+}
+
+constexpr double strays = 0.02;
+
+// As many points on the surface as `even()`, half a spacing off it, and 2 % strays beside them.
+ShapeOptions noisy() {
+    ShapeOptions options = even();
+    options.points = static_cast<std::size_t>(std::ceil(made_points / (1 - strays)));
+    options.noise = 0.5;
+    options.outliers = strays;
+    return options;
+}
+
+// The survey's tube made anew: as long and as wide, held by as much, sent the same way.
+DeformationTask resampled(const DeformationTask& cylinder, Workers& workers, Progress& progress) {
+    const Bounds bounds = bounds_of(cylinder.cloud);
+    const Vec3d size = bounds.highest - bounds.lowest;
+    const Vec3d middle = (bounds.highest + bounds.lowest) / 2;
+    // A made tube is 1 × 1 × 5, and stretching it would stretch its sampling: three of them end to end are
+    // cut off where the survey's ends.
+    const PointCloud made = made_cloud(Shape::cylinder, cylinder.cloud.size(), workers, progress);
+    const double made_length = 5 * size.x();
+    std::vector<float> positions;
+    for (const double shift : {-made_length, 0.0, made_length})
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            const Vec3d place = made.file_position(i) * size.x() + Vec3d(0, 0, shift);
+            if (std::abs(place.z()) > size.z() / 2) continue;
+            const Vec3f kept = (place + middle).cast<float>();
+            positions.insert(positions.end(), kept.begin(), kept.end());
+        }
+    DeformationTask task;
+    task.name = cylinder.name;
+    task.cloud = make_cloud(positions);
+    task.pivot = cylinder.pivot;
+    task.pose = cylinder.pose;
+    double lower = bounds.lowest.z(), upper = bounds.highest.z();
+    for (const Index i : cylinder.fixed) lower = std::max(lower, cylinder.cloud.file_position(i).z());
+    for (const Index i : cylinder.handle) upper = std::min(upper, cylinder.cloud.file_position(i).z());
+    for (Index i = 0; i < task.cloud.size(); ++i) {
+        const double z = task.cloud.file_position(i).z();
+        if (z <= lower) task.fixed.push_back(i);
+        if (z >= upper) task.handle.push_back(i);
+    }
+    return task;
+}
+
+std::vector<Pair> all_pairs(const DataFolders& survey, Workers& workers, Progress& progress) {
+    const auto task = [&](const char* name, const ShapeOptions& options) {
+        return generated_task(name, options, workers, progress);
+    };
+    std::vector<Pair> pairs;
+    if (const auto folder = survey_folder(survey)) {
+        DeformationTask rings = read_survey_task(*folder, "cylinder");
+        DeformationTask twin = resampled(rings, workers, progress);
+        const std::size_t points = rings.cloud.size();
+        pairs.push_back({"survey's cylinder", "in rings", std::move(rings), std::move(twin), points});
+    }
+    const std::pair<const char*, const char*> shapes[] = {{"made-cylinder", "tube, bent 120°"},
+                                                          {"made-bar", "bar, twisted 135°"}};
+    for (const auto& [name, words] : shapes) {
+        pairs.push_back({words, "another seed", task(name, even(2)), task(name, even()), made_points});
+        pairs.push_back({words, "1 : 20 denser", task(name, graded()), task(name, even()), made_points});
+        pairs.push_back({words, "noise ½, 2 % strays", task(name, noisy()), task(name, even()), made_points});
+    }
+    return pairs;
+}
+
+} // namespace
+
+SamplingResult compare_samplings(const DeformationTask& task, std::size_t counted,
+                                 const DeformationTask& twin, const std::optional<std::uint64_t>& samples,
+                                 Workers& workers, Upsampler& upsampler, Progress& progress) {
+    const Field a = settled_field(task, samples, workers, upsampler, progress);
+    const Field b = settled_field(twin, samples, workers, upsampler, progress);
+    SamplingResult result;
+    result.points = task.cloud.size();
+    result.twin_points = twin.cloud.size();
+    result.asked = samples;
+    result.at_rest = a.at_rest && b.at_rest;
+    // D is the twin's: strays make the other's box larger.
+    result.deviation = field_deviation({a.rest, a.posed, counted}, {b.rest, b.posed, twin.cloud.size()},
+                                       b.diagonal, workers);
+    return result;
+}
+
+std::vector<SamplingResult> evaluate_sampling(const DataFolders& survey, Workers& workers,
+                                              Upsampler& upsampler, Progress& progress) {
+    std::vector<SamplingResult> results;
+    for (const Pair& pair : all_pairs(survey, workers, progress))
+        for (const std::optional<std::uint64_t> samples : {std::optional<std::uint64_t>{}, {1000U}}) {
+            results.push_back(
+                compare_samplings(pair.task, pair.counted, pair.twin, samples, workers, upsampler, progress));
+            results.back().shape = pair.shape;
+            results.back().sampling = pair.sampling;
+        }
+    return results;
+}
+
+} // namespace knead

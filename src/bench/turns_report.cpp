@@ -1,0 +1,52 @@
+#include "bench/report.h"
+#include "bench/turns.h"
+
+namespace knead {
+
+namespace {
+
+bool holds(const Deviation& deviation) {
+    return deviation.largest <= turn_bar;
+}
+
+std::string verdict(const TurnResult& result, const Deviation& deviation) {
+    return result.aimed ? verdict_text(holds(deviation)) : "ambiguous";
+}
+
+} // namespace
+
+std::string turns_text(std::span<const TurnResult> results) {
+    TextTable table{
+        {"Ways to one pose, 1000 samples, 3 iterations a frame: largest distance from the longest way's "
+         "settled "
+         "shape, % of D, aim " +
+         digits_text(100 * turn_bar, 0)},
+        {"course", "points", "frames", "at the last %", "", "settled %", "", "iterations of settling"}};
+    for (const TurnResult& result : results)
+        table.push_back({result.course, count_text(result.points), count_text(result.frames),
+                         percent_text(result.at_last_frame.largest), verdict(result, result.at_last_frame),
+                         percent_text(result.settled.largest), verdict(result, result.settled),
+                         std::to_string(result.iterations) + (result.at_rest ? "" : ", not at rest")});
+    return format_table(table);
+}
+
+ReportJson turns_json(std::span<const TurnResult> results) {
+    ReportJson json = ReportJson::array();
+    for (const TurnResult& result : results) {
+        ReportJson entry{{"course", result.course},
+                         {"points", result.points},
+                         {"frames", result.frames},
+                         {"at_last_frame", json_of(result.at_last_frame)},
+                         {"settled", json_of(result.settled)},
+                         {"bar", result.aimed ? ReportJson(turn_bar) : ReportJson()},
+                         {"iterations", result.iterations},
+                         {"at_rest", result.at_rest}};
+        entry["at_last_frame"]["holds"] =
+            result.aimed ? ReportJson(holds(result.at_last_frame)) : ReportJson();
+        entry["settled"]["holds"] = result.aimed ? ReportJson(holds(result.settled)) : ReportJson();
+        json.push_back(std::move(entry));
+    }
+    return json;
+}
+
+} // namespace knead

@@ -1,9 +1,8 @@
 #include "bench/elasticity.h"
 
 #include "base/types.h"
-#include "bench/automatic_handles.h"
 #include "bench/made_cloud.h"
-#include "edit/document.h"
+#include "bench/posing.h"
 
 #include <cmath>
 
@@ -36,38 +35,22 @@ PointCloud long_bar(bool solid, Workers& workers, Progress& progress) {
     return make_cloud(positions);
 }
 
-DragLine pull() {
-    HandlePose pose;
-    pose.translate = Vec3d(0, 0, 2 * free_half * (stretch - 1));
-    return {"pulled", Vec3d::Zero(), {pose}};
-}
-
-StretchResult stretch_bar(const PointCloud& bar, const std::optional<std::uint64_t>& samples, double poisson,
-                          Workers& workers, Upsampler& upsampler, Progress& progress) {
-    std::vector<Index> held, pulled;
-    for (Index i = 0; i < bar.size(); ++i) {
-        const double z = bar.file_position(i).z();
-        if (z <= -free_half) held.push_back(i);
-        if (z >= free_half) pulled.push_back(i);
-    }
-    Settings settings;
-    settings.samples = samples;
+StretchResult stretch_bar(const DeformationTask& bar, const std::optional<std::uint64_t>& samples,
+                          double poisson, Workers& workers, Upsampler& upsampler, Progress& progress) {
+    Settings settings = with_samples(samples);
     settings.poisson = poisson;
-    Document document(bar, settings, workers, upsampler);
-    document.declare(handle_line("held", HandleRole::fixed, held), "");
-    document.declare(handle_line("pulled", HandleRole::moving, pulled), "");
-    document.drag(pull(), "", progress);
-    const std::size_t dragged = document.log().iteration.size();
-    document.settle({settle_limit}, progress);
+    const auto document = open_task(bar, settings, workers, upsampler);
+    document->drag(whole_motion(bar), "", progress);
+    const Settling settling = settle(*document, settle_limit, progress);
 
     StretchResult result;
-    result.points = bar.size();
+    result.points = bar.cloud.size();
     result.asked_samples = samples;
     result.asked = poisson;
-    result.iterations = document.log().iteration.size();
-    result.at_rest = result.iterations < dragged + settle_limit;
+    result.iterations = settling.iterations;
+    result.at_rest = settling.at_rest;
     // The middle of the stretched bar is the middle of the bar at rest.
-    const SlabStretch slab = slab_stretch(bar.positions, document.positions(progress), slab_half);
+    const SlabStretch slab = slab_stretch(bar.cloud.positions, document->positions(progress), slab_half);
     result.along = slab.along;
     result.measured = -std::log(slab.across) / std::log(slab.along);
     return result;
@@ -75,11 +58,24 @@ StretchResult stretch_bar(const PointCloud& bar, const std::optional<std::uint64
 
 } // namespace
 
+DeformationTask stretched_bar(bool solid, Workers& workers, Progress& progress) {
+    DeformationTask task;
+    task.name = solid ? "solid" : "shell";
+    task.cloud = long_bar(solid, workers, progress);
+    for (Index i = 0; i < task.cloud.size(); ++i) {
+        const double z = task.cloud.file_position(i).z();
+        if (z <= -free_half) task.fixed.push_back(i);
+        if (z >= free_half) task.handle.push_back(i);
+    }
+    task.pose.translate = Vec3d(0, 0, 2 * free_half * (stretch - 1));
+    return task;
+}
+
 std::vector<StretchResult> evaluate_elasticity(std::span<const std::optional<std::uint64_t>> samples,
                                                Workers& workers, Upsampler& upsampler, Progress& progress) {
     std::vector<StretchResult> results;
     for (const bool solid : {false, true}) {
-        const PointCloud bar = long_bar(solid, workers, progress);
+        const DeformationTask bar = stretched_bar(solid, workers, progress);
         for (const auto& count : samples)
             for (const double poisson : ratios) {
                 results.push_back(stretch_bar(bar, count, poisson, workers, upsampler, progress));

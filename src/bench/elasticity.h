@@ -2,6 +2,7 @@
 // Whether Poisson's ratio is what is measured: bars of a shell and of a solid, pulled by 30 %.
 
 #include "base/progress.h"
+#include "bench/survey.h"
 
 #include <cstdint>
 #include <optional>
@@ -28,6 +29,9 @@ struct StretchResult {
     std::size_t iterations = 0;
     bool at_rest = false; // before the iterations ran out
 };
+
+// That bar, as a task: a shell of 19,000 points, or a solid of 20,000.
+DeformationTask stretched_bar(bool solid, Workers& workers, Progress& progress);
 
 // Every ratio from -0.9 to 0.49 that is worth a line, with so many samples each; nothing: every point.
 std::vector<StretchResult> evaluate_elasticity(std::span<const std::optional<std::uint64_t>> samples,

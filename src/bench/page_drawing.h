@@ -1,0 +1,54 @@
+#pragma once
+// The pictures of the evaluation's page: posed clouds on a light ground, with no display.
+
+#include "base/workers.h"
+#include "graph/csr.h"
+#include "graph/point_order.h"
+#include "view/camera.h"
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace knead {
+
+inline constexpr Viewport usual_size{440, 380}; // pixels
+
+// Where from. Azimuth and elevation in degrees as in `knead render --view`, 0,0 being the front, which for y
+// up is what +z sees. The camera is framed on `framed` (3n, about the cloud's origin), so that pictures of a
+// row are seen alike.
+struct PageView {
+    double azimuth = 0, elevation = 0;
+    UpAxis up = UpAxis::z;
+    Viewport size = usual_size;
+    std::vector<float> framed;
+};
+
+// What is seen. Views, all in the order of computation but the graph, which is that of the vertices as
+// opened: shading comes from it.
+struct PageShape {
+    const PointOrder* order = nullptr;
+    const Graph* graph = nullptr;
+    std::span<const float> opened, positions; // 3n
+    std::span<const Index> handle;            // n: who holds each point, as HandleLabels::point; or empty
+    std::span<const float> values;            // n: told by colour instead of the handles; or empty
+    double largest_value = 1;                 // the end of the scale
+    bool solid = false;                       // a filled volume has no normals to shade it by
+};
+
+class PageDrawer {
+public:
+    // Throws Error (usage) where nothing can be drawn: no EGL, or a knead that was built without it.
+    explicit PageDrawer(Workers& workers);
+    ~PageDrawer();
+
+    // Writes one picture, PNG. Throws Error (output).
+    void draw(const std::filesystem::path& file, const PageShape& shape, const PageView& view);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace knead

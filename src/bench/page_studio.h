@@ -1,0 +1,69 @@
+#pragma once
+// Scenes of the evaluation's page: a cloud and the session that poses it, carried out, drawn and written.
+
+#include "bench/data_files.h"
+#include "bench/page_drawing.h"
+#include "bench/page_html.h"
+#include "bench/survey.h"
+#include "edit/document.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace knead {
+
+struct PageScene {
+    std::string name; // of its files: "armadillo-figure-1"
+    PointCloud cloud;
+    std::filesystem::path cloud_file; // where the cloud came from; empty: CLOUD_NAME.ply is written
+    std::string cloud_name;           // of that file; empty: as `name`
+    Settings settings;
+    std::vector<SessionAction> acts; // handles, drags, settlings
+    PageView view;                   // `framed` is filled from the first shape that is drawn
+    bool solid = false;
+    bool rest_is_shown = false; // in the row, so that the camera must have it in view
+};
+
+// What the sections are made with.
+struct PageStudio {
+    Workers& workers;
+    Upsampler& upsampler;
+    Progress& progress;
+    PageDrawer& drawer;
+    const DataFolders& scans;
+    const DataFolders& survey;
+    std::filesystem::path folder;   // where everything is written
+    std::vector<std::string> files; // and what was
+};
+
+// A task's handles, its drag in one frame and a settling; and the same with other frames.
+std::vector<SessionAction> acts_of(const DeformationTask& task);
+
+// Writes the scene's session, NAME.knead, and its cloud where that came from no file.
+void write_session(PageStudio& studio, const PageScene& scene);
+
+// Carries out the acts with these settings.
+std::unique_ptr<Document> carry_out(PageStudio& studio, const PageScene& scene, const Settings& settings);
+
+// The shape as the document has it, as PageDrawer takes it; good until its next act.
+PageShape shape_of(PageStudio& studio, Document& document);
+
+// Draws into NAME-SUFFIX.png. The first picture of a scene chooses its camera. The caption is left to the
+// caller.
+PagePicture draw_scene(PageStudio& studio, PageScene& scene, const std::string& suffix,
+                       const PageShape& shape);
+
+// "knead replay NAME.knead --samples 200 --picture NAME-200.png", with these options in between.
+std::string replay_command(const PageScene& scene, const std::string& options, const PagePicture& picture);
+
+// The sections.
+PageSection survey_section(PageStudio& studio);
+PageSection elasticity_section(PageStudio& studio);
+PageSection posed_section(PageStudio& studio);     // Figure 1
+PageSection neighbors_section(PageStudio& studio); // Figure 2
+PageSection weights_section(PageStudio& studio);   // Figure 4
+PageSection unknown_section();                     // Figures 3 and 5
+
+} // namespace knead

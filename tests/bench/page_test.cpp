@@ -1,0 +1,118 @@
+// The evaluation's page: its text, its scenes, and what only it computes.
+
+#include "bench/air_neighbors.h"
+#include "bench/automatic_handles.h"
+#include "bench/deviation.h"
+#include "bench/made_cloud.h"
+#include "bench/page_studio.h"
+#include "bench/posing.h"
+#include "bench/temporary_folder.h"
+
+#include "base/error.h"
+#include "support/scratch_folder.h"
+#include "upsample/devices.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+using namespace knead;
+namespace fs = std::filesystem;
+
+TEST(PageHtml, SaysEverythingAndEscapesIt) {
+    const PageSection section{
+        "A & B", "x < y", {{"row", {{"a.png", "seen \"so\"", "knead <x>"}}}}, {"a scan"}};
+    const std::string html = page_html("title", "words", {&section, 1});
+    for (const char* text : {"A &amp; B", "x &lt; y", "src=\"a.png\"", "seen &quot;so&quot;",
+                             "knead &lt;x&gt;", "Missing: a scan", "<h1>title</h1>", "charset=\"utf-8\""})
+        EXPECT_NE(html.find(text), std::string::npos) << text;
+    EXPECT_EQ(html.find("<script"), std::string::npos);
+}
+
+TEST(TemporaryFolder, HandsOverOrLeavesNothing) {
+    const test::ScratchFolder scratch;
+    const fs::path target = scratch / "made";
+    fs::path inside;
+    {
+        const TemporaryFolder folder(target);
+        inside = folder.path();
+        test::write_text(inside / "a", "1");
+    }
+    EXPECT_FALSE(fs::exists(inside));
+    EXPECT_FALSE(fs::exists(target));
+    {
+        const TemporaryFolder folder(target);
+        test::write_text(folder.path() / "a", "1");
+        const std::vector<std::string> names{"a"};
+        folder.hand_over(names);
+    }
+    EXPECT_TRUE(fs::exists(target / "a"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path()), fs::directory_iterator()), 1);
+    EXPECT_THROW(TemporaryFolder(target / "a"), Error);
+    EXPECT_EQ(folder_of("made/"), fs::path("made"));
+}
+
+TEST(AirNeighbors, CountOnlyWhereThePathsDiffer) {
+    Workers workers(2);
+    SilentProgress progress;
+    const auto upsampler = make_reference_upsampler(workers);
+    const PointCloud cloud = made_cloud(Shape::bar, 3000, workers, progress);
+    const AutomaticHandles ends = automatic_handles(cloud);
+    const auto held = [](const std::vector<Index>& points) {
+        return std::make_shared<const std::vector<Index>>(points);
+    };
+    Pipeline pipeline(cloud, workers, *upsampler);
+    pipeline.prepare(
+        {with_samples(200),
+         {{"fixed", HandleRole::fixed, held(ends.fixed)}, {"handle", HandleRole::moving, held(ends.moving)}},
+         nullptr},
+        progress);
+    std::vector<HandleMotion> motions(2);
+    SampleState state = pipeline.rest_state();
+    EXPECT_EQ(posed_through_the_air(pipeline, motions, state, workers), pipeline.opened().positions);
+
+    motions[1] = motion_of(bent_by(ends, 30), ends.pivot, cloud.origin, Quatd::Identity());
+    pipeline.follow_handles(motions, state);
+    for (int i = 0; i < 30; ++i) pipeline.iterate(motions, state);
+    pipeline.upsample(motions, state);
+    const std::vector<float> air = posed_through_the_air(pipeline, motions, state, workers);
+    // A bar comes near itself nowhere, so both ways of telling neighbours agree but for their distances.
+    EXPECT_LT(deviation_between(air, pipeline.posed().positions, bounds_of(cloud).diagonal()).largest, 0.02);
+}
+
+TEST(PageScenes, LeaveASessionThatReplays) {
+    Workers workers(2);
+    SilentProgress progress;
+    const auto upsampler = make_reference_upsampler(workers);
+    std::unique_ptr<PageDrawer> drawer;
+    try {
+        drawer = std::make_unique<PageDrawer>(workers);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.trouble(), Trouble::usage); // no OpenGL, or built without
+        GTEST_SKIP() << error.what();
+    }
+    const test::ScratchFolder folder;
+    const DataFolders nowhere{{}, "nowhere"};
+    PageStudio studio{workers, *upsampler, progress, *drawer, nowhere, nowhere, folder.path(), {}};
+    const DeformationTask task = bending_task("bar", made_cloud(Shape::bar, 1000, workers, progress), 30);
+    PageScene scene;
+    scene.name = task.name;
+    scene.cloud = task.cloud;
+    scene.acts = acts_of(task);
+    write_session(studio, scene);
+    const auto document = carry_out(studio, scene, scene.settings);
+    EXPECT_TRUE(document->is_posed());
+    const PagePicture picture = draw_scene(studio, scene, "x", shape_of(studio, *document));
+    EXPECT_EQ(replay_command(scene, "--samples 50", picture),
+              "knead replay bar.knead --samples 50 --picture bar-x.png");
+    EXPECT_EQ(studio.files, (std::vector<std::string>{"bar.knead", "bar.ply", "bar-x.png"}));
+    for (const std::string& name : studio.files) EXPECT_GT(fs::file_size(folder / name), 100U) << name;
+    const Session session = read_session(folder / "bar.knead");
+    EXPECT_EQ(session.lines.size(), scene.acts.size());
+    EXPECT_EQ(session.points, 1000U);
+}
+
+} // namespace

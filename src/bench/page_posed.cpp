@@ -89,9 +89,8 @@ PageRow row_of(PageStudio& studio, const Pose& pose, PointCloud cloud,
     shape.positions = shape.opened;
     PagePicture before = draw_scene(studio, scene, "before", shape);
     before.caption = "At rest: what stays is blue, the handles have a colour each.";
-    before.command = "knead render " +
-                     (cloud_file.empty() ? pose.name + ".ply" : cloud_file.filename().string()) + " --out " +
-                     before.file;
+    before.command = "knead render " + (cloud_file.empty() ? pose.name + ".ply" : cloud_file.string()) + " " +
+                     view_option(pose.view) + " --out " + before.file;
     row.pictures = {before, after};
     return row;
 }

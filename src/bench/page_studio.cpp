@@ -3,6 +3,7 @@
 #include "base/whole_file.h"
 #include "bench/automatic_handles.h"
 #include "bench/posing.h"
+#include "bench/text_table.h"
 #include "io/cloud_file.h"
 
 namespace knead {
@@ -87,9 +88,14 @@ PagePicture draw_scene(PageStudio& studio, PageScene& scene, const std::string& 
     return picture;
 }
 
+std::string view_option(const PageView& view) {
+    if (view.up == UpAxis::y) return "--view top";
+    return "--view " + digits_text(view.azimuth, 0) + "," + digits_text(view.elevation, 0);
+}
+
 std::string replay_command(const PageScene& scene, const std::string& options, const PagePicture& picture) {
-    return "knead replay " + scene.name + ".knead " + options + (options.empty() ? "" : " ") + "--picture " +
-           picture.file;
+    return "knead replay " + scene.name + ".knead " + options + (options.empty() ? "" : " ") +
+           view_option(scene.view) + " --picture " + picture.file;
 }
 
 } // namespace knead

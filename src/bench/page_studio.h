@@ -55,7 +55,9 @@ PageShape shape_of(PageStudio& studio, Document& document);
 PagePicture draw_scene(PageStudio& studio, PageScene& scene, const std::string& suffix,
                        const PageShape& shape);
 
-// "knead replay NAME.knead --samples 200 --picture NAME-200.png", with these options in between.
+// "knead replay NAME.knead --samples 200 --view 15,10 --picture NAME-200.png", with these options. Of a cloud
+// with y up the front is what `--view top` sees.
+std::string view_option(const PageView& view);
 std::string replay_command(const PageScene& scene, const std::string& options, const PagePicture& picture);
 
 // The sections.

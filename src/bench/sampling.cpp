@@ -60,13 +60,11 @@ ShapeOptions graded() {
     return options;
 }
 
-constexpr double strays = 0.02;
-
-// As many points on the surface as `even()`, half a spacing off it, and 2 % strays beside them.
-ShapeOptions noisy() {
+// As many points on the surface as `even()`, so many spacings off it, and strays beside them.
+ShapeOptions rough(double noise, double strays) {
     ShapeOptions options = even();
     options.points = static_cast<std::size_t>(std::ceil(made_points / (1 - strays)));
-    options.noise = 0.5;
+    options.noise = noise;
     options.outliers = strays;
     return options;
 }
@@ -117,11 +115,14 @@ std::vector<Pair> all_pairs(const DataFolders& survey, Workers& workers, Progres
     }
     const std::pair<const char*, const char*> shapes[] = {{"made-cylinder", "tube, bent 120°"},
                                                           {"made-bar", "bar, twisted 135°"}};
-    for (const auto& [name, words] : shapes) {
-        pairs.push_back({words, "another seed", task(name, even(2)), task(name, even()), made_points});
-        pairs.push_back({words, "1 : 20 denser", task(name, graded()), task(name, even()), made_points});
-        pairs.push_back({words, "noise ½, 2 % strays", task(name, noisy()), task(name, even()), made_points});
-    }
+    const std::pair<const char*, ShapeOptions> samplings[] = {{"another seed", even(2)},
+                                                              {"1 : 20 denser", graded()},
+                                                              {"noise of ½ spacing", rough(0.5, 0)},
+                                                              {"2 % strays", rough(0, 0.02)},
+                                                              {"noise and strays", rough(0.5, 0.02)}};
+    for (const auto& [name, words] : shapes)
+        for (const auto& [sampling, options] : samplings)
+            pairs.push_back({words, sampling, task(name, options), task(name, even()), made_points});
     return pairs;
 }
 

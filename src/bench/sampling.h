@@ -30,8 +30,8 @@ struct SamplingResult {
 };
 
 // All pairs: even twins with another seed (what is left between them is the yardstick), rings (with the
-// survey's cylinder, where its folder is at hand), densities of 1 : 20, noise and strays; each with every
-// point a sample and with 1000.
+// survey's cylinder, where its folder is at hand), densities of 1 : 20, noise, strays, and both; each
+// with every point a sample and with 1000.
 std::vector<SamplingResult> evaluate_sampling(const DataFolders& survey, Workers& workers,
                                               Upsampler& upsampler, Progress& progress);
 

@@ -107,7 +107,7 @@ TEST(PageScenes, LeaveASessionThatReplays) {
     EXPECT_TRUE(document->is_posed());
     const PagePicture picture = draw_scene(studio, scene, "x", shape_of(studio, *document));
     EXPECT_EQ(replay_command(scene, "--samples 50", picture),
-              "knead replay bar.knead --samples 50 --picture bar-x.png");
+              "knead replay bar.knead --samples 50 --view 0,0 --picture bar-x.png");
     EXPECT_EQ(studio.files, (std::vector<std::string>{"bar.knead", "bar.ply", "bar-x.png"}));
     for (const std::string& name : studio.files) EXPECT_GT(fs::file_size(folder / name), 100U) << name;
     const Session session = read_session(folder / "bar.knead");

@@ -128,7 +128,8 @@ PageRow row_of(PageStudio& studio, const Close& close, PointCloud cloud,
         HandleMotion{}, motion_of(task.pose, task.pivot, task.cloud.origin, Quatd::Identity())};
     SampleState state = pipeline.rest_state();
     pipeline.follow_handles(motions, state);
-    for (unsigned i = 0; i < iterations; ++i) pipeline.iterate(motions, state);
+    Acceleration acceleration;
+    for (unsigned i = 0; i < iterations; ++i) pipeline.iterate(motions, state, acceleration);
     pipeline.upsample(motions, state);
 
     PageShape shape{&pipeline.order(),

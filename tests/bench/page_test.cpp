@@ -76,7 +76,8 @@ TEST(AirNeighbors, CountOnlyWhereThePathsDiffer) {
 
     motions[1] = motion_of(bent_by(ends, 30), ends.pivot, cloud.origin, Quatd::Identity());
     pipeline.follow_handles(motions, state);
-    for (int i = 0; i < 30; ++i) pipeline.iterate(motions, state);
+    Acceleration acceleration;
+    for (int i = 0; i < 30; ++i) pipeline.iterate(motions, state, acceleration);
     pipeline.upsample(motions, state);
     const std::vector<float> air = posed_through_the_air(pipeline, motions, state, workers);
     // A bar comes near itself nowhere, so both ways of telling neighbours agree but for their distances.

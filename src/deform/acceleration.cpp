@@ -14,6 +14,10 @@ constexpr double regularization = 1e-10;
 
 constexpr double too_much_worse = 4; // of the squared residual
 
+// Those who remember no more than so much step no farther than so many times their residual.
+constexpr std::size_t knows_little = 2;
+constexpr double careful_step = 1.5;
+
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Acceleration::most_remembered,
                             Acceleration::most_remembered>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Acceleration::most_remembered, 1>;
@@ -95,13 +99,17 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
 
     const SmallVector combination = best_combination(memory, memory.residual);
     const std::size_t size = memory.result.size();
-    for (std::size_t row = 0; row < system.moving_rows; ++row) {
-        Vec3d place(memory.result[3 * row], memory.result[3 * row + 1], memory.result[3 * row + 2]);
-        for (std::size_t k = 0; k < memory.remembered; ++k)
-            place -= combination[static_cast<Eigen::Index>(k)] *
-                     Eigen::Map<const Vec3d>(memory.result_steps.data() + k * size + 3 * row);
-        state.displacement[system.free_sample[row]] = place;
-    }
+    Eigen::Map<Eigen::VectorXd> step(memory.now.data(), static_cast<Eigen::Index>(size)); // ΔG γ
+    step.setZero();
+    for (std::size_t k = 0; k < memory.remembered; ++k)
+        step += combination[static_cast<Eigen::Index>(k)] * as_vector(column(memory.result_steps, k, size));
+    const double longest = careful_step * as_vector(memory.residual).norm();
+    const double share =
+        memory.remembered <= knows_little && step.norm() > longest ? longest / step.norm() : 1;
+    for (std::size_t row = 0; row < system.moving_rows; ++row)
+        state.displacement[system.free_sample[row]] =
+            Eigen::Map<const Vec3d>(memory.result.data() + 3 * row) -
+            share * Eigen::Map<const Vec3d>(memory.now.data() + 3 * row);
     return way;
 }
 

@@ -67,6 +67,13 @@ void LivePublisher::strays(const Pipeline::Strays& strays) {
     told_of_strays_ = words;
 }
 
+void LivePublisher::strain(double strain) {
+    std::string words = words_about_strain(strain);
+    if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+    if (!words.empty() && told_of_strain_.empty()) say(Notice::Kind::information, words + ".");
+    told_of_strain_ = words;
+}
+
 void LivePublisher::note_spacings(const Pipeline& pipeline) {
     if (!pipeline.shared_graph() || pipeline.shared_graph() == graph_seen_) return;
     graph_seen_ = pipeline.shared_graph();

@@ -10,6 +10,7 @@
 #include "graph/octree.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 
 namespace knead {
@@ -379,6 +380,15 @@ std::string words_about(const Pipeline::Strays& strays) {
         break;
     }
     return words;
+}
+
+std::string words_about_strain(double strain) {
+    constexpr double plausible = 2.5;
+    if (!(strain > plausible)) return {};
+    char factor[32];
+    std::snprintf(factor, sizeof factor, "%.1f", strain);
+    return std::string("the handles pull the cloud to ") + factor +
+           " times its length; what lies between them is shared out as evenly as can be";
 }
 
 } // namespace knead

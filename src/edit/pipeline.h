@@ -22,6 +22,7 @@
 #include "base/progress.h"
 #include "deform/acceleration.h"
 #include "deform/sample_system.h"
+#include "deform/strain.h"
 #include "edit/carried_parts.h"
 #include "edit/falloffs.h"
 #include "edit/handles.h"
@@ -87,6 +88,9 @@ public:
     // One iteration; returns the longest way that a sample would have gone in a plain one. `acceleration`
     // goes with iterations at unchanging motions.
     double iterate(const std::vector<HandleMotion>& motions, SampleState& state, Acceleration& acceleration);
+
+    // How far the shape is pulled out of its proportions (deform/strain.h).
+    double strain(const SampleState& state) const { return strain_of(system_, state); }
 
     // Every point's position and normal for a state of the samples, into buffers that the pipeline keeps.
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
@@ -181,5 +185,8 @@ private:
 
 // What the user should hear about parts that hold no handle; empty when there are none.
 std::string words_about(const Pipeline::Strays& strays);
+
+// What the user should hear about handles that ask for more than a shape can give; empty as long as it can.
+std::string words_about_strain(double strain);
 
 } // namespace knead

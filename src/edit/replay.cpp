@@ -184,6 +184,8 @@ private:
     void finish_edit(Document& document, std::size_t after_line) {
         if (options_.rehearse) return;
         report_.handle_error = std::max(report_.handle_error, document.handle_error(progress_));
+        if (const std::string words = words_about_strain(document.strain(progress_)); !words.empty())
+            add_warning(words);
         if (!options_.record_checks || checked_) return;
         checked_ = true;
         recorded_.push_back({after_line, recorded_name(recorded_.size() + 1), document.positions(progress_),

@@ -25,9 +25,9 @@ std::vector<float> in_file_coordinates(const PointCloud& cloud, std::vector<floa
     return positions;
 }
 
-Field settled_field(const DeformationTask& task, const std::optional<std::uint64_t>& samples,
-                    Workers& workers, Upsampler& upsampler, Progress& progress) {
-    const auto document = open_task(task, with_samples(samples), workers, upsampler);
+Field settled_field(const DeformationTask& task, const Settings& settings, Workers& workers,
+                    Upsampler& upsampler, Progress& progress) {
+    const auto document = open_task(task, settings, workers, upsampler);
     document->drag(whole_motion(task), task.name, progress);
     Field field;
     field.at_rest = settle(*document, settle_limit, progress).at_rest;
@@ -42,6 +42,7 @@ struct Pair {
     std::string shape, sampling;
     DeformationTask task, twin;
     std::size_t counted = 0;
+    Strays strays = Strays::freeze; // of the cloud; its twin has none
 };
 
 constexpr std::size_t made_points = 10'000;
@@ -115,14 +116,21 @@ std::vector<Pair> all_pairs(const DataFolders& survey, Workers& workers, Progres
     }
     const std::pair<const char*, const char*> shapes[] = {{"made-cylinder", "tube, bent 120°"},
                                                           {"made-bar", "bar, twisted 135°"}};
-    const std::pair<const char*, ShapeOptions> samplings[] = {{"another seed", even(2)},
-                                                              {"1 : 20 denser", graded()},
-                                                              {"noise of ½ spacing", rough(0.5, 0)},
-                                                              {"2 % strays", rough(0, 0.02)},
-                                                              {"noise and strays", rough(0.5, 0.02)}};
+    const struct {
+        const char* words;
+        ShapeOptions options;
+        Strays strays = Strays::freeze;
+    } samplings[] = {{"another seed", even(2)},
+                     {"1 : 20 denser", graded()},
+                     {"noise of ½ spacing", rough(0.5, 0)},
+                     {"2 % strays", rough(0, 0.02)},
+                     {"2 % strays, bridged", rough(0, 0.02), Strays::bridge},
+                     {"noise and strays", rough(0.5, 0.02)},
+                     {"both, bridged", rough(0.5, 0.02), Strays::bridge}};
     for (const auto& [name, words] : shapes)
-        for (const auto& [sampling, options] : samplings)
-            pairs.push_back({words, sampling, task(name, options), task(name, even()), made_points});
+        for (const auto& each : samplings)
+            pairs.push_back(
+                {words, each.words, task(name, each.options), task(name, even()), made_points, each.strays});
     return pairs;
 }
 
@@ -130,9 +138,11 @@ std::vector<Pair> all_pairs(const DataFolders& survey, Workers& workers, Progres
 
 SamplingResult compare_samplings(const DeformationTask& task, std::size_t counted,
                                  const DeformationTask& twin, const std::optional<std::uint64_t>& samples,
-                                 Workers& workers, Upsampler& upsampler, Progress& progress) {
-    const Field a = settled_field(task, samples, workers, upsampler, progress);
-    const Field b = settled_field(twin, samples, workers, upsampler, progress);
+                                 Strays strays, Workers& workers, Upsampler& upsampler, Progress& progress) {
+    Settings settings = with_samples(samples);
+    const Field b = settled_field(twin, settings, workers, upsampler, progress);
+    settings.strays = strays;
+    const Field a = settled_field(task, settings, workers, upsampler, progress);
     SamplingResult result;
     result.points = task.cloud.size();
     result.twin_points = twin.cloud.size();
@@ -149,8 +159,8 @@ std::vector<SamplingResult> evaluate_sampling(const DataFolders& survey, Workers
     std::vector<SamplingResult> results;
     for (const Pair& pair : all_pairs(survey, workers, progress))
         for (const std::optional<std::uint64_t> samples : {std::optional<std::uint64_t>{}, {1000U}}) {
-            results.push_back(
-                compare_samplings(pair.task, pair.counted, pair.twin, samples, workers, upsampler, progress));
+            results.push_back(compare_samplings(pair.task, pair.counted, pair.twin, samples, pair.strays,
+                                                workers, upsampler, progress));
             results.back().shape = pair.shape;
             results.back().sampling = pair.sampling;
         }

@@ -35,10 +35,10 @@ struct SamplingResult {
 std::vector<SamplingResult> evaluate_sampling(const DataFolders& survey, Workers& workers,
                                               Upsampler& upsampler, Progress& progress);
 
-// One pair. `counted`: how many of the first cloud's points are no strays; they come first. Both tasks have
-// the same motion.
+// One pair. `counted`: how many of the first cloud's points are no strays; they come first. `strays`: what
+// becomes of them. Both tasks have the same motion.
 SamplingResult compare_samplings(const DeformationTask& task, std::size_t counted,
                                  const DeformationTask& twin, const std::optional<std::uint64_t>& samples,
-                                 Workers& workers, Upsampler& upsampler, Progress& progress);
+                                 Strays strays, Workers& workers, Upsampler& upsampler, Progress& progress);
 
 } // namespace knead

@@ -197,7 +197,10 @@ void handle_row(const Ui& ui, const Handle& handle, std::size_t number) {
         ImGui::OpenPopup("menu");
     if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) ImGui::OpenPopup("menu");
     if (ImGui::BeginPopup("menu")) {
+        // The rows of the list stand close; those of a menu do not.
+        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, ui.scaled(8)});
         handle_menu(ui, handle);
+        ImGui::PopStyleVar();
         ImGui::EndPopup();
     }
     if (ui.state.recoloring == handle.name) {

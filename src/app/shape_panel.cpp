@@ -151,7 +151,7 @@ constexpr StraysWords strays_words[] = {
 };
 
 void strays_choice(const Ui& ui, const Settings& settings) {
-    inline_caption("Loose parts", ui.scaled(92));
+    inline_caption("Strays", ui.scaled(92));
     const auto* const chosen = std::ranges::find(strays_words, settings.strays, &StraysWords::strays);
     ImGui::SetNextItemWidth(-FLT_MIN);
     const bool open = ImGui::BeginCombo("##strays", chosen->name);

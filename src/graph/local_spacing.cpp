@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::size_t nearest = 5;
 constexpr float most_over_neighbors = 2;
+constexpr double nearly_all = 0.95; // of the vertices
+constexpr float most_over_nearly_all = 1.25F;
 constexpr std::size_t most_looked_at = 64; // links of a vertex; nearly all have fewer
 
 // The value of that rank among those of a row.
@@ -21,6 +23,15 @@ float value_of_rank(std::span<const Index> row, std::size_t rank, ValueOf&& valu
     const auto found = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, count - 1));
     std::nth_element(values.begin(), found, values.begin() + static_cast<std::ptrdiff_t>(count));
     return *found;
+}
+
+void limit_to_nearly_all(std::vector<float>& spacings) {
+    if (spacings.empty()) return;
+    std::vector<float> sorted = spacings;
+    const auto found =
+        sorted.begin() + static_cast<std::ptrdiff_t>(nearly_all * static_cast<double>(sorted.size() - 1));
+    std::nth_element(sorted.begin(), found, sorted.end());
+    for (float& spacing : spacings) spacing = std::min(spacing, most_over_nearly_all * *found);
 }
 
 } // namespace
@@ -37,6 +48,7 @@ std::vector<float> local_spacing(const Graph& graph, std::span<const float> posi
         const float around = value_of_rank(row, row.size() / 2, [&](Index u) { return alone[u]; });
         result[v] = std::min(alone[v], most_over_neighbors * around);
     });
+    limit_to_nearly_all(result);
     return result;
 }
 

@@ -11,7 +11,8 @@ namespace knead {
 
 // Of every vertex, the distance to its fifth nearest neighbour (the farthest, where it has fewer; 0: it has
 // none), but hardly more than where its neighbours lie: a stray point has a dense surface for its neighbours,
-// and is not one of a sparse one. `positions`: 3 floats a vertex.
+// and is not one of a sparse one. Nor is it more than a quarter above what 95 % of the vertices have: strays
+// may have each other for neighbours. `positions`: 3 floats a vertex.
 std::vector<float> local_spacing(const Graph& graph, std::span<const float> positions, Workers& workers);
 
 } // namespace knead

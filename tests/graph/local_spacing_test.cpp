@@ -23,7 +23,7 @@ std::vector<float> spacing_of(const std::vector<float>& positions) {
     return local_spacing(neighbor_graph(positions, 6, workers, progress), positions, workers);
 }
 
-TEST(LocalSpacing, follows_the_density) {
+TEST(LocalSpacing, FollowsTheDensity) {
     std::vector<float> positions;
     add_square(positions, 0, 1);
     add_square(positions, 1000, 4);
@@ -33,7 +33,7 @@ TEST(LocalSpacing, follows_the_density) {
     EXPECT_NEAR(spacing[400 + 10 * 20 + 10], 4 * std::sqrt(2.0), 1e-3);
 }
 
-TEST(LocalSpacing, a_stray_point_is_no_sparse_surface) {
+TEST(LocalSpacing, OfAStrayPointIsNotThatOfASparseSurface) {
     std::vector<float> positions;
     add_square(positions, 0, 1);
     positions.insert(positions.end(), {10, 10, 30});
@@ -42,7 +42,16 @@ TEST(LocalSpacing, a_stray_point_is_no_sparse_surface) {
     for (std::size_t v = 0; v < 400; ++v) EXPECT_LT(spacing[v], 3) << v; // its links back change nothing
 }
 
-TEST(LocalSpacing, a_point_alone_has_none) {
+TEST(LocalSpacing, OfStraysAmongThemselvesIsLittleMoreThanElsewhere) {
+    std::vector<float> positions;
+    add_square(positions, 0, 1);
+    for (int i = 0; i < 10; ++i)
+        positions.insert(positions.end(), {1000 + 50 * static_cast<float>(i), 0, static_cast<float>(i * i)});
+    const std::vector<float> spacing = spacing_of(positions);
+    for (std::size_t v = 400; v < spacing.size(); ++v) EXPECT_LT(spacing[v], 4) << v;
+}
+
+TEST(LocalSpacing, IsNothingForAPointAlone) {
     EXPECT_EQ(spacing_of({0, 0, 0}), std::vector{0.0f});
     EXPECT_TRUE(spacing_of({}).empty());
 }

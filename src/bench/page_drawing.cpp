@@ -4,6 +4,7 @@
 
 #ifdef KNEAD_HAS_EDITOR
 
+#include "graph/local_spacing.h"
 #include "graph/shading_normals.h"
 #include "render/png.h"
 #include "view/coloring.h"
@@ -77,6 +78,7 @@ PageDrawer::~PageDrawer() = default;
 void PageDrawer::draw(const std::filesystem::path& file, const PageShape& shape, const PageView& view) {
     State& s = *state_;
     s.renderer.set_points(shape.positions.size() / 3, usual_spacing(shape.opened));
+    s.renderer.set_spacings(spacing_of_points(*shape.order, *shape.graph, shape.opened, s.workers));
     s.renderer.set_positions(shape.positions);
     if (!shape.solid) {
         const std::vector<float> vertices = vertex_positions(*shape.order, shape.positions, s.workers);

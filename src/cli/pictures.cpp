@@ -5,6 +5,7 @@
 
 #ifdef KNEAD_HAS_EDITOR
 
+#include "graph/local_spacing.h"
 #include "graph/neighbors.h"
 #include "graph/shading_normals.h"
 #include "render/png.h"
@@ -13,7 +14,7 @@
 namespace knead {
 
 namespace {
-constexpr std::size_t neighbors = 8; // that a normal is estimated from
+constexpr std::size_t neighbors = 8; // that a normal is estimated from, and how far apart points lie
 }
 
 struct PictureMaker::State {
@@ -26,7 +27,7 @@ struct PictureMaker::State {
     HeadlessContext context;
     PointRenderer renderer;
     std::optional<Camera> camera; // since the first shape
-    Graph graph;                  // of a cloud without normals
+    Graph graph;
     std::vector<float> unit_normals, displacement;
     std::vector<std::uint32_t> colors;
     Picture picture;
@@ -55,11 +56,15 @@ struct PictureMaker::State {
     void take_colors(const PictureShape& shape);
 };
 
-// The camera, and what stays the same from picture to picture.
+// The camera, and what stays the same from picture to picture. Neighbours are those of the shape as opened,
+// so that what only touches when posed stays apart.
 void PictureMaker::State::begin(const PictureShape& shape) {
     camera = camera_for(options, shape.positions, viewport);
     camera->distance *= room;
+    SilentProgress quiet;
+    graph = neighbor_graph(vertex_positions(shape.order, shape.opened, workers), neighbors, workers, quiet);
     renderer.set_points(shape.positions.size() / 3, usual_spacing(shape.opened));
+    renderer.set_spacings(spacing_of_points(shape.order, graph, shape.opened, workers));
 }
 
 void PictureMaker::State::take_normals(const PictureShape& shape) {
@@ -77,13 +82,7 @@ void PictureMaker::State::take_normals(const PictureShape& shape) {
     renderer.set_normals(unit_normals);
 }
 
-// Neighbours are those of the shape as opened, so that what only touches when posed stays apart.
 void PictureMaker::State::estimate_normals(const PictureShape& shape) {
-    if (graph.size() == 0) {
-        SilentProgress quiet;
-        graph =
-            neighbor_graph(vertex_positions(shape.order, shape.opened, workers), neighbors, workers, quiet);
-    }
     const std::vector<float> vertices = vertex_positions(shape.order, shape.positions, workers);
     unit_normals = spread_to_points(shading_normals(graph, vertices, workers), shape.order.vertex);
 }

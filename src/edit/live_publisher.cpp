@@ -3,6 +3,7 @@
 #include "graph/local_spacing.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace knead {
 
@@ -77,12 +78,8 @@ void LivePublisher::strain(double strain) {
 void LivePublisher::note_spacings(const Pipeline& pipeline) {
     if (!pipeline.shared_graph() || pipeline.shared_graph() == graph_seen_) return;
     graph_seen_ = pipeline.shared_graph();
-    const PointOrder& order = pipeline.order();
-    const std::vector<float> places = vertex_positions(order, pipeline.opened().positions, workers_);
-    const std::vector<float> of_vertices = local_spacing(*graph_seen_, places, workers_);
-    std::vector<float> spacings(order.points());
-    for (std::size_t i = 0; i < spacings.size(); ++i) spacings[i] = of_vertices[order.vertex[i]];
-    spacings_ = std::make_shared<const std::vector<float>>(std::move(spacings));
+    spacings_ = std::make_shared<const std::vector<float>>(
+        spacing_of_points(pipeline.order(), *graph_seen_, pipeline.opened().positions, workers_));
 }
 
 void LivePublisher::note_samples(const Pipeline& pipeline) {

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t nearest = 5;
 constexpr float most_over_neighbors = 2;
 constexpr double nearly_all = 0.95; // of the vertices
-constexpr float most_over_nearly_all = 1.25F;
+constexpr float most_over_nearly_all = 2;
 constexpr std::size_t most_looked_at = 64; // links of a vertex; nearly all have fewer
 
 // The value of that rank among those of a row.
@@ -50,6 +50,15 @@ std::vector<float> local_spacing(const Graph& graph, std::span<const float> posi
     });
     limit_to_nearly_all(result);
     return result;
+}
+
+std::vector<float> spacing_of_points(const PointOrder& order, const Graph& graph,
+                                     std::span<const float> positions, Workers& workers) {
+    const std::vector<float> of_vertices =
+        local_spacing(graph, vertex_positions(order, positions, workers), workers);
+    std::vector<float> spacings(order.points());
+    for (std::size_t i = 0; i < spacings.size(); ++i) spacings[i] = of_vertices[order.vertex[i]];
+    return spacings;
 }
 
 } // namespace knead

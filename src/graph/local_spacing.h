@@ -3,6 +3,7 @@
 
 #include "base/workers.h"
 #include "graph/csr.h"
+#include "graph/point_order.h"
 
 #include <span>
 #include <vector>
@@ -11,8 +12,12 @@ namespace knead {
 
 // Of every vertex, the distance to its fifth nearest neighbour (the farthest, where it has fewer; 0: it has
 // none), but hardly more than where its neighbours lie: a stray point has a dense surface for its neighbours,
-// and is not one of a sparse one. Nor is it more than a quarter above what 95 % of the vertices have: strays
+// and is not one of a sparse one. Nor is it more than twice what 95 % of the vertices have at most: strays
 // may have each other for neighbours. `positions`: 3 floats a vertex.
 std::vector<float> local_spacing(const Graph& graph, std::span<const float> positions, Workers& workers);
+
+// The same of every ordered point: that of its vertex. `positions`: 3 floats a point.
+std::vector<float> spacing_of_points(const PointOrder& order, const Graph& graph,
+                                     std::span<const float> positions, Workers& workers);
 
 } // namespace knead

@@ -35,8 +35,8 @@ void forget(Acceleration& acceleration);
 // G depends on the displacements alone, as rotations follow from them. As long as no more than two
 // differences are known, ΔG γ is held to 1.5 |f|: the few iterations of a drag's frame know too little of a
 // shape that is twisted so far that it might buckle. Where an iteration has more than twice the residual of
-// the one before, everything is forgotten, and its own result stands. Allocates in its first iteration only.
-// Returns the longest way of a sample from u to G(u).
+// the one before, everything is forgotten, and its own result stands. Allocates in its first two iterations
+// only. Returns the longest way of a sample from u to G(u).
 double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
                Acceleration& acceleration, Workers& workers);
 

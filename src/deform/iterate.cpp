@@ -77,8 +77,7 @@ void turn_with_handles(SampleSystem& system, std::span<const HandleMotion> handl
     assemble_rotations(
         system, 1.0, [](std::size_t) -> Eigen::Vector4d { return Eigen::Vector4d::Zero(); }, increment,
         workers);
-    const bool more = system.free_sample.size() > system.moving_rows;
-    (more ? system.increments : system.positions).solve(system.columns, 4);
+    (system.has_increments ? system.increments : system.positions).solve(system.columns, 4);
     for_solved_rotations(
         system,
         [&](Index s, const Quatd& turn) { state.rotation[s] = (turn * state.rotation[s]).normalized(); },

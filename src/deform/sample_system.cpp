@@ -37,7 +37,9 @@ void number_unknowns(SampleSystem& system) {
         if (handle[s] == no_index && !system.left_out[s]) number(s);
     system.moving_rows = system.free_sample.size();
     for (Index s = 0; s < handle.size(); ++s)
-        if (handle[s] != no_index && turns_freely(system.rest, handle[s])) number(s);
+        if (handle[s] != no_index && turns_freely(system.rest, handle[s]) &&
+            !system.rest.graph.row(s).empty()) // one without links has nothing to turn it
+            number(s);
 }
 
 // ℓ²: the mean square length of the links at the unknown samples.
@@ -171,11 +173,12 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     const SparseMatrix of_moving = laplacian(system, system.moving_rows);
     const std::vector<int> moving_order = minimum_degree_order(of_moving);
     const bool more = rows > system.moving_rows;
+    system.has_increments = more || !system.pull.empty();
     const SparseMatrix of_all = more ? laplacian(system, rows) : of_moving;
     const std::vector<int> order = more ? minimum_degree_order(of_all) : moving_order;
     // None knows of the others; SuperLU keeps no state between its calls.
     std::array<FactorOutcome, 3> outcomes;
-    workers.for_each(more ? 3 : 2, 1, [&](std::size_t which) {
+    workers.for_each(system.has_increments ? 3 : 2, 1, [&](std::size_t which) {
         if (which == 0)
             outcomes[0] = system.positions.factorize(position_matrix(system, of_moving), moving_order);
         else if (which == 1)
@@ -183,7 +186,7 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
         else
             outcomes[2] = system.increments.factorize(increment_matrix(of_all), order);
     });
-    for (std::size_t which = 0; which < (more ? 3U : 2U); ++which)
+    for (std::size_t which = 0; which < (system.has_increments ? 3U : 2U); ++which)
         if (!outcomes[which].solved) return outcomes[which];
     return outcomes[0];
 }

@@ -80,8 +80,9 @@ struct SampleSystem {
     std::vector<double> confidence; // C, of each row
     SparseFactor rotations;         // β/ℓ² L + C
     SparseFactor positions;         // L + μ, of the moving rows
-    SparseFactor increments;        // L of all rows, where they are more than the moving ones
-    std::vector<double> pull;       // Σ μ of each moving row; empty where nothing is pulled
+    SparseFactor increments;        // L of all rows, where that is not what `positions` holds
+    bool has_increments = false;
+    std::vector<double> pull; // Σ μ of each moving row; empty where nothing is pulled
 
     std::vector<Surroundings> surroundings; // of each row
 

@@ -10,7 +10,7 @@ namespace knead {
 namespace {
 
 constexpr double strength = 4;
-constexpr double nearest = 0.02; // where the pull stops growing
+constexpr double nearest = 0.0012; // of the cloud's size: nearer than this the pull does not grow any more
 
 Vec3d at(std::span<const float> positions, std::size_t i) {
     return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
@@ -79,9 +79,9 @@ std::vector<SoftHold> soft_holds(const std::vector<Handle>& handles, std::span<c
     const std::vector<Vec3d> middle = middles_of_handles(rest, handles.size());
     std::vector<SoftHold> holds;
     for (const Pulled& each : pulled) {
-        const double shape = (1 - each.way) / std::max(each.way, nearest);
-        const double weight =
-            strength * shape * shape * spread_at(rest, each.sample) / (each.falloff * each.falloff);
+        const double distance = std::max(each.way * each.falloff, nearest * rest.cloud_size);
+        const double share = (1 - each.way) / distance;
+        const double weight = strength * share * share * spread_at(rest, each.sample);
         const Vec3d anchor =
             handles[each.handle].free_rotation ? middle[each.handle] : rest.position[each.sample];
         if (weight > 0) holds.push_back({each.sample, each.handle, weight, anchor});

@@ -27,9 +27,10 @@ std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span
 
 // How strongly, with the samples' graph, weights and rest positions in `rest`. The pull is that of a bed of
 // springs whose stiffness over that of the surface is the inverse of a length squared: it looks alike for any
-// number of samples. Near the handle it grows beyond bounds, at the falloff's end it vanishes smoothly:
+// number of samples. It is the stronger the nearer the handle is, down to 0.12 % of the cloud's size, and
+// vanishes smoothly at the falloff's end:
 //
-//     μ_i = 4 ((1 - t)/t)² Σ_j w_ij |e_ij|² / falloff²,  t = way.
+//     μ_i = 4 ((1 - t)/d)² Σ_j w_ij |e_ij|²,  d = the distance, t = d / falloff.
 std::vector<SoftHold> soft_holds(const std::vector<Handle>& handles, std::span<const Pulled> pulled,
                                  const SampleRest& rest);
 

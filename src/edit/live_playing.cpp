@@ -68,7 +68,7 @@ void LiveWork::play_on() {
             finish_playing_act();
     } catch (const Cancelled&) {
         throw;
-    } catch (const Error&) {
+    } catch (...) {
         finish_playing(); // whatever cannot be shown can be redone
         throw;
     }

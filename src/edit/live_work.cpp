@@ -109,12 +109,10 @@ bool LiveWork::turn() {
     if (!more) return false;
     if (task && drag_ && !ends_drag(*task))
         after_drag_.push_back(std::move(*task)); // acts do not come in between
-    else if (task)
-        guarded([&] {
-            finish_playing();
-            std::visit([&](auto& t) { carry_out(t); }, *task);
-        });
-    else
+    else if (task) {
+        guarded([&] { finish_playing(); });
+        guarded([&] { std::visit([&](auto& t) { carry_out(t); }, *task); });
+    } else
         guarded([&] { go_on(); });
     rest_if_idle();
     return true;

@@ -275,6 +275,7 @@ void Pipeline::prepare_carried(std::span<const Index> row_of_label) {
     for (Index v = 0; v < row_of_vertex.size(); ++v)
         row_of_vertex[v] = labels_.vertex[v] == no_index ? v : row_of_label[labels_.vertex[v]];
     carried_ = carried_parts(contacts_, rows_, row_of_vertex);
+    if (carried_.size() == 0) strays_.fate = knead::Strays::freeze; // there is nothing to carry them
     const auto first = static_cast<Index>(samples_.size() + labels_.outside + 1);
     for (Index part = 0; part < carried_.size(); ++part) append_single(rows_, first + part);
 }

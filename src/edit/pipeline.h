@@ -81,8 +81,8 @@ public:
     // All samples at rest.
     SampleState rest_state() const { return knead::rest_state(system_); }
 
-    // The start of every frame: hands the handles' turns since the last one on to the samples; where all
-    // handles are back at rest, so are the samples. `motions`: one a handle.
+    // The start of every frame: hands the handles' turns since the last one on to the samples.
+    // `motions`: one a handle.
     void follow_handles(const std::vector<HandleMotion>& motions, SampleState& state);
 
     // One iteration; returns the longest way that a sample would have gone in a plain one. `acceleration`
@@ -111,7 +111,7 @@ public:
     const RestShape& opened() const { return opened_; } // the shape in the file
     double cloud_size() const { return cloud_size_; }
 
-    // Parts of the cloud that hold no handle, which stay where they are.
+    // Parts of the cloud that hold no handle, and what becomes of them.
     struct Strays {
         std::size_t parts = 0;
         std::size_t points = 0;

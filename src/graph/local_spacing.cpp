@@ -13,16 +13,31 @@ constexpr double nearly_all = 0.95; // of the vertices
 constexpr float most_over_nearly_all = 2;
 constexpr std::size_t most_looked_at = 64; // links of a vertex; nearly all have fewer
 
-// The value of that rank among those of a row.
+// The fifth smallest of a row's values; the largest, where there are fewer.
 template<typename ValueOf>
-float value_of_rank(std::span<const Index> row, std::size_t rank, ValueOf&& value_of) {
+float fifth_of(std::span<const Index> row, ValueOf&& value_of) {
+    std::array<float, nearest> smallest;
+    std::size_t count = 0;
+    for (const Index u : row) {
+        const float value = value_of(u);
+        if (count == nearest && !(value < smallest[nearest - 1])) continue;
+        std::size_t at = count < nearest ? count++ : nearest - 1;
+        for (; at > 0 && smallest[at - 1] > value; --at) smallest[at] = smallest[at - 1];
+        smallest[at] = value;
+    }
+    return count > 0 ? smallest[count - 1] : 0;
+}
+
+// The median of a row's values, or of as many, evenly taken, as fit.
+template<typename ValueOf>
+float median_of(std::span<const Index> row, ValueOf&& value_of) {
     std::array<float, most_looked_at> values;
     const std::size_t count = std::min(row.size(), most_looked_at);
     if (count == 0) return 0;
-    for (std::size_t i = 0; i < count; ++i) values[i] = value_of(row[i]);
-    const auto found = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, count - 1));
-    std::nth_element(values.begin(), found, values.begin() + static_cast<std::ptrdiff_t>(count));
-    return *found;
+    for (std::size_t i = 0; i < count; ++i) values[i] = value_of(row[i * row.size() / count]);
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
+    return *middle;
 }
 
 void limit_to_nearly_all(std::vector<float>& spacings) {
@@ -40,12 +55,10 @@ std::vector<float> local_spacing(const Graph& graph, std::span<const float> posi
     const auto place = [&](std::size_t v) { return Eigen::Map<const Vec3f>(positions.data() + 3 * v); };
     std::vector<float> alone(graph.size()), result(graph.size());
     workers.for_each(graph.size(), 4096, [&](std::size_t v) {
-        alone[v] =
-            value_of_rank(graph.row(v), nearest - 1, [&](Index u) { return (place(u) - place(v)).norm(); });
+        alone[v] = fifth_of(graph.row(v), [&](Index u) { return (place(u) - place(v)).norm(); });
     });
     workers.for_each(graph.size(), 4096, [&](std::size_t v) {
-        const auto row = graph.row(v);
-        const float around = value_of_rank(row, row.size() / 2, [&](Index u) { return alone[u]; });
+        const float around = median_of(graph.row(v), [&](Index u) { return alone[u]; });
         result[v] = std::min(alone[v], most_over_neighbors * around);
     });
     limit_to_nearly_all(result);

@@ -58,6 +58,43 @@ TEST(FreeRotation, OfAllHandlesStillHasOneAnswer) {
     }
 }
 
+TEST(FreeRotation, OfASampleWithoutLinksIsNoSingularSystem) {
+    SampleRest rest = test::bar(800);
+    const auto samples = static_cast<Index>(rest.handle.size());
+    rest.graph.first.push_back(rest.graph.first.back()); // one more, alone
+    rest.position.emplace_back(9, 9, 9);
+    rest.handle.push_back(1);
+    rest.turns_freely = {false, true};
+    SampleSystem system;
+    ASSERT_TRUE(test::built(rest, system).solved);
+    const HandleMotion motion =
+        test::motion_about(Vec3d::UnitZ(), 40 * degrees, Vec3d::Zero(), Vec3d(1, 0, 0));
+    const SampleState state = settled(system, {{}, motion});
+    EXPECT_LT((posed(system, state, samples) - motion.linear * Vec3d(9, 9, 9) - motion.offset).norm(), 1e-12);
+}
+
+TEST(Pull, LetsTurnsThrough) {
+    // Equation (1) alone, with and without a pull: increments are harmonic in both.
+    SampleRest rest = test::bar(1200);
+    const std::vector<HandleMotion> handles{
+        {}, test::motion_about(Vec3d::UnitZ(), 90 * degrees, Vec3d::Zero(), Vec3d::Zero())};
+    const auto started = [&](const SampleRest& with) {
+        SampleSystem system;
+        EXPECT_TRUE(test::built(with, system).solved);
+        Workers workers(2);
+        SampleState state = rest_state(system);
+        follow_handles(system, handles, state, workers);
+        return state.rotation;
+    };
+    const auto plain = started(rest);
+    for (Index s = 0; s < rest.handle.size(); ++s)
+        if (rest.handle[s] == no_index && rest.position[s].z() > 1)
+            rest.pulled.push_back({s, 1, 10, rest.position[s]});
+    const auto pulled = started(rest);
+    for (std::size_t s = 0; s < plain.size(); ++s)
+        ASSERT_LT((plain[s].coeffs() - pulled[s].coeffs()).norm(), 1e-5); // a billionth on the diagonal
+}
+
 TEST(Pull, IsACompromiseThatTakesNoSide) {
     SampleRest rest = test::bar(800);
     Index middle = 0;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace knead {
 
@@ -19,5 +20,10 @@ using Index = std::uint32_t;
 
 // What stands where there is no index.
 inline constexpr Index no_index = ~Index{0};
+
+// The i-th of positions, or of normals, that stand three floats after three floats.
+inline Vec3d point_at(std::span<const float> positions, std::size_t i) {
+    return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
+}
 
 } // namespace knead

@@ -11,10 +11,6 @@ namespace knead {
 
 namespace {
 
-Vec3d at(std::span<const float> positions, std::size_t i) {
-    return {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
-}
-
 // p → p + a p + b, of one sample.
 struct AirSample {
     Vec3d rest;
@@ -32,7 +28,7 @@ std::vector<AirSample> moved_samples(const Pipeline& pipeline, const std::vector
     std::vector<AirSample> samples;
     for (std::size_t s = 0; s < pipeline.samples().size(); ++s) {
         const Index vertex = pipeline.samples()[s];
-        const Vec3d rest = at(pipeline.opened().positions, pipeline.order().first_point[vertex]);
+        const Vec3d rest = point_at(pipeline.opened().positions, pipeline.order().first_point[vertex]);
         const Index handle = pipeline.labels().vertex[vertex];
         if (handle < motions.size()) {
             samples.push_back(of_handle(rest, motions[handle]));
@@ -85,7 +81,7 @@ std::vector<float> posed_through_the_air(const Pipeline& pipeline, const std::ve
     constexpr std::size_t grain = 256;
     workers.for_each(pipeline.order().points(), grain, [&](std::size_t i) {
         if (!held[components.component[pipeline.order().vertex[i]]]) return;
-        const Vec3d p = at(pipeline.opened().positions, i);
+        const Vec3d p = point_at(pipeline.opened().positions, i);
         const Index handle = pipeline.labels().point[i];
         const Vec3d way =
             handle < motions.size() ? of_handle(p, motions[handle]).displaced(p) : displaced(p, samples);

@@ -14,10 +14,6 @@ namespace knead {
 
 namespace {
 
-Vec3d at(std::span<const float> positions, std::size_t i) {
-    return {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
-}
-
 constexpr std::size_t surroundings = 12;
 
 // The points of a cloud that are nearest to a place at rest, the nearest first.
@@ -41,7 +37,7 @@ struct Nearest {
 Nearest nearest_to(const Vec3d& place, const PosedCloud& cloud) {
     Nearest nearest;
     for (std::size_t i = 0; i < cloud.points; ++i)
-        nearest.offer(i, (at(cloud.rest, i) - place).squaredNorm());
+        nearest.offer(i, (point_at(cloud.rest, i) - place).squaredNorm());
     return nearest;
 }
 
@@ -51,16 +47,16 @@ Vec3d sent(const Vec3d& place, const PosedCloud& cloud) {
     Vec3d rest = Vec3d::Zero(), posed = Vec3d::Zero();
     const auto count = static_cast<double>(nearest.count);
     for (std::size_t k = 0; k < nearest.count; ++k) {
-        rest += at(cloud.rest, nearest.point[k]) / count;
-        posed += at(cloud.posed, nearest.point[k]) / count;
+        rest += point_at(cloud.rest, nearest.point[k]) / count;
+        posed += point_at(cloud.posed, nearest.point[k]) / count;
     }
     Mat3d moments = Mat3d::Zero();
     for (std::size_t k = 0; k < nearest.count; ++k)
-        moments += (at(cloud.posed, nearest.point[k]) - posed) *
-                   (at(cloud.rest, nearest.point[k]) - rest).transpose();
+        moments += (point_at(cloud.posed, nearest.point[k]) - posed) *
+                   (point_at(cloud.rest, nearest.point[k]) - rest).transpose();
     const Quatd turn = nearest_rotation(moments, Quatd::Identity());
     const std::size_t first = nearest.point.front();
-    return at(cloud.posed, first) + turn * (place - at(cloud.rest, first));
+    return point_at(cloud.posed, first) + turn * (place - point_at(cloud.rest, first));
 }
 
 } // namespace
@@ -89,7 +85,7 @@ Deviation field_deviation(const PosedCloud& a, const PosedCloud& b, double diago
     constexpr std::size_t grain = 64;
     std::vector<double> squares(a.points);
     workers.for_each(a.points, grain, [&](std::size_t i) {
-        squares[i] = (at(a.posed, i) - sent(at(a.rest, i), b)).squaredNorm();
+        squares[i] = (point_at(a.posed, i) - sent(point_at(a.rest, i), b)).squaredNorm();
     });
     double sum = 0, largest = 0;
     for (const double square : squares) {
@@ -118,8 +114,9 @@ double link_noise(const Pipeline& pipeline, std::span<const float> posed) {
             if (w < v || (label[v] != no_index && label[w] != no_index)) continue;
             const Index to = order.first_point[w];
             const double rest =
-                (at(pipeline.opened().positions, to) - at(pipeline.opened().positions, from)).norm();
-            const double now = (at(posed, to) - at(posed, from)).norm();
+                (point_at(pipeline.opened().positions, to) - point_at(pipeline.opened().positions, from))
+                    .norm();
+            const double now = (point_at(posed, to) - point_at(posed, from)).norm();
             // Neighbours that were pressed into one point count as a thousandth.
             const double stretch = std::log(std::max(now / rest, 1e-3));
             sum += stretch * stretch;

@@ -25,10 +25,6 @@ HandlePose rigid_pose(double diagonal) {
     return pose;
 }
 
-Vec3d at(std::span<const float> positions, std::size_t i) {
-    return {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
-}
-
 // Of each ordered point: whether its part of the cloud holds a handle.
 std::vector<bool> held_points(const Pipeline& pipeline) {
     const Components& components = pipeline.components();
@@ -47,8 +43,8 @@ double deviation_from(const HandleMotion& motion, const Pipeline& pipeline, std:
     double largest = 0;
     for (std::size_t i = 0; i < held.size(); ++i) {
         if (!held[i]) continue;
-        const Vec3d target = motion.linear * at(pipeline.opened().positions, i) + motion.offset;
-        largest = std::max(largest, (at(posed, i) - target).norm());
+        const Vec3d target = motion.linear * point_at(pipeline.opened().positions, i) + motion.offset;
+        largest = std::max(largest, (point_at(posed, i) - target).norm());
     }
     return diagonal > 0 ? largest / diagonal : largest;
 }
@@ -226,8 +222,8 @@ std::vector<double> turns_along_z(std::span<const float> rest, std::span<const f
     }
     std::vector<double> sines(slices), cosines(slices);
     for (std::size_t i = 0; i < rest.size() / 3; ++i) {
-        const Vec3d from = at(rest, i);
-        const Vec3d to = at(posed, i);
+        const Vec3d from = point_at(rest, i);
+        const Vec3d to = point_at(posed, i);
         const double place = (from.z() - lowest) / std::max(highest - lowest, 1e-300);
         const std::size_t slice =
             std::min(slices - 1, static_cast<std::size_t>(place * static_cast<double>(slices)));

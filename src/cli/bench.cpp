@@ -64,10 +64,7 @@ void add_bench(CLI::App& app, Job& job) {
                         "Rows by model or model/samples: dragon, bunny/1000 (default: all)");
     command->add_option("--repeat", arguments->repeats, "How often each cloud is set up (default: 5)")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1000}));
-    command->add_option("--threads", arguments->threads, "How many threads to use (default: one a core)")
-        ->check(CLI::Range(1U, 1024U));
-    command->add_option("--device", arguments->device,
-                        "An OpenCL device by number or name, or \"reference\"");
+    add_device_options(*command, arguments->device, arguments->threads);
     command
         ->add_option("--scans", arguments->scans,
                      "The folder of the scans (default: KNEAD_SCANS, then ../shared/scans)")

@@ -5,6 +5,7 @@
 #include "cli/terminal.h"
 
 #include <functional>
+#include <string>
 
 namespace CLI {
 class App;
@@ -14,6 +15,9 @@ namespace knead {
 
 // Does the work and returns the exit code: 0, or 4 when a check failed. All other troubles are thrown.
 using Job = std::function<int(Terminal&)>;
+
+// --device and --threads (left as they are where they are not given), of subcommands that compute.
+void add_device_options(CLI::App& command, std::string& device, unsigned& threads);
 
 void add_edit(CLI::App& app, Job& job);
 void add_replay(CLI::App& app, Job& job);

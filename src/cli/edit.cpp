@@ -70,10 +70,7 @@ void add_edit(CLI::App& app, Job& job) {
     command->add_option("--set", arguments->settings, "A setting of a cloud, key=value; may be repeated")
         ->allow_extra_args(false);
     command->add_option("--samples", arguments->samples, "Short for --set samples=N, or all");
-    command->add_option("--device", arguments->device,
-                        "An OpenCL device by number or name, or \"reference\"");
-    command->add_option("--threads", arguments->threads, "How many threads to use (default: one a core)")
-        ->check(CLI::Range(1U, 1024U));
+    add_device_options(*command, arguments->device, arguments->threads);
     command->add_option("--size", arguments->size, "Of the window, WxH (default: 1440x900)");
     command->callback([arguments, &job] {
         job = [arguments](Terminal& terminal) { return run_edit(*arguments, terminal); };

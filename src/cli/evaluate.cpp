@@ -65,10 +65,7 @@ void add_evaluate(CLI::App& app, Job& job) {
         ->add_option("--scans", arguments->scans,
                      "The folder of the scans (default: KNEAD_SCANS, then ../shared/scans)")
         ->check(CLI::ExistingDirectory);
-    command->add_option("--threads", arguments->threads, "How many threads to use (default: one a core)")
-        ->check(CLI::Range(1U, 1024U));
-    command->add_option("--device", arguments->device,
-                        "An OpenCL device by number or name, or \"reference\"");
+    add_device_options(*command, arguments->device, arguments->threads);
     command
         ->add_option(
             "--page", arguments->page,

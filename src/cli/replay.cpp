@@ -167,10 +167,7 @@ void add_replay(CLI::App& app, Job& job) {
                      "A setting, key=value, over the session's own; may be repeated")
         ->allow_extra_args(false);
     command->add_option("--samples", arguments->samples, "Short for --set samples=N, or all");
-    command->add_option("--device", arguments->device,
-                        "An OpenCL device by number or name, or \"reference\"");
-    command->add_option("--threads", arguments->threads, "How many threads to use (default: one a core)")
-        ->check(CLI::Range(1U, 1024U));
+    add_device_options(*command, arguments->device, arguments->threads);
     command->add_flag("--record-checks", arguments->record_checks,
                       "Write the session again, with a check after each edit and its cloud beside it");
     command->add_flag("--dry-run", arguments->dry_run, "Check the session without computing anything");

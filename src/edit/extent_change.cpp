@@ -13,10 +13,6 @@ namespace {
 
 constexpr double closed_within = 0.05;
 
-Vec3d at(std::span<const float> values, std::size_t i) {
-    return Eigen::Map<const Vec3f>(values.data() + 3 * i).cast<double>();
-}
-
 // What one vertex stands for.
 struct Piece {
     double area = 0, volume = 0;         // when opened, up to a factor that is the same for all
@@ -40,9 +36,9 @@ Piece piece_of(const Shapes& shapes, Index vertex) {
     const auto links = static_cast<double>(shapes.graph.row(vertex).size());
     for (const Index other : shapes.graph.row(vertex)) {
         const Index there = shapes.order.first_point[other];
-        const Vec3d edge = at(shapes.opened, there) - at(shapes.opened, here);
+        const Vec3d edge = point_at(shapes.opened, there) - point_at(shapes.opened, here);
         spread += edge * edge.transpose();
-        moved += (at(shapes.now, there) - at(shapes.now, here)) * edge.transpose();
+        moved += (point_at(shapes.now, there) - point_at(shapes.now, here)) * edge.transpose();
         piece.area += edge.squaredNorm() / links;
         piece.volume += edge.squaredNorm() * edge.norm() / links;
     }
@@ -62,7 +58,7 @@ Piece piece_of(const Shapes& shapes, Index vertex) {
         piece.volume_now = piece.volume * std::abs(turned.dot(moved * up / spreads[0]));
     }
     if (!shapes.normals.empty()) {
-        const double side = up.dot(at(shapes.normals, here)) < 0 ? -1 : 1;
+        const double side = up.dot(point_at(shapes.normals, here)) < 0 ? -1 : 1;
         piece.facing = side * piece.area * up;
         piece.facing_now = side * piece.area * turned;
     }
@@ -76,7 +72,7 @@ std::optional<double> enclosed(const Shapes& shapes, std::span<const Piece> piec
     double area = 0;
     for (std::size_t v = 0; v < pieces.size(); ++v) {
         const double size = (pieces[v].*facing).norm();
-        middle += size * at(positions, shapes.order.first_point[v]);
+        middle += size * point_at(positions, shapes.order.first_point[v]);
         sum += pieces[v].*facing;
         area += size;
     }
@@ -84,7 +80,7 @@ std::optional<double> enclosed(const Shapes& shapes, std::span<const Piece> piec
     middle /= area;
     double volume = 0;
     for (std::size_t v = 0; v < pieces.size(); ++v)
-        volume += (pieces[v].*facing).dot(at(positions, shapes.order.first_point[v]) - middle);
+        volume += (pieces[v].*facing).dot(point_at(positions, shapes.order.first_point[v]) - middle);
     return std::abs(volume);
 }
 

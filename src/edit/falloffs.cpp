@@ -12,18 +12,14 @@ namespace {
 constexpr double strength = 4;
 constexpr double nearest = 0.0012; // of the cloud's size: nearer than this the pull does not grow any more
 
-Vec3d at(std::span<const float> positions, std::size_t i) {
-    return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
-}
-
 constexpr double small_handle = 0.03;  // of the cloud's size: the radius of one that needs no falloff
 constexpr double small_falloff = 0.06; // of the cloud's size, of a handle of one point
 
 double least_falloff(std::span<const Index> vertices, std::span<const float> positions, double cloud_size) {
     Vec3d middle = Vec3d::Zero();
-    for (const Index v : vertices) middle += at(positions, v) / static_cast<double>(vertices.size());
+    for (const Index v : vertices) middle += point_at(positions, v) / static_cast<double>(vertices.size());
     double squares = 0;
-    for (const Index v : vertices) squares += (at(positions, v) - middle).squaredNorm();
+    for (const Index v : vertices) squares += (point_at(positions, v) - middle).squaredNorm();
     const double radius = std::sqrt(2 * squares / static_cast<double>(vertices.size())); // as of a disc
     return small_falloff * std::max(0.0, cloud_size - radius / small_handle);
 }

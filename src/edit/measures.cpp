@@ -8,17 +8,13 @@ namespace {
 
 constexpr std::size_t grain = 4096;
 
-Vec3d at(std::span<const float> positions, std::size_t i) {
-    return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
-}
-
 } // namespace
 
 std::vector<float> displacements(std::span<const float> opened, std::span<const float> now,
                                  Workers& workers) {
     std::vector<float> result(now.size() / 3);
     workers.for_each(result.size(), grain, [&](std::size_t i) {
-        result[i] = static_cast<float>((at(now, i) - at(opened, i)).norm());
+        result[i] = static_cast<float>((point_at(now, i) - point_at(opened, i)).norm());
     });
     return result;
 }
@@ -31,7 +27,8 @@ std::vector<float> local_stretch(const PointOrder& order, const Graph& graph, st
         double sum = 0;
         for (const Index u : graph.row(v)) {
             const Index there = order.first_point[u];
-            sum += (at(now, there) - at(now, here)).norm() / (at(opened, there) - at(opened, here)).norm();
+            sum += (point_at(now, there) - point_at(now, here)).norm() /
+                   (point_at(opened, there) - point_at(opened, here)).norm();
         }
         const std::size_t links = graph.row(v).size();
         if (links > 0) of_vertex[v] = static_cast<float>(sum / static_cast<double>(links));

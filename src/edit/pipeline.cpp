@@ -25,10 +25,6 @@ constexpr int relaxing_rounds = 2;
 // From where on a sample is on the border of the surface: see isotropic_weights().
 constexpr double border_of_points = 0.5, border_of_territories = 0.3;
 
-Vec3d at(std::span<const float> positions, std::size_t i) {
-    return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
-}
-
 // [A | b] of a sample that turned (A = M - I) and moved about its rest position.
 Motion motion_about(const Mat3d& beyond_identity, const Vec3d& offset) {
     Motion motion;
@@ -287,7 +283,7 @@ void Pipeline::prepare_systems() {
     rest.graph = sample_graph_.graph;
     rest.position.reserve(samples_.size());
     for (const Index v : samples_) {
-        rest.position.push_back(at(rest_shape.positions, order_.first_point[v]));
+        rest.position.push_back(point_at(rest_shape.positions, order_.first_point[v]));
         rest.handle.push_back(labels_.vertex[v]);
     }
     rest.weight = isotropic_weights(rest.graph, rest.position, sample_graph_.contact,
@@ -312,7 +308,7 @@ void Pipeline::prepare_upsampler() {
         const Index begin = contacts_.first[part], end = contacts_.first[part + 1];
         Vec3d sum = Vec3d::Zero();
         for (Index at_contact = begin; at_contact < end; ++at_contact)
-            sum += at(rest.positions, order_.first_point[contacts_.vertex[at_contact]]);
+            sum += point_at(rest.positions, order_.first_point[contacts_.vertex[at_contact]]);
         carried_.anchor[part] = sum / static_cast<double>(end - begin);
     }
     posed_.positions.resize(rest.positions.size());

@@ -13,9 +13,6 @@ namespace knead {
 std::vector<Reached> reached_within(const Graph& graph, std::span<const float> positions,
                                     std::span<const Index> sources, double limit) {
     require(positions.size() == 3 * graph.size(), "a position a vertex");
-    const auto at = [&](Index v) {
-        return Eigen::Map<const Vec3f>(positions.data() + 3 * std::size_t{v}).cast<double>().eval();
-    };
     using Waiting = std::pair<double, Index>;
     std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue;
     std::vector<double> distance(graph.size(), std::numeric_limits<double>::infinity());
@@ -31,7 +28,8 @@ std::vector<Reached> reached_within(const Graph& graph, std::span<const float> p
         queue.pop();
         if (way > distance[v]) continue; // a shorter way was found since
         reached.push_back({v, way});
-        for (const Index u : graph.row(v)) offer(u, way + (at(u) - at(v)).norm());
+        for (const Index u : graph.row(v))
+            offer(u, way + (point_at(positions, u) - point_at(positions, v)).norm());
     }
     return reached;
 }

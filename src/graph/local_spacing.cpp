@@ -1,5 +1,7 @@
 #include "graph/local_spacing.h"
 
+#include "graph/nearest.h"
+
 #include <algorithm>
 #include <array>
 
@@ -12,21 +14,6 @@ constexpr float most_over_neighbors = 2;
 constexpr double nearly_all = 0.95; // of the vertices
 constexpr float most_over_nearly_all = 2;
 constexpr std::size_t most_looked_at = 64; // links of a vertex; nearly all have fewer
-
-// The fifth smallest of a row's values; the largest, where there are fewer.
-template<typename ValueOf>
-float fifth_of(std::span<const Index> row, ValueOf&& value_of) {
-    std::array<float, nearest> smallest;
-    std::size_t count = 0;
-    for (const Index u : row) {
-        const float value = value_of(u);
-        if (count == nearest && !(value < smallest[nearest - 1])) continue;
-        std::size_t at = count < nearest ? count++ : nearest - 1;
-        for (; at > 0 && smallest[at - 1] > value; --at) smallest[at] = smallest[at - 1];
-        smallest[at] = value;
-    }
-    return count > 0 ? smallest[count - 1] : 0;
-}
 
 // The median of a row's values, or of as many, evenly taken, as fit.
 template<typename ValueOf>
@@ -52,10 +39,10 @@ void limit_to_nearly_all(std::vector<float>& spacings) {
 } // namespace
 
 std::vector<float> local_spacing(const Graph& graph, std::span<const float> positions, Workers& workers) {
-    const auto place = [&](std::size_t v) { return Eigen::Map<const Vec3f>(positions.data() + 3 * v); };
     std::vector<float> alone(graph.size()), result(graph.size());
     workers.for_each(graph.size(), 4096, [&](std::size_t v) {
-        alone[v] = fifth_of(graph.row(v), [&](Index u) { return (place(u) - place(v)).norm(); });
+        const Nearest found = find_nearest(graph, positions, v);
+        alone[v] = found.count > 0 ? found.near[std::min(nearest, found.count) - 1].first : 0;
     });
     workers.for_each(graph.size(), 4096, [&](std::size_t v) {
         const float around = median_of(graph.row(v), [&](Index u) { return alone[u]; });

@@ -2,6 +2,7 @@
 
 #include "graph/bridges.h"
 #include "graph/group_tree.h"
+#include "graph/nearest.h"
 #include "graph/neighbors.h"
 #include "graph/symmetric_graph.h"
 
@@ -19,42 +20,9 @@ constexpr std::size_t grain = 2048;
 // Of the nearest neighbours, the one whose distance is the spacing: those before it may be nearly the same
 // point, seen twice.
 constexpr std::size_t usual_neighbor = 3;
-constexpr std::size_t neighborhood = 6;
 
 constexpr double mist_reach = 10;          // of its own spacings
 constexpr std::size_t smallest_share = 10; // mist is less than a tenth
-
-float distance(std::span<const float> positions, std::size_t v, std::size_t u) {
-    const auto at = [&](std::size_t w) {
-        return Eigen::Map<const Vec3f>(positions.data() + 3 * w).cast<double>();
-    };
-    return static_cast<float>((at(v) - at(u)).norm());
-}
-
-// The nearest neighbours of v, nearest first. A row holds, beside those, whoever counts v among its own, from
-// however far.
-using Near = std::pair<float, Index>; // distance, vertex
-struct Nearest {
-    std::array<Near, neighborhood> near;
-    std::size_t count = 0;
-};
-Nearest find_nearest(const Graph& graph, std::span<const float> positions, std::size_t v) {
-    Nearest result;
-    for (const Index u : graph.row(v)) {
-        const Near next{distance(positions, v, u), u};
-        std::size_t place = result.count;
-        if (place == neighborhood) {
-            if (result.near.back() < next) continue;
-            --place;
-        } else {
-            ++result.count;
-        }
-        for (; place > 0 && next < result.near[place - 1]; --place)
-            result.near[place] = result.near[place - 1];
-        result.near[place] = next;
-    }
-    return result;
-}
 
 // The pieces that are left when long links are cut.
 Components cut_long_links(const Graph& graph, std::span<const float> positions,
@@ -64,7 +32,7 @@ Components cut_long_links(const Graph& graph, std::span<const float> positions,
         for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link) {
             const Index u = graph.neighbor[link];
             const double limit = short_way * static_cast<double>(std::min(spacing[v], spacing[u]));
-            is_short[link] = static_cast<double>(distance(positions, v, u)) <= limit ? 1 : 0;
+            is_short[link] = static_cast<double>(distance_between(positions, v, u)) <= limit ? 1 : 0;
         }
     });
     return find_components(rewired(graph, is_short, {}, workers));
@@ -99,7 +67,7 @@ Spacings find_spacings(const Graph& graph, std::span<const float> positions, Wor
     Spacings spacings;
     spacings.own.assign(graph.size(), 0);
     spacings.around.assign(graph.size(), 0);
-    std::vector<std::array<Index, neighborhood>> nearest(graph.size());
+    std::vector<std::array<Index, Nearest::most>> nearest(graph.size());
     workers.for_each(graph.size(), grain, [&](std::size_t v) {
         const Nearest found = find_nearest(graph, positions, v);
         nearest[v].fill(no_index);
@@ -107,7 +75,7 @@ Spacings find_spacings(const Graph& graph, std::span<const float> positions, Wor
         if (found.count > 0) spacings.own[v] = found.near[std::min(usual_neighbor, found.count) - 1].first;
     });
     workers.for_each(graph.size(), grain, [&](std::size_t v) {
-        std::array<float, neighborhood> own;
+        std::array<float, Nearest::most> own;
         auto end = own.begin();
         for (const Index u : nearest[v])
             if (u != no_index) *end++ = spacings.own[u];

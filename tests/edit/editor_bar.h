@@ -60,6 +60,15 @@ protected:
         calm();
     }
 
+    // The chosen handle by so many degrees about the view's axis, and confirmed.
+    void turn_chosen(std::string_view degrees) {
+        move({400, 100});
+        press('R');
+        type(degrees);
+        press(Key::enter);
+        calm();
+    }
+
     void press(char letter, Modifiers held = {}) { handle_input(editor_, KeyPress{key(letter), held}); }
     void press(Key which) { handle_input(editor_, KeyPress{which, {}}); }
     void move(glm::dvec2 cursor) { handle_input(editor_, MouseMove{cursor, {}}); }

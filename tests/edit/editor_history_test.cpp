@@ -3,7 +3,6 @@
 
 #include "edit/editor_bar.h"
 
-
 namespace knead::test {
 
 TEST_F(BarEditor, UndoAndRedoBringTheChosenHandleBack) {
@@ -39,11 +38,7 @@ TEST_F(BarEditor, UndoAndRedoBringTheChosenHandleBack) {
 
 TEST_F(BarEditor, UndoingADragChoosesTheHandleThatWasDragged) {
     make_handles();
-    move({400, 100});
-    press('R');
-    type("40");
-    press(Key::enter);
-    calm();
+    turn_chosen("40");
     apply(editor_, ChooseHandle{"low"});
     apply(editor_, UndoStep{});
     calm();
@@ -60,11 +55,7 @@ TEST_F(BarEditor, AnUndoneSelectionLeavesTheChosenHandleAlone) {
 
 TEST_F(BarEditor, MirroringAfterACommitSaysThatThereIsNoPose) {
     make_handles();
-    move({400, 100});
-    press('R');
-    type("40");
-    press(Key::enter);
-    calm();
+    turn_chosen("40");
     apply(editor_, CommitPose{});
     calm();
     editor_.notices.clear();

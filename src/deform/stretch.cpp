@@ -39,7 +39,8 @@ Mat3d beyond_rigid(const Mat3d& gradient) {
 
 Surroundings surroundings_of(const Mat3d& spread) {
     Surroundings result;
-    const Eigen::SelfAdjointEigenSolver<Mat3d> solver(spread);
+    Eigen::SelfAdjointEigenSolver<Mat3d> solver;
+    solver.computeDirect(spread);
     const Vec3d& values = solver.eigenvalues();
     if (!(values[2] > 0)) return result;
     for (int k = 0; k < 3; ++k) {

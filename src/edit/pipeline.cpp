@@ -48,7 +48,7 @@ Pipeline::Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampl
 void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
     note_changes(input.settings);
     stale_.handles |= !hold_the_same(input.handles, input_.handles);
-    stale_.systems |= input.rest != input_.rest;
+    if (input.rest != input_.rest) stale_.weights = stale_.systems = true;
     stale_.upsampler |= input.rest != input_.rest;
     input_ = input;
 
@@ -57,7 +57,7 @@ void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
     if (stale_.handles) {
         prepare_handles(progress);
         ++samples_version_;
-        stale_.influences = stale_.systems = true;
+        stale_.influences = stale_.weights = stale_.systems = true;
         stale_.handles = false;
     }
     if (stale_.influences) {
@@ -286,8 +286,11 @@ void Pipeline::prepare_systems() {
         rest.position.push_back(point_at(rest_shape.positions, order_.first_point[v]));
         rest.handle.push_back(labels_.vertex[v]);
     }
-    rest.weight = isotropic_weights(rest.graph, rest.position, sample_graph_.contact,
-                                    every_point_ ? border_of_points : border_of_territories, workers_);
+    if (stale_.weights)
+        link_weights_ = isotropic_weights(rest.graph, rest.position, sample_graph_.contact,
+                                          every_point_ ? border_of_points : border_of_territories, workers_);
+    stale_.weights = false;
+    rest.weight = link_weights_;
     rest.cloud_size = cloud_size_;
     rest.stiffness = input_.settings.stiffness;
     rest.poisson = input_.settings.poisson;
@@ -335,7 +338,7 @@ double Pipeline::iterate(const std::vector<HandleMotion>& motions, SampleState& 
 
 void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {
     const std::size_t samples = samples_.size();
-    workers_.for_each(samples, 1024, [&](std::size_t s) {
+    workers_.for_each(samples, 256, [&](std::size_t s) {
         const Index handle = system_.rest.handle[s];
         const bool given = handle != no_index && system_.unknown[s] == no_index;
         if (given && handle != labels_.outside) {

@@ -146,7 +146,7 @@ private:
     // Which stages have to run again before the next frame.
     struct Stale {
         bool points = true, bridges = true, samples = true, handles = true, contacts = true,
-             influences = true, systems = true, upsampler = true;
+             influences = true, weights = true, systems = true, upsampler = true;
     };
     Stale stale_;
 
@@ -170,6 +170,7 @@ private:
     Strays strays_;
     std::vector<bool> held_component_;
     SampleGraph sample_graph_;
+    std::vector<double> link_weights_; // of the links of that
     std::uint64_t samples_version_ = 0;
 
     InfluenceRows rows_;

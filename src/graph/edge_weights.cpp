@@ -31,22 +31,55 @@ void normalize(std::span<double> weight) {
     for (double& w : weight) w *= static_cast<double>(weight.size()) / sum;
 }
 
-struct Star {
-    std::span<const Index> row;
-    std::span<const float> contact;
-    Vec3d center;
-    std::span<const Vec3d> position;
+// xx yy zz xy xz yz of a symmetric matrix.
+using Symmetric = Eigen::Matrix<double, 6, 1>;
 
-    Vec3d edge(std::size_t k) const { return position[row[k]] - center; }
+Symmetric square_of(const Vec3d& e) {
+    Symmetric square;
+    square << e.x() * e.x(), e.y() * e.y(), e.z() * e.z(), e.x() * e.y(), e.x() * e.z(), e.y() * e.z();
+    return square;
+}
+
+Mat3d matrix_of(const Symmetric& s) {
+    Mat3d matrix;
+    matrix << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
+    return matrix;
+}
+
+// One link of a vertex.
+struct Spoke {
+    Vec3d edge;
+    double length;
+    Symmetric square; // e eᵀ
+    double contact;
+    double along; // work space: dᵀ C d
 };
 
-void start_weights(const Star& star, std::span<double> weight) {
+// Those of one vertex after another, in the same memory.
+class Star {
+public:
+    void read(const Graph& graph, std::span<const Vec3d> position, std::span<const float> contact,
+              std::size_t vertex) {
+        spokes_.clear();
+        for (Index link = graph.first[vertex]; link < graph.first[vertex + 1]; ++link) {
+            const Vec3d edge = position[graph.neighbor[link]] - position[vertex];
+            spokes_.push_back({edge, edge.norm(), square_of(edge), static_cast<double>(contact[link]), 0});
+        }
+    }
+
+    std::span<Spoke> spokes() { return spokes_; }
+
+private:
+    std::vector<Spoke> spokes_;
+};
+
+void start_weights(std::span<const Spoke> star, std::span<double> weight) {
     double longest = 0;
-    for (std::size_t k = 0; k < weight.size(); ++k) longest = std::max(longest, star.edge(k).norm());
+    for (const Spoke& spoke : star) longest = std::max(longest, spoke.length);
     // Samples may come to lie on each other in the course of edits; their link counts as a short one.
     const double shortest = longest > 0 ? 1e-3 * longest : 1;
-    for (std::size_t k = 0; k < weight.size(); ++k)
-        weight[k] = static_cast<double>(star.contact[k]) / std::max(star.edge(k).norm(), shortest);
+    for (std::size_t k = 0; k < star.size(); ++k)
+        weight[k] = star[k].contact / std::max(star[k].length, shortest);
     normalize(weight);
 }
 
@@ -56,54 +89,56 @@ void finish_update(std::span<double> weight) {
     for (double& w : weight) w = std::clamp(w, 1 / largest_weight, largest_weight);
 }
 
-Mat3d spread_of(const Star& star, std::span<const double> weight) {
-    Mat3d spread = Mat3d::Zero();
-    for (std::size_t k = 0; k < weight.size(); ++k)
-        spread.noalias() += (weight[k] * star.edge(k)) * star.edge(k).transpose();
+Symmetric spread_of(std::span<const Spoke> star, std::span<const double> weight) {
+    Symmetric spread = Symmetric::Zero();
+    for (std::size_t k = 0; k < star.size(); ++k) spread += weight[k] * star[k].square;
     return spread;
 }
 
 // One update of a vertex's weights towards pulling as much along each direction.
-void even_out(const Star& star, std::span<double> weight) {
-    const Mat3d spread = spread_of(star, weight);
-    const auto along = [&](std::size_t k) {
-        const Vec3d edge = star.edge(k);
-        const double squared = edge.squaredNorm();
-        return squared > 0 ? edge.dot(spread * edge) / squared : 0;
-    };
+void even_out(std::span<Spoke> star, std::span<double> weight) {
+    Symmetric spread = spread_of(star, weight);
+    spread.tail<3>() *= 2; // so that its product with e eᵀ is eᵀ C e
     double mean = 0;
-    for (std::size_t k = 0; k < weight.size(); ++k) mean += along(k) / static_cast<double>(weight.size());
-    for (std::size_t k = 0; k < weight.size(); ++k) {
-        const double here = along(k);
-        if (here > 0) weight[k] *= mean / here;
+    for (Spoke& spoke : star) {
+        spoke.along = spoke.length > 0 ? spread.dot(spoke.square) / (spoke.length * spoke.length) : 0;
+        mean += spoke.along / static_cast<double>(star.size());
     }
+    for (std::size_t k = 0; k < star.size(); ++k)
+        if (star[k].along > 0) weight[k] *= mean / star[k].along;
     finish_update(weight);
 }
 
+// The projection onto the directions that a vertex is to balance along.
+Mat3d along_surface_of(std::span<const Spoke> star, std::span<const double> weight) {
+    Eigen::SelfAdjointEigenSolver<Mat3d> axes;
+    axes.computeDirect(matrix_of(spread_of(star, weight)));
+    Mat3d along = Mat3d::Zero();
+    for (int k = 0; k < 3; ++k)
+        if (axes.eigenvalues()[k] > along_surface * axes.eigenvalues()[2])
+            along += axes.eigenvectors().col(k) * axes.eigenvectors().col(k).transpose();
+    return along;
+}
+
 // One update towards pulls that cancel.
-void balance(const Star& star, double border, std::span<double> weight) {
+void balance(std::span<const Spoke> star, const Mat3d& along, double border, std::span<double> weight) {
     Vec3d pull = Vec3d::Zero();
     double effort = 0;
     for (std::size_t k = 0; k < weight.size(); ++k) {
-        const Vec3d edge = star.edge(k);
-        pull += weight[k] * edge;
-        effort += weight[k] * edge.norm();
+        pull += weight[k] * star[k].edge;
+        effort += weight[k] * star[k].length;
     }
-    Eigen::SelfAdjointEigenSolver<Mat3d> axes;
-    axes.computeDirect(spread_of(star, weight));
-    Vec3d uneven = Vec3d::Zero();  // Σ w e along the surface
-    Vec3d counter = Vec3d::Zero(); // C⁺ of it
-    for (int k = 0; k < 3; ++k) {
-        const double spread = axes.eigenvalues()[k];
-        if (!(spread > along_surface * axes.eigenvalues()[2])) continue;
-        const Vec3d axis = axes.eigenvectors().col(k);
-        uneven += axis.dot(pull) * axis;
-        counter += axis.dot(pull) / spread * axis;
-    }
+    const Vec3d uneven = along * pull; // Σ w e along the surface
     const double share = effort > 0 ? uneven.norm() / effort : 1;
     const double inside = std::clamp((border - share) / border_fades, 0.0, 1.0);
-    for (std::size_t k = 0; k < weight.size(); ++k)
-        weight[k] *= std::clamp(1 - inside * counter.dot(star.edge(k)), 0.5, 1.5);
+    if (inside > 0) {
+        const Mat3d spread = matrix_of(spread_of(star, weight));
+        // C⁺ of what is uneven: across the surface the matrix is filled up so that it has an inverse.
+        const Mat3d filled = along * spread * along + spread.trace() * (Mat3d::Identity() - along);
+        const Vec3d counter = filled.inverse() * uneven;
+        for (std::size_t k = 0; k < weight.size(); ++k)
+            weight[k] *= std::clamp(1 - inside * counter.dot(star[k].edge), 0.5, 1.5);
+    }
     finish_update(weight);
 }
 
@@ -112,31 +147,33 @@ void balance(const Star& star, double border, std::span<double> weight) {
 std::vector<double> isotropic_weights(const Graph& graph, std::span<const Vec3d> position,
                                       std::span<const float> contact, double border, Workers& workers) {
     require(contact.size() == graph.neighbor.size(), "a contact a link");
+    const std::vector<Index> back = reverse_links(graph);
     std::vector<double> one_way(graph.neighbor.size());
-    std::vector<double> weight;
+    std::vector<double> weight(graph.neighbor.size());
     const auto for_stars = [&](auto&& update) {
-        workers.for_each(graph.size(), 256, [&](std::size_t v) {
-            const std::size_t first = graph.first[v];
-            const Star star{graph.row(v), contact.subspan(first, graph.row(v).size()), position[v], position};
-            if (!star.row.empty()) update(star, std::span<double>(one_way.data() + first, star.row.size()));
-        });
-        weight.resize(one_way.size());
-        workers.for_each(graph.size(), 1024, [&](std::size_t v) {
-            for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link) {
-                const Index back = *find_link(graph, graph.neighbor[link], static_cast<Index>(v));
-                weight[link] = 0.5 * (one_way[link] + one_way[back]);
+        workers.for_chunks(graph.size(), 256, [&](std::size_t begin, std::size_t end) {
+            Star star;
+            for (std::size_t v = begin; v < end; ++v) {
+                star.read(graph, position, contact, v);
+                const auto own = std::span(one_way).subspan(graph.first[v], star.spokes().size());
+                if (!own.empty()) update(v, star.spokes(), own);
             }
         });
+        workers.for_each(weight.size(), 1 << 14, [&](std::size_t link) {
+            weight[link] = 0.5 * (one_way[link] + one_way[back[link]]);
+        });
     };
-    for_stars([](const Star& star, std::span<double> own) {
+    std::vector<Mat3d> along(graph.size());
+    for_stars([&along](std::size_t v, std::span<Spoke> star, std::span<double> own) {
         start_weights(star, own);
         for (int update = 0; update < updates; ++update) even_out(star, own);
+        along[v] = along_surface_of(star, own);
     });
     for (int round = 0; round < balancing_rounds; ++round) {
         one_way = weight;
-        for_stars([border](const Star& star, std::span<double> own) {
+        for_stars([&along, border](std::size_t v, std::span<Spoke> star, std::span<double> own) {
             even_out(star, own);
-            balance(star, border, own);
+            balance(star, along[v], border, own);
         });
     }
     return weight;

@@ -118,9 +118,8 @@ std::vector<int> minimum_degree_order(const SparseMatrix& pattern) {
     const Eigen::Map<const Eigen::SparseMatrix<double>> map(
         size, size, static_cast<Eigen::Index>(pattern.row.size()), pattern.first.data(), pattern.row.data(),
         pattern.value.data());
-    const Eigen::SparseMatrix<double> matrix = map;
     Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-    Eigen::AMDOrdering<int>()(matrix, permutation);
+    Eigen::AMDOrdering<int>()(map.selfadjointView<Eigen::Lower>(), permutation);
     return {permutation.indices().data(), permutation.indices().data() + size};
 }
 

@@ -357,6 +357,18 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
     upsampler_.run(motions_, posed_.positions, posed_.normals);
 }
 
+HandleDemand Pipeline::demand(const SampleState& state) const {
+    const RestShape& rest = input_.rest ? *input_.rest : opened_;
+    const Parting parting = parting_of(*graph_, labels_, order_, rest.positions, posed_.positions);
+    HandleDemand demand{strain_of(system_, state), parting.factor, {}, {}};
+    const auto name_of = [&](Index handle) {
+        return handle < input_.handles.size() ? '"' + input_.handles[handle].name + '"'
+                                              : std::string("what lies outside the region");
+    };
+    if (parting.one != no_index) demand.one = name_of(parting.one), demand.other = name_of(parting.other);
+    return demand;
+}
+
 std::string words_about(const Pipeline::Strays& strays) {
     if (strays.parts == 0) return {};
     const bool one = strays.parts == 1;
@@ -377,15 +389,6 @@ std::string words_about(const Pipeline::Strays& strays) {
         break;
     }
     return words;
-}
-
-std::string words_about_strain(double strain) {
-    constexpr double plausible = 2.5;
-    if (!(strain > plausible)) return {};
-    char factor[32];
-    std::snprintf(factor, sizeof factor, "%.1f", strain);
-    return std::string("the handles pull the cloud to ") + factor +
-           " times its length; what lies between them is shared out as evenly as can be";
 }
 
 } // namespace knead

@@ -184,7 +184,7 @@ private:
     void finish_edit(Document& document, std::size_t after_line) {
         if (options_.rehearse) return;
         report_.handle_error = std::max(report_.handle_error, document.handle_error(progress_));
-        if (const std::string words = words_about_strain(document.strain(progress_)); !words.empty())
+        if (const std::string words = words_about_demand(document.demand(progress_)); !words.empty())
             add_warning(words);
         if (!options_.record_checks || checked_) return;
         checked_ = true;

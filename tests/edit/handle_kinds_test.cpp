@@ -69,19 +69,5 @@ TEST(HandleKinds, FreeRotationFollowsThePositionsOnly) {
     }
 }
 
-TEST(HandleKinds, WhatCannotBeIsSharedOutEvenlyAndSaid) {
-    SilentProgress progress;
-    const auto strain = [&](const std::string& frame) {
-        Desk desk(bar());
-        desk.play(ends + drag(frame) + settle(50));
-        return desk.document().strain(progress);
-    };
-    EXPECT_EQ(words_about_strain(strain(turn('y', 90, "[-1,0,-1]"))), "");
-    const double pulled = strain(R"({"translate":[0,0,12]})"); // the free part of 4 to 16
-    EXPECT_NEAR(pulled, 4, 1.2);
-    EXPECT_NE(words_about_strain(pulled).find("times its length"), std::string::npos);
-    EXPECT_EQ(Desk(bar()).document().strain(progress), 1);
-}
-
 } // namespace
 } // namespace knead

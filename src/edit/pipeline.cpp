@@ -350,6 +350,12 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
         }
     });
     for (std::size_t h = 0; h < motions.size(); ++h) motions_[samples + h] = motion_of_handle(motions[h]);
+    // A single point that may turn has the place of its handle, and its normal the turn of its surroundings.
+    for (std::size_t s = 0; s < samples; ++s) {
+        const Index handle = system_.rest.handle[s];
+        const bool turns = handle < motions.size() && system_.unknown[s] != no_index;
+        if (turns && input_.handles[handle].points->size() == 1) motions_[samples + handle] = motions_[s];
+    }
     const std::size_t first_carried = motions_.size() - carried_.size();
     workers_.for_each(carried_.size(), 16, [&](std::size_t part) {
         motions_[first_carried + part] = carried_motion(carried_, part, motions_);

@@ -202,6 +202,14 @@ private:
                name.string().starts_with(session_.file.stem().string() + "-check-");
     }
 
+    // That of the check which is recorded anew, or a usual one.
+    double recorded_tolerance(const std::filesystem::path& file) const {
+        for (const SessionLine& line : session_.lines)
+            if (const auto* check = std::get_if<CheckLine>(&line.action); check && check->positions == file)
+                return check->tolerance;
+        return 1e-4;
+    }
+
     void write_results(Document& document) {
         if (options_.out) {
             const std::vector<float> positions = document.positions(progress_);
@@ -226,7 +234,7 @@ private:
         auto next = recorded_.begin();
         const auto put_checks_up_to = [&](std::size_t line) {
             for (; next != recorded_.end() && next->after_line <= line; ++next)
-                file.write(to_text(CheckLine{next->file, 1e-4}) + "\n");
+                file.write(to_text(CheckLine{next->file, recorded_tolerance(next->file)}) + "\n");
         };
         put_checks_up_to(1);
         for (const SessionLine& line : session_.lines) {

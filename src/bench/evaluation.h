@@ -2,6 +2,7 @@
 // Quality and properties, over everything that is at hand.
 
 #include "bench/data_files.h"
+#include "bench/demands.h"
 #include "bench/elasticity.h"
 #include "bench/machine.h"
 #include "bench/properties.h"
@@ -38,12 +39,13 @@ struct Evaluation {
     std::vector<SamplingResult> samplings;    // with "sampling"
     std::vector<TurnResult> turns;            // with "turns"
     std::vector<StiffnessResult> stiffnesses; // with "stiffness"
+    std::vector<DemandResult> demands;        // with "demands"
     std::vector<std::string> warnings;        // of the device
 };
 
 // The names that `shapes` may hold with these folders: the tasks, generated clouds ("made-knot"),
-// "elasticity", "sampling", "turns", "stiffness", "samples-bunny" and the other scans of the paper, and the
-// scans' file names without ".ply", for their properties.
+// "elasticity", "sampling", "turns", "stiffness", "demands", "samples-bunny" and the other scans of the
+// paper, and the scans' file names without ".ply", for their properties.
 std::vector<std::string> evaluation_names(const EvaluationOptions& options);
 
 // Throws Error (usage) for a name or a device that is not there, Error (input) for a file that cannot be

@@ -178,6 +178,7 @@ std::string evaluation_text(const Evaluation& evaluation) {
     if (!evaluation.turns.empty()) text += "\n" + turns_text(evaluation.turns);
     if (!evaluation.stretches.empty()) text += "\n" + stretches_text(evaluation.stretches);
     if (!evaluation.stiffnesses.empty()) text += "\n" + stiffness_text(evaluation.stiffnesses);
+    if (!evaluation.demands.empty()) text += "\n" + demands_text(evaluation.demands);
     if (!evaluation.clouds.empty()) text += "\n" + clouds_text(evaluation.clouds);
     return text;
 }
@@ -195,6 +196,7 @@ std::string evaluation_json(const Evaluation& evaluation) {
                     {"sampling", sampling_json(evaluation.samplings)},
                     {"turns", turns_json(evaluation.turns)},
                     {"stiffness", stiffness_json(evaluation.stiffnesses)},
+                    {"demands", demands_json(evaluation.demands)},
                     {"twist", ReportJson()}};
     for (const TaskQuality& task : evaluation.tasks) json["tasks"].push_back(json_of(task));
     for (const StretchResult& stretch : evaluation.stretches) json["elasticity"].push_back(json_of(stretch));

@@ -34,9 +34,10 @@ void write_evaluation_page(const PageOptions& options, Progress& progress) {
     const TemporaryFolder folder(options.folder);
     PageStudio studio{workers,       *choice.upsampler, progress,      drawer,
                       options.scans, options.survey,    folder.path(), {}};
-    const std::vector<PageSection> sections{survey_section(studio),  elasticity_section(studio),
-                                            posed_section(studio),   neighbors_section(studio),
-                                            weights_section(studio), unknown_section()};
+    const std::vector<PageSection> sections{survey_section(studio),   elasticity_section(studio),
+                                            posed_section(studio),    neighbors_section(studio),
+                                            pipeline_section(studio), weights_section(studio),
+                                            large_section(studio)};
     FileInTheMaking page(folder.path() / "index.html");
     page.write(std::string_view(page_html("How well knead deforms", introduction(), sections)));
     page.commit();

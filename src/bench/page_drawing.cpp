@@ -43,6 +43,8 @@ Camera camera_of(const PageView& view) {
     return camera;
 }
 
+constexpr glm::vec3 line_color{0.22f, 0.27f, 0.36f};
+
 std::uint32_t word_of(const glm::vec3& color) {
     std::array<std::uint8_t, 4> bytes{0, 0, 0, 255};
     for (int c = 0; c < 3; ++c)
@@ -61,6 +63,15 @@ std::vector<std::uint32_t> colors_of(const PageShape& shape) {
             colors[i] = word_of(handle_colors[shape.handle[i] % handle_colors.size()]);
     }
     return colors;
+}
+
+std::vector<OverlayLine> overlay_of(const PageShape& shape) {
+    const auto place = [](const Vec3f& p) { return glm::vec3(p.x(), p.y(), p.z()); };
+    std::vector<OverlayLine> lines;
+    for (const PageLine& line : shape.lines)
+        lines.push_back({place(line.from), place(line.to),
+                         word_of(line.strong ? handle_colors[2] : line_color), line.width});
+    return lines;
 }
 
 } // namespace
@@ -86,6 +97,7 @@ void PageDrawer::draw(const std::filesystem::path& file, const PageShape& shape,
             spread_to_points(shading_normals(*shape.graph, vertices, s.workers), shape.order->vertex));
     }
     s.renderer.set_colors(colors_of(shape));
+    s.renderer.set_overlay(overlay_of(shape));
     write_png(file, draw_picture(s.renderer, camera_of(view), view.size, light_look()));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The pictures of the evaluation's page: posed clouds on a light ground, with no display.
 
+#include "base/types.h"
 #include "base/workers.h"
 #include "graph/csr.h"
 #include "graph/point_order.h"
@@ -25,6 +26,14 @@ struct PageView {
     std::vector<float> framed;
 };
 
+// A line over the cloud, hidden where the cloud is nearer; from one place to the same: a round dot. Relative
+// to the cloud's origin.
+struct PageLine {
+    Vec3f from = Vec3f::Zero(), to = Vec3f::Zero();
+    bool strong = false; // of the colour of what moves, or a quiet dark one
+    float width = 1;     // pixels
+};
+
 // What is seen. Views, all in the order of computation but the graph, which is that of the vertices as
 // opened: shading comes from it.
 struct PageShape {
@@ -35,6 +44,7 @@ struct PageShape {
     std::span<const float> values;            // n: told by colour instead of the handles; or empty
     double largest_value = 1;                 // the end of the scale
     bool solid = false;                       // a filled volume has no normals to shade it by
+    std::span<const PageLine> lines{};        // over the cloud
 };
 
 class PageDrawer {

@@ -1,5 +1,9 @@
 #include "bench/page_html.h"
 
+#include "view/coloring.h"
+
+#include <cmath>
+
 namespace knead {
 
 namespace {
@@ -19,6 +23,8 @@ figure { margin: 0; width: min-content; min-width: 15em; }
 img { display: block; border: 1px solid #ddd; }
 figcaption { font-size: 0.9em; margin-top: 0.3em; }
 code { display: block; font-size: 0.85em; color: #555; overflow-wrap: anywhere; }
+.scale { display: flex; align-items: center; gap: 0.7em; font-size: 0.9em; }
+.scale span { width: 16em; height: 0.9em; }
 .missing { border-left: 4px solid #b33; padding-left: 0.8em; }
 </style>
 )";
@@ -47,8 +53,24 @@ std::string picture_html(const PagePicture& picture) {
            "\"><figcaption>" + escaped(picture.caption) + command + "</figcaption></figure>\n";
 }
 
+// The scale that view/coloring.h colours by, in nine steps.
+std::string scale_html(const PageSection& section) {
+    if (section.scale_low.empty() && section.scale_high.empty()) return {};
+    std::string stops;
+    for (int step = 0; step <= 8; ++step) {
+        const glm::vec3 color = viridis(step / 8.0);
+        stops += ", rgb(";
+        for (int c = 0; c < 3; ++c) stops += (c ? "," : "") + std::to_string(std::lround(255 * color[c]));
+        stops += ")";
+    }
+    return "<p class=\"scale\">" + escaped(section.scale_low) +
+           " <span style=\"background: linear-gradient(to right" + stops + ")\"></span> " +
+           escaped(section.scale_high) + "</p>\n";
+}
+
 std::string section_html(const PageSection& section) {
-    std::string html = "<h2>" + escaped(section.title) + "</h2>\n<p>" + escaped(section.words) + "</p>\n";
+    std::string html = "<h2>" + escaped(section.title) + "</h2>\n<p>" + escaped(section.words) + "</p>\n" +
+                       scale_html(section);
     for (const PageRow& row : section.rows) {
         if (!row.title.empty()) html += "<h3>" + escaped(row.title) + "</h3>\n";
         html += "<div class=\"row\">\n";

@@ -20,6 +20,8 @@ struct PageSection {
     std::string title, words;
     std::vector<PageRow> rows;
     std::vector<std::string> missing; // one sentence each
+    // What the ends of the scale of colours (viridis) mean, where pictures have one; both empty: none has.
+    std::string scale_low{}, scale_high{};
 };
 
 // A whole page in HTML, dark on light, with no script and nothing from elsewhere. All texts are plain: what

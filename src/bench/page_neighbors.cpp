@@ -25,7 +25,23 @@ struct Close {
     Vec3d pivot = Vec3d::Zero();
     HandlePose pose;
     PageView view;
+    double seen = 0; // the picture shows what lies so far around the handle; 0: the whole cloud
 };
+
+// What of the cloud the camera is to have in view, at rest and posed.
+std::vector<float> seen_part(const Close& close, const PageShape& shape, const DeformationTask& task) {
+    Vec3d middle = Vec3d::Zero();
+    for (const Index i : task.handle)
+        middle += point_at(task.cloud.positions, i) / static_cast<double>(task.handle.size());
+    std::vector<float> part;
+    for (const std::span<const float> positions : {shape.opened, shape.positions})
+        for (std::size_t i = 0; i < positions.size() / 3; ++i) {
+            if (close.seen > 0 && (point_at(shape.opened, i) - middle).norm() > close.seen) continue;
+            part.insert(part.end(), positions.begin() + 3 * static_cast<std::ptrdiff_t>(i),
+                        positions.begin() + 3 * static_cast<std::ptrdiff_t>(i) + 3);
+        }
+    return part;
+}
 
 DeformationTask task_of(const Close& close, PointCloud cloud) {
     DeformationTask task;
@@ -76,17 +92,19 @@ Close close_bunny() {
             [](const Vec3d& p) { return (p - Vec3d(-0.07, 0.172, -0.05)).norm() < 0.018; },
             Vec3d(-0.065, 0.148, -0.012),
             turned(90, Vec3d::UnitX()),
-            {-20, 15, UpAxis::y, usual_size, {}}};
+            {-20, 15, UpAxis::y, usual_size, {}},
+            0.08};
 }
 
 Close close_armadillo() {
     return {"armadillo",
-            "the tail is pulled down between the legs",
-            [](const Vec3d& p) { return p.y() < -35 || p.y() > 40; },
-            [](const Vec3d& p) { return std::abs(p.x()) < 9 && p.y() < 0 && p.z() < -40; },
-            Vec3d::Zero(),
-            pushed({0, -30, 25}),
-            {160, 5, UpAxis::y, usual_size, {}}};
+            "the arm beside an ear is taken down, the ear is not touched",
+            [](const Vec3d& p) { return p.y() < 20; },
+            [](const Vec3d& p) { return p.x() > 42 && p.y() > 35; },
+            Vec3d(25, 58, -5),
+            turned(-80, Vec3d::UnitZ()),
+            {20, 5, UpAxis::y, usual_size, {}},
+            65};
 }
 
 Close close_dragon() {
@@ -96,7 +114,8 @@ Close close_dragon() {
             [](const Vec3d& p) { return p.x() < -0.09 && p.y() < 0.16; },
             Vec3d(-0.06, 0.15, 0),
             turned(30, Vec3d::UnitZ()),
-            {15, 10, UpAxis::y, usual_size, {}}};
+            {15, 10, UpAxis::y, usual_size, {}},
+            0.08};
 }
 
 PageRow row_of(PageStudio& studio, const Close& close, PointCloud cloud,
@@ -140,6 +159,7 @@ PageRow row_of(PageStudio& studio, const Close& close, PointCloud cloud,
                     {},
                     1,
                     false};
+    scene.view.framed = seen_part(close, shape, task);
     PageRow row{close.name + ": " + close.words, {}};
     PagePicture along = draw_scene(studio, scene, "geodesic", shape);
     along.caption = "The eight nearest along the surface.";

@@ -5,6 +5,7 @@
 #include "bench/posing.h"
 #include "bench/text_table.h"
 #include "io/cloud_file.h"
+#include "shapes/shapes.h"
 
 namespace knead {
 
@@ -31,6 +32,13 @@ std::vector<SessionAction> acts_of(const DeformationTask& task) {
     return {handle_line("fixed", HandleRole::fixed, task.fixed),
             handle_line("handle", HandleRole::moving, task.handle), whole_motion(task),
             SettleLine{settle_limit}};
+}
+
+PointCloud clean_creature(PageStudio& studio) {
+    ShapeOptions options;
+    options.points = 50'000;
+    options.outliers = 0;
+    return make_shape(Shape::creature, options, studio.workers, studio.progress);
 }
 
 void write_session(PageStudio& studio, const PageScene& scene) {

@@ -41,6 +41,9 @@ struct PageStudio {
 // A task's handles, its drag in one frame and a settling; and the same with other frames.
 std::vector<SessionAction> acts_of(const DeformationTask& task);
 
+// The creature as a scanner without strays would see it, 50,000 points.
+PointCloud clean_creature(PageStudio& studio);
+
 // Writes the scene's session, NAME.knead, and its cloud where that came from no file.
 void write_session(PageStudio& studio, const PageScene& scene);
 
@@ -65,7 +68,8 @@ PageSection survey_section(PageStudio& studio);
 PageSection elasticity_section(PageStudio& studio);
 PageSection posed_section(PageStudio& studio);     // Figure 1
 PageSection neighbors_section(PageStudio& studio); // Figure 2
+PageSection pipeline_section(PageStudio& studio);  // in place of Figure 3
 PageSection weights_section(PageStudio& studio);   // Figure 4
-PageSection unknown_section();                     // Figures 3 and 5
+PageSection large_section(PageStudio& studio);     // in place of Figure 5
 
 } // namespace knead

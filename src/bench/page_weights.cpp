@@ -82,11 +82,13 @@ PageSection weights_section(PageStudio& studio) {
     PageSection section{
         "Figure 4: the paper's weights and smooth ones",
         "Bent by 60° between two automatic handles, with 100 samples, where weights show most. "
-        "The colour is how much the links of a point changed their length, from violet (not at "
-        "all) to yellow (20 %). The paper's weights jump where the set of the nearest samples "
+        "The colour is how much the links of a point changed their length. The paper's weights jump where "
+        "the set of the nearest samples "
         "changes: patches with edges.",
         {},
-        {}};
+        {},
+        "unchanged",
+        "20 %"};
     section.rows.push_back(
         row_of(studio,
                bending_task("bar-bent", made_cloud(Shape::bar, 20'000, studio.workers, studio.progress),

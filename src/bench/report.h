@@ -35,6 +35,10 @@ struct TurnResult;
 std::string turns_text(std::span<const TurnResult> results);
 ReportJson turns_json(std::span<const TurnResult> results);
 
+struct DemandResult;
+std::string demands_text(std::span<const DemandResult> results);
+ReportJson demands_json(std::span<const DemandResult> results);
+
 struct StiffnessResult;
 std::string stiffness_text(std::span<const StiffnessResult> results);
 ReportJson stiffness_json(std::span<const StiffnessResult> results);

@@ -128,11 +128,31 @@ void find_turns(SampleSystem& system, const SampleState& state, Workers& workers
     });
 }
 
-// What handles with a falloff add to the right-hand sides.
-void add_pulls(SampleSystem& system, std::span<const HandleMotion> handles) {
+// How the samples of each handle that leaves rotation free turned, all together.
+void find_free_turns(SampleSystem& system, const SampleState& state) {
+    for (Quatd& turn : system.free_turn) turn.coeffs().setZero();
+    for (std::size_t row = system.moving_rows; row < system.free_sample.size(); ++row) {
+        const Index s = system.free_sample[row];
+        system.free_turn[system.rest.handle[s]].coeffs() += state.rotation[s].coeffs();
+    }
+    for (Quatd& turn : system.free_turn) {
+        const double length = turn.coeffs().norm();
+        if (length > 1e-6)
+            turn.coeffs() /= length;
+        else
+            turn.setIdentity();
+    }
+}
+
+// What handles with a falloff add to the right-hand sides. Around one that leaves rotation free the surface
+// goes with the anchor, and turns about it as the handle's own samples do.
+void add_pulls(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state) {
     const std::size_t rows = system.moving_rows;
+    find_free_turns(system, state);
     for (const SoftHold& hold : system.rest.pulled) {
-        const Vec3d way = sent(handles[hold.handle], hold.anchor);
+        Vec3d way = sent(handles[hold.handle], hold.anchor);
+        if (hold.handle < system.free_turn.size())
+            way += turn_of(system.free_turn[hold.handle]) * (system.rest.position[hold.sample] - hold.anchor);
         for (std::size_t c = 0; c < 3; ++c)
             system.columns[c * rows + system.unknown[hold.sample]] += hold.weight * way[static_cast<int>(c)];
     }
@@ -156,7 +176,7 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
         }
         for (std::size_t c = 0; c < 3; ++c) system.columns[c * rows + row] = side[static_cast<int>(c)];
     });
-    add_pulls(system, handles);
+    add_pulls(system, handles, state);
     system.positions.solve({system.columns.data(), 3 * rows}, 3);
 
     double longest = 0;

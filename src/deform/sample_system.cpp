@@ -165,6 +165,7 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     find_surroundings(system, workers);
     set_poisson(system, system.rest.poisson);
     system.turn.assign(system.rest.handle.size(), Mat3d::Zero());
+    system.free_turn.assign(system.rest.turns_freely.size(), Quatd::Identity());
     system.columns.assign(4 * system.free_sample.size(), 0);
 
     find_pull(system);

@@ -44,8 +44,9 @@ struct SoftHold {
     Index sample = 0;
     Index handle = 0;
     double weight = 0;            // μ, of the size of the weights of the links; > 0
-    Vec3d anchor = Vec3d::Zero(); // it is to go as far as the handle sends this: its own rest position, or
-                                  // for a handle that leaves rotation free, one place for all
+    Vec3d anchor = Vec3d::Zero(); // it is to go as far as the handle sends this: its own rest position, or,
+                                  // for a handle that leaves rotation free, one place for all, about which
+                                  // it then turns as the handle's samples do
 };
 
 // What stays while an edit lasts.
@@ -86,9 +87,10 @@ struct SampleSystem {
 
     std::vector<Surroundings> surroundings; // of each row
 
-    std::vector<Mat3d> turn;     // M - I, of each sample
-    std::vector<Mat3d> target;   // S - I, of each row; empty for ν = 0
-    std::vector<double> columns; // right-hand sides and solutions
+    std::vector<Mat3d> turn;      // M - I, of each sample
+    std::vector<Quatd> free_turn; // of each handle that `rest.turns_freely` tells of
+    std::vector<Mat3d> target;    // S - I, of each row; empty for ν = 0
+    std::vector<double> columns;  // right-hand sides and solutions
 };
 
 // Prepares both systems: one ordering, two factorisations. Samples whose component holds no handle are left

@@ -280,10 +280,10 @@ double Document::handle_error(Progress& progress) {
     return bounds_.diagonal() > 0 ? largest / bounds_.diagonal() : largest;
 }
 
-double Document::strain(Progress& progress) {
-    if (mode_ == Mode::rehearsal || !is_posed()) return 1;
+HandleDemand Document::demand(Progress& progress) {
+    if (mode_ == Mode::rehearsal || !is_posed()) return {};
     shape(progress); // the pipeline is prepared for this state
-    return pipeline_.strain(*samples_of(now(), progress));
+    return pipeline_.demand(*samples_of(now(), progress));
 }
 
 Index Document::find_handle(const std::string& name, const std::string& place) const {

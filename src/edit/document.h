@@ -118,8 +118,8 @@ public:
     std::vector<float> positions(Progress& progress);
     std::vector<float> normals(Progress& progress);
 
-    // How far the handles pull the shape out of its proportions (Pipeline::strain); 1 when nothing is posed.
-    double strain(Progress& progress);
+    // Whether the handles ask for more than the shape can give; nothing when nothing is posed.
+    HandleDemand demand(Progress& progress);
 
     // The largest distance of a handle's point from where its handle sends it, over D; 0 when nothing is
     // posed.

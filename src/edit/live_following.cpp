@@ -152,7 +152,7 @@ void LiveWork::finish_settling() {
     if (!std::exchange(settling_, false)) return;
     const SettleLine line = document_->end_settling();
     record([&] { recording_->add(line, true); });
-    publisher_.strain(document_->strain(progress_));
+    publisher_.demand(document_->demand(progress_));
     publish_view();
 }
 

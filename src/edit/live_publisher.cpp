@@ -68,11 +68,11 @@ void LivePublisher::strays(const Pipeline::Strays& strays) {
     told_of_strays_ = words;
 }
 
-void LivePublisher::strain(double strain) {
-    std::string words = words_about_strain(strain);
+void LivePublisher::demand(const HandleDemand& demand) {
+    std::string words = words_about_demand(demand);
     if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
-    if (!words.empty() && told_of_strain_.empty()) say(Notice::Kind::information, words + ".");
-    told_of_strain_ = words;
+    if (!words.empty() && told_of_demand_.empty()) say(Notice::Kind::information, words + ".");
+    told_of_demand_ = words;
 }
 
 void LivePublisher::note_spacings(const Pipeline& pipeline) {

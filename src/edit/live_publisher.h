@@ -33,7 +33,7 @@ public:
 
     // Parts that follow no handle, once for every change.
     void strays(const Pipeline::Strays& strays);
-    void strain(double strain); // says so where the handles ask for too much
+    void demand(const HandleDemand& demand); // says so where the handles ask for too much
 
 private:
     void note_samples(const Pipeline& pipeline);
@@ -43,7 +43,7 @@ private:
     Workers& workers_;
     PosedFrame back_; // the next frame to hand over; the window gives the one before back
     std::uint64_t frames_ = 0;
-    std::string told_of_strays_, told_of_strain_;
+    std::string told_of_strays_, told_of_demand_;
     // Copies for the window, which may look at them while the pipeline makes others.
     std::uint64_t samples_seen_ = 0;
     std::shared_ptr<const std::vector<Index>> sample_vertices_;

@@ -353,11 +353,29 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
         }
     });
     for (std::size_t h = 0; h < motions.size(); ++h) motions_[samples + h] = motion_of_handle(motions[h]);
+    // A single point that may turn has the place of its handle, and its normal the turn of its surroundings.
+    for (std::size_t s = 0; s < samples; ++s) {
+        const Index handle = system_.rest.handle[s];
+        const bool turns = handle < motions.size() && system_.unknown[s] != no_index;
+        if (turns && input_.handles[handle].points->size() == 1) motions_[samples + handle] = motions_[s];
+    }
     const std::size_t first_carried = motions_.size() - carried_.size();
     workers_.for_each(carried_.size(), 16, [&](std::size_t part) {
         motions_[first_carried + part] = carried_motion(carried_, part, motions_);
     });
     upsampler_.run(motions_, posed_.positions, posed_.normals);
+}
+
+HandleDemand Pipeline::demand(const SampleState& state) const {
+    const RestShape& rest = input_.rest ? *input_.rest : opened_;
+    const Parting parting = parting_of(*graph_, labels_, order_, rest.positions, posed_.positions);
+    HandleDemand demand{strain_of(system_, state), parting.factor, {}, {}};
+    const auto name_of = [&](Index handle) {
+        return handle < input_.handles.size() ? '"' + input_.handles[handle].name + '"'
+                                              : std::string("what lies outside the region");
+    };
+    if (parting.one != no_index) demand.one = name_of(parting.one), demand.other = name_of(parting.other);
+    return demand;
 }
 
 std::string words_about(const Pipeline::Strays& strays) {
@@ -380,15 +398,6 @@ std::string words_about(const Pipeline::Strays& strays) {
         break;
     }
     return words;
-}
-
-std::string words_about_strain(double strain) {
-    constexpr double plausible = 2.5;
-    if (!(strain > plausible)) return {};
-    char factor[32];
-    std::snprintf(factor, sizeof factor, "%.1f", strain);
-    return std::string("the handles pull the cloud to ") + factor +
-           " times its length; what lies between them is shared out as evenly as can be";
 }
 
 } // namespace knead

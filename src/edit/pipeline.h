@@ -22,9 +22,9 @@
 #include "base/progress.h"
 #include "deform/acceleration.h"
 #include "deform/sample_system.h"
-#include "deform/strain.h"
 #include "edit/carried_parts.h"
 #include "edit/falloffs.h"
+#include "edit/handle_demand.h"
 #include "edit/handles.h"
 #include "graph/neighbors.h"
 #include "graph/point_order.h"
@@ -89,12 +89,12 @@ public:
     // goes with iterations at unchanging motions.
     double iterate(const std::vector<HandleMotion>& motions, SampleState& state, Acceleration& acceleration);
 
-    // How far the shape is pulled out of its proportions (deform/strain.h).
-    double strain(const SampleState& state) const { return strain_of(system_, state); }
-
     // Every point's position and normal for a state of the samples, into buffers that the pipeline keeps.
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
     const RestShape& posed() const { return posed_; }
+
+    // Whether the handles ask for too much. Of the shape that was upsampled last, from this state.
+    HandleDemand demand(const SampleState& state) const;
 
     const PointOrder& order() const { return order_; }
     const Graph& graph() const { return *graph_; }
@@ -108,6 +108,8 @@ public:
     // Counts how often samples() and sample_graph() changed together; 0: never yet.
     std::uint64_t samples_version() const { return samples_version_; }
     const HandleLabels& labels() const { return labels_; }
+    // Which samples move a vertex that no handle holds: row v is that of vertex v.
+    const InfluenceRows& influences() const { return rows_; }
     const RestShape& opened() const { return opened_; } // the shape in the file
     double cloud_size() const { return cloud_size_; }
 
@@ -186,8 +188,5 @@ private:
 
 // What the user should hear about parts that hold no handle; empty when there are none.
 std::string words_about(const Pipeline::Strays& strays);
-
-// What the user should hear about handles that ask for more than a shape can give; empty as long as it can.
-std::string words_about_strain(double strain);
 
 } // namespace knead

@@ -184,7 +184,7 @@ private:
     void finish_edit(Document& document, std::size_t after_line) {
         if (options_.rehearse) return;
         report_.handle_error = std::max(report_.handle_error, document.handle_error(progress_));
-        if (const std::string words = words_about_strain(document.strain(progress_)); !words.empty())
+        if (const std::string words = words_about_demand(document.demand(progress_)); !words.empty())
             add_warning(words);
         if (!options_.record_checks || checked_) return;
         checked_ = true;
@@ -200,6 +200,14 @@ private:
     bool is_recorded_name(const std::filesystem::path& name) const {
         return options_.record_checks && name.parent_path().empty() && name.extension() == ".ply" &&
                name.string().starts_with(session_.file.stem().string() + "-check-");
+    }
+
+    // That of the check which is recorded anew, or a usual one.
+    double recorded_tolerance(const std::filesystem::path& file) const {
+        for (const SessionLine& line : session_.lines)
+            if (const auto* check = std::get_if<CheckLine>(&line.action); check && check->positions == file)
+                return check->tolerance;
+        return 1e-4;
     }
 
     void write_results(Document& document) {
@@ -226,7 +234,7 @@ private:
         auto next = recorded_.begin();
         const auto put_checks_up_to = [&](std::size_t line) {
             for (; next != recorded_.end() && next->after_line <= line; ++next)
-                file.write(to_text(CheckLine{next->file, 1e-4}) + "\n");
+                file.write(to_text(CheckLine{next->file, recorded_tolerance(next->file)}) + "\n");
         };
         put_checks_up_to(1);
         for (const SessionLine& line : session_.lines) {

@@ -4,7 +4,7 @@
 #include "bench/automatic_handles.h"
 #include "bench/deviation.h"
 #include "bench/made_cloud.h"
-#include "bench/page_studio.h"
+#include "bench/page_joints.h"
 #include "bench/posing.h"
 #include "bench/temporary_folder.h"
 
@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 namespace {
@@ -30,6 +31,31 @@ TEST(PageHtml, SaysEverythingAndEscapesIt) {
                              "knead &lt;x&gt;", "Missing: a scan", "<h1>title</h1>", "charset=\"utf-8\""})
         EXPECT_NE(html.find(text), std::string::npos) << text;
     EXPECT_EQ(html.find("<script"), std::string::npos);
+}
+
+TEST(PageHtml, ShowsAScaleWhereThereIsOne) {
+    PageSection section{"A", "b", {}, {}, "none < some", "all"};
+    const std::string html = page_html("title", "words", {&section, 1});
+    EXPECT_NE(html.find("none &lt; some <span style=\"background: linear-gradient(to right, rgb(68,1,84)"),
+              std::string::npos)
+        << html;
+    section.scale_low = section.scale_high = {};
+    EXPECT_EQ(page_html("title", "words", {&section, 1}).find("gradient"), std::string::npos);
+}
+
+// The far end of a strip of length π that is rolled by half a turn lies a diameter of 2 above its near one.
+TEST(PageJoints, RollUpWithoutStretching) {
+    Joint joint{"edge", WholeRegion{}, Vec3d(1, 2, 3), -Vec3d::UnitY(), 180, ""};
+    joint.free_part = Vec3d(std::numbers::pi, 0, 0);
+    JointedPose pose{"strip", "", WholeRegion{}, {joint}, {}, 10};
+    const std::vector<SessionAction> acts = acts_of(pose);
+    const auto& frames = std::get<DragLine>(acts[2]).frames;
+    ASSERT_EQ(frames.size(), 10U);
+    const auto end_at = [&](const HandlePose& frame) {
+        return Vec3d(joint.pivot + frame.rotate * joint.free_part + frame.translate);
+    };
+    EXPECT_LT((end_at(frames[9]) - (joint.pivot + Vec3d(0, 0, 2))).norm(), 1e-12);
+    EXPECT_LT((end_at(frames[4]) - (joint.pivot + Vec3d(2, 0, 2))).norm(), 1e-12); // a quarter of radius 2
 }
 
 TEST(TemporaryFolder, HandsOverOrLeavesNothing) {

@@ -1,6 +1,7 @@
 // The studies of the evaluation, on small generated shapes.
 
 #include "base/workers.h"
+#include "bench/demands.h"
 #include "bench/made_cloud.h"
 #include "bench/posing.h"
 #include "bench/report.h"
@@ -99,6 +100,24 @@ TEST_F(Studies, WaysToOnePoseMeet) {
     EXPECT_FALSE(half_turn[0].aimed);
     EXPECT_NE(turns_text(half_turn).find("ambiguous"), std::string::npos);
     EXPECT_TRUE(turns_json(half_turn).at(0).at("settled").at("holds").is_null());
+}
+
+TEST_F(Studies, ImpossibleDemandsAreSharedOutAndSaid) {
+    ShapeOptions sampling;
+    sampling.points = 1500;
+    DemandCase pulled{"pulled", generated_task("made-bar", sampling, workers, progress), true, true};
+    pulled.task.pose = {};
+    const auto evaluated = [&] { return evaluate_demand(pulled, workers, *upsampler, progress); };
+    const DemandResult still = evaluated();
+    EXPECT_EQ(still.words, "");
+    EXPECT_NE(demands_text({&still, 1}).find("FAIL"), std::string::npos); // it should have said something
+    pulled.task.pose.translate = Vec3d(0, 0, 12);
+    const DemandResult result = evaluated();
+    EXPECT_NE(result.words, "");
+    EXPECT_LT(result.handle_error, 1e-6);
+    ASSERT_TRUE(result.uneven);
+    EXPECT_LT(*result.uneven, 0.5); // coarse slabs, of 1500 points
+    EXPECT_EQ(demands_json({&result, 1}).at(0).at("said"), result.words);
 }
 
 TEST_F(Studies, StiffnessLooksTheSameAtEverySize) {

@@ -268,6 +268,18 @@ TEST_F(Replay, RecordsChecksThatHoldAndRecordingAgainChangesNothing) {
     EXPECT_EQ(files(), (std::set<std::string>{"bar.ply", "s-check-1.ply", "s-check-2.ply", "s.knead"}));
 }
 
+TEST_F(Replay, RecordsAgainWithTheToleranceThatACheckHas) {
+    session(edit);
+    ASSERT_EQ(replay({"--record-checks"}).code, 0);
+    std::string recorded = read_text(folder / "s.knead");
+    const std::string usual = "\"tolerance\":1e-04";
+    ASSERT_NE(recorded.find(usual), std::string::npos) << recorded;
+    recorded.replace(recorded.find(usual), usual.size(), "\"tolerance\":0.02");
+    write_text(folder / "s.knead", recorded);
+    ASSERT_EQ(replay({"--record-checks"}).code, 0);
+    EXPECT_EQ(read_text(folder / "s.knead"), recorded);
+}
+
 TEST_F(Replay, AFailedCheckStillWritesAndExitsWithFour) {
     session(edit +
             R"({"op":"check","positions":"bar.ply","tolerance":1e-4})"

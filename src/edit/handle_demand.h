@@ -1,0 +1,38 @@
+#pragma once
+// Whether handles ask for more than a shape can give: when they pull the cloud apart, press it together, or
+// tear it where one lies next to another. All of them are met exactly, whatever they ask; it is the cloud
+// between them that pays, evenly, and the user is to know.
+
+#include "deform/strain.h"
+#include "edit/handles.h"
+#include "graph/csr.h"
+#include "graph/point_order.h"
+
+#include <span>
+#include <string>
+
+namespace knead {
+
+// Where two handles touch: of the links between points that one holds and points that the other does, how
+// many times as long as at rest one of a hundred is, or longer. Of all pairs of handles, the one parted most.
+struct Parting {
+    double factor = 1;                      // 1 where no handle touches another
+    Index one = no_index, other = no_index; // the handles, one < other
+};
+
+// `graph`: of the vertices. `rest` and `posed`: 3 floats a point, in the order of computation.
+Parting parting_of(const Graph& graph, const HandleLabels& labels, const PointOrder& order,
+                   std::span<const float> rest, std::span<const float> posed);
+
+struct HandleDemand {
+    Strain strain;
+    double parted = 1;      // the factor of a Parting
+    std::string one, other; // the names of its handles
+};
+
+// What the user should hear about it; empty as long as the shape can follow: the cloud is nowhere pulled to
+// more than 2.5 times its length, nor pressed to less than a third of it. (In the sessions
+// of data/regression that ask for nothing impossible, links stay within 0.6 … 1.7 times theirs.)
+std::string words_about_demand(const HandleDemand& demand);
+
+} // namespace knead

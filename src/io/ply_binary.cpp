@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "io/ply_rows.h"
 #include "io/scalar_bytes.h"
+#include "io/text_numbers.h"
 
 #include <algorithm>
 
@@ -79,7 +80,7 @@ std::size_t list_length(PlyBody& body, const PlyElement& element, const PlyPrope
     const std::size_t left = body.left() - size_of(property.count_type);
     if (length < 0 || static_cast<std::uint64_t>(length) > left / size_of(property.type))
         fail(body, element, row,
-             "has a list " + quoted(property.name) + " of the length " + std::to_string(length) +
+             "has a list " + in_quotes(property.name) + " of the length " + std::to_string(length) +
                  ", which the file does not hold; it is cut off or damaged, get it again from its source");
     body.at += size_of(property.count_type);
     return static_cast<std::size_t>(length);
@@ -159,7 +160,7 @@ void refuse_lying_count(const PlyBody& body, const PlyElement& element, PlyEncod
     if (shortest == 0 || element.count <= room / shortest) return;
     throw Error(Trouble::input, body.shown + ": byte " + std::to_string(body.at),
                 "the header promises " + std::to_string(element.count) + " rows of element " +
-                    quoted(element.name) + ", but only " + std::to_string(body.left()) +
+                    in_quotes(element.name) + ", but only " + std::to_string(body.left()) +
                     " bytes follow: the file is cut off or its header lies; get it again from its source");
 }
 

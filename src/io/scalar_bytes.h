@@ -17,7 +17,8 @@ inline void copy_scalar(const std::byte* from, std::size_t size, bool swap, std:
         std::memcpy(to, from, size);
 }
 
-// One scalar of an integer type; `swap` says that it lies in the other byte order.
+// One scalar of an integer type; `swap` says that it lies in the other byte order. A uint64 beyond the
+// largest int64 comes out negative.
 inline std::int64_t load_integer(const std::byte* from, ScalarType type, bool swap) {
     std::array<std::byte, 8> native{};
     copy_scalar(from, size_of(type), swap, native.data());
@@ -38,6 +39,10 @@ inline std::int64_t load_integer(const std::byte* from, ScalarType type, bool sw
         return as(std::int32_t{});
     case ScalarType::uint32:
         return as(std::uint32_t{});
+    case ScalarType::int64:
+        return as(std::int64_t{});
+    case ScalarType::uint64:
+        return as(std::uint64_t{});
     case ScalarType::float32:
     case ScalarType::float64:
         break;
@@ -61,6 +66,10 @@ inline void store_scalar(double value, ScalarType type, std::byte* to) {
         return put(static_cast<std::int32_t>(value));
     case ScalarType::uint32:
         return put(static_cast<std::uint32_t>(value));
+    case ScalarType::int64:
+        return put(static_cast<std::int64_t>(value));
+    case ScalarType::uint64:
+        return put(static_cast<std::uint64_t>(value));
     case ScalarType::float32:
         return put(static_cast<float>(value));
     case ScalarType::float64:

@@ -203,7 +203,7 @@ TEST(PlyReader, names_other_formats_and_says_what_to_do) {
         {"# a comment\n\nv 1 2 3\n", "OBJ"},
         {"0.5, 1, 2\n", "a table of numbers"},
         {R"({"knead":1})", "knead replay"},
-        {"PLY\nformat", "no format that knead knows"},
+        {"PLY\nformat", "'ply' alone"},
         {"plywood\n", "stand alone"},
     };
     for (const auto& [bytes, expected] : words)

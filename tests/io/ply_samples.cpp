@@ -72,8 +72,13 @@ std::vector<SampleKind> all_sample_kinds() {
     std::vector<SampleKind> kinds;
     for (const auto encoding :
          {PlyEncoding::ascii, PlyEncoding::binary_little_endian, PlyEncoding::binary_big_endian}) {
-        for (int type = 0; type < 8; ++type)
-            kinds.push_back({encoding, static_cast<ScalarType>(type), type % 2 == 1, true, "\n"});
+        bool more = false;
+        for (const ScalarType type :
+             {ScalarType::int8, ScalarType::uint8, ScalarType::int16, ScalarType::uint16, ScalarType::int32,
+              ScalarType::uint32, ScalarType::float32, ScalarType::float64}) {
+            kinds.push_back({encoding, type, more, true, "\n"});
+            more = !more;
+        }
         for (const bool lists : {false, true})
             for (const bool extra : {false, true})
                 for (const char* end : {"\n", "\r\n", "\r"})

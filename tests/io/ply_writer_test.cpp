@@ -201,12 +201,12 @@ TEST(PlyWriter, refuses_names_of_other_formats) {
     const ScratchFolder folder;
     SilentProgress progress;
     const PointCloud cloud = make_cloud(std::vector<float>{1, 2, 3});
-    for (const char* name : {"out.pcd", "out", "ply", "out.ply.gz"}) try {
+    for (const char* name : {"out.stl", "out", "ply", "out.ply.gz"}) try {
             write_cloud(folder / name, cloud, {}, progress);
             ADD_FAILURE() << name;
         } catch (const Error& error) {
             EXPECT_EQ(error.trouble(), Trouble::output);
-            EXPECT_NE(std::string(error.what()).find("writes PLY"), std::string::npos);
+            EXPECT_NE(std::string(error.what()).find("knead writes .ply"), std::string::npos);
         }
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
     write_cloud(folder / "OUT.PLY", cloud, {}, progress);

@@ -1,4 +1,5 @@
 #include "io/format.h"
+#include "io/las.h"
 #include "io/ply.h"
 
 #include <algorithm>
@@ -11,8 +12,11 @@ namespace {
 
 constexpr std::array<std::string_view, 1> ply_extensions = {".ply"};
 
-constexpr std::array<Format, 1> formats = {{
+constexpr std::array<std::string_view, 1> las_extensions = {".las"};
+
+constexpr std::array<Format, 2> formats = {{
     {"ply", ply_extensions, looks_like_ply, read_ply, write_ply},
+    {"las", las_extensions, looks_like_las, read_las, write_las},
 }};
 
 std::string lower_case(std::string text) {

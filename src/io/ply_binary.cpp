@@ -28,23 +28,6 @@ void report(Progress& progress, std::uint64_t row, const PlyElement& element) {
                 element.name + " row " + std::to_string(row) + " " + words);
 }
 
-template<std::size_t size>
-void gather(const std::byte* from, std::size_t stride, std::size_t rows, bool swap, std::byte* to) {
-    if (swap)
-        for (std::size_t row = 0; row < rows; ++row, from += stride, to += size)
-            copy_scalar(from, size, true, to);
-    else
-        for (std::size_t row = 0; row < rows; ++row, from += stride, to += size) std::memcpy(to, from, size);
-}
-
-void gather(const std::byte* from, std::size_t stride, std::size_t rows, std::size_t size, bool swap,
-            std::byte* to) {
-    if (size == 1) gather<1>(from, stride, rows, swap, to);
-    if (size == 2) gather<2>(from, stride, rows, swap, to);
-    if (size == 4) gather<4>(from, stride, rows, swap, to);
-    if (size == 8) gather<8>(from, stride, rows, swap, to);
-}
-
 // Rows without lists, all equally long: taken apart a block at a time, so that a block stays in the cache
 // while its columns are gathered.
 void read_equal_rows(PlyBody& body, const PlyElement& element, bool swap, std::vector<Attribute>& columns,
@@ -59,7 +42,7 @@ void read_equal_rows(PlyBody& body, const PlyElement& element, bool swap, std::v
         const std::byte* from = body.bytes.data() + body.at + row * stride;
         for (Attribute& column : columns) {
             const std::size_t size = size_of(column.type);
-            gather(from, stride, rows, size, swap, column.values.data() + row * size);
+            gather_scalars(from, stride, rows, size, swap, column.values.data() + row * size);
             from += size;
         }
     }
@@ -90,7 +73,7 @@ void read_list(PlyBody& body, std::size_t length, bool swap, Attribute& column) 
     const std::size_t size = size_of(column.type);
     const std::size_t before = column.values.size();
     column.values.resize(before + length * size);
-    gather(body.bytes.data() + body.at, size, length, size, swap, column.values.data() + before);
+    gather_scalars(body.bytes.data() + body.at, size, length, size, swap, column.values.data() + before);
     column.first.push_back(column.values.size() / size);
     body.at += length * size;
 }

@@ -20,7 +20,8 @@ std::optional<double> rounded_to_integer(double value) {
     return fits ? std::optional(whole) : std::nullopt;
 }
 
-// The nearest value that the type holds; nothing where it holds none.
+} // namespace
+
 std::optional<double> rounded_to(ScalarType type, double value) {
     switch (type) {
     case ScalarType::int8:
@@ -47,8 +48,6 @@ std::optional<double> rounded_to(ScalarType type, double value) {
     }
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
-
-} // namespace
 
 std::vector<PosedColumn> posed_columns(const PointCloud& cloud, const PosedShape& shape) {
     std::vector<PosedColumn> columns;

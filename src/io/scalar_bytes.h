@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
+#include <span>
 
 namespace knead {
 
@@ -16,6 +18,25 @@ inline void copy_scalar(const std::byte* from, std::size_t size, bool swap, std:
     else
         std::memcpy(to, from, size);
 }
+
+// The little-endian scalar at a place in a file's bytes, which must hold it.
+template<typename T>
+T load_little(std::span<const std::byte> bytes, std::size_t at) {
+    T value{};
+    copy_scalar(bytes.data() + at, sizeof value, std::endian::native == std::endian::big,
+                reinterpret_cast<std::byte*>(&value));
+    return value;
+}
+
+template<typename T>
+void store_little(T value, std::span<std::byte> bytes, std::size_t at) {
+    copy_scalar(reinterpret_cast<const std::byte*>(&value), sizeof value,
+                std::endian::native == std::endian::big, bytes.data() + at);
+}
+
+// Copies one scalar of `size` bytes out of each of `rows` records, `stride` bytes apart, into a column.
+void gather_scalars(const std::byte* from, std::size_t stride, std::size_t rows, std::size_t size, bool swap,
+                    std::byte* to);
 
 // One scalar of an integer type; `swap` says that it lies in the other byte order. A uint64 beyond the
 // largest int64 comes out negative.

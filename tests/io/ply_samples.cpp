@@ -1,6 +1,5 @@
 #include "io/ply_samples.h"
 
-#include "base/error.h"
 #include "io/ply.h"
 #include "io/scalar_bytes.h"
 
@@ -109,38 +108,6 @@ std::string name_of(const SampleKind& kind) {
     const char* const end = kind.line_end == "\n" ? "LF" : kind.line_end == "\r" ? "CR" : "CRLF";
     return std::string(knead::name_of(kind.encoding)) + " " + std::string(knead::name_of(kind.coordinates)) +
            (kind.lists ? " lists" : "") + (kind.extra_elements ? " extra " : " ") + end;
-}
-
-PointCloud read_bytes(std::string_view bytes, Progress& progress) {
-    const ScratchFolder folder;
-    write_text(folder / "cloud.ply", bytes);
-    return read_cloud(folder / "cloud.ply", progress);
-}
-
-PointCloud read_bytes(std::string_view bytes) {
-    SilentProgress progress;
-    return read_bytes(bytes, progress);
-}
-
-std::string written(const PointCloud& cloud, const PosedShape& shape) {
-    const ScratchFolder folder;
-    SilentProgress progress;
-    write_cloud(folder / "out.ply", cloud, shape, progress);
-    return read_text(folder / "out.ply");
-}
-
-std::string refusal(std::string_view bytes) {
-    const ScratchFolder folder;
-    write_text(folder / "cloud.ply", bytes);
-    SilentProgress progress;
-    try {
-        read_cloud(folder / "cloud.ply", progress);
-    } catch (const Error& error) {
-        if (error.trouble() != Trouble::input) return "not an input error";
-        const std::string words = error.what();
-        return words.substr(words.find("cloud.ply"));
-    }
-    return "";
 }
 
 } // namespace knead::test

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
+#include "io/free_names.h"
 #include "io/scalar_bytes.h"
 
 #include <algorithm>
@@ -132,16 +133,6 @@ std::string name_of_value(const Descriptor& descriptor, std::size_t number, std:
     return descriptor.name + "_" + std::to_string(value);
 }
 
-void make_name_unique(std::vector<LasDimension>& dimensions) {
-    const std::string own = dimensions.back().name;
-    const auto is_taken = [&] {
-        return std::any_of(dimensions.begin(), dimensions.end() - 1,
-                           [&](const LasDimension& other) { return other.name == dimensions.back().name; });
-    };
-    for (unsigned number = 2; is_taken(); ++number)
-        dimensions.back().name = own + "_" + std::to_string(number);
-}
-
 } // namespace
 
 std::size_t las_point_size(unsigned format) {
@@ -177,6 +168,8 @@ std::vector<LasDimension> dimensions_of(std::span<const std::byte> bytes, LasHea
     std::vector<LasDimension> dimensions = las_dimensions(header.point_format);
     for (std::size_t axis = 0; axis < 3; ++axis) dimensions[axis].axis = header.axes[axis];
     std::size_t at = las_point_size(header.point_format);
+    FreeNames names;
+    for (const LasDimension& dimension : dimensions) (void)names.take_exactly(dimension.name);
     std::size_t number = 0;
     for (const LasRecord& record : header.records) {
         if (!record.describes_extra_bytes) continue;
@@ -189,10 +182,9 @@ std::vector<LasDimension> dimensions_of(std::span<const std::byte> bytes, LasHea
                                 " bytes; correct the description or the points' length");
             for (std::size_t value = 0; value < descriptor.values; ++value) {
                 const auto& axis = descriptor.axes[value];
-                dimensions.push_back({name_of_value(descriptor, number, value), descriptor.type,
+                dimensions.push_back({names.take(name_of_value(descriptor, number, value)), descriptor.type,
                                       at + value * size_of(descriptor.type), 0, 0, axis.has_value(),
                                       axis.value_or(LasAxis{})});
-                make_name_unique(dimensions);
             }
             ++number;
             at += descriptor.size;

@@ -73,14 +73,19 @@ bool fits_int32(double number) {
            number <= std::numeric_limits<std::int32_t>::max();
 }
 
+[[noreturn]] void refuse_extent(const std::string& shown) {
+    throw Error(
+        Trouble::output, shown,
+        "the pose spreads the points so far that LAS coordinates in the file's steps do not hold them; "
+        "move them less, or save it as .ply");
+}
+
 // The file's own steps about another middle, so that points which rest keep their very place; coarser steps
 // only where there are too many of them.
 LasAxis axis_that_holds(const AxisFrame& frame, const std::string& shown) {
     constexpr double most_steps = 4e9; // a little less than there are numbers
     const double span = frame.highest - frame.lowest;
-    if (!std::isfinite(span) || !std::isfinite(span * frame.own.scale))
-        throw Error(Trouble::output, shown,
-                    "the pose spreads the points so far that no LAS coordinates hold them; move them less");
+    if (!std::isfinite(span) || !std::isfinite(span * frame.own.scale)) refuse_extent(shown);
     double factor = 1;
     while (span / factor > most_steps) factor *= 10;
     const double middle = std::nearbyint(0.5 * frame.lowest + 0.5 * frame.highest);
@@ -151,7 +156,8 @@ void patch_row(const Patching& patching, std::size_t point, std::span<std::byte>
         const AxisFrame& frame = patching.frames[axis];
         if (!frame.moves) continue;
         const double number = frame.number(point, load_little<std::int32_t>(row, 4 * axis), patching.shown);
-        require(fits_int32(number), "an axis holds its points");
+        // The steps of an odd header may be lost in the rounding of its offset.
+        if (!fits_int32(number)) refuse_extent(patching.shown);
         store_little(static_cast<std::int32_t>(number), row, 4 * axis);
     }
     for (const PosedColumn& column : patching.normals) patch_normal(patching, column, point, row);

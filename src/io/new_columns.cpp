@@ -1,6 +1,7 @@
 #include "io/new_columns.h"
 
 #include "base/require.h"
+#include "io/free_names.h"
 #include "io/scalar_bytes.h"
 #include "io/text_numbers.h"
 
@@ -9,16 +10,12 @@
 namespace knead {
 
 std::vector<AddedColumn> with_free_names(const PointCloud& cloud, std::vector<AddedColumn> added) {
-    for (std::size_t a = 0; a < added.size(); ++a) {
-        require(added[a].values.size() == cloud.size(), "an added column has a value a point");
-        const std::string name = added[a].name;
-        const auto is_taken = [&](const std::string& candidate) {
-            return find_attribute(cloud, candidate).has_value() ||
-                   std::any_of(added.begin(), added.begin() + static_cast<std::ptrdiff_t>(a),
-                               [&](const AddedColumn& other) { return other.name == candidate; });
-        };
-        for (unsigned number = 2; is_taken(added[a].name); ++number)
-            added[a].name = name + "_" + std::to_string(number);
+    if (added.empty()) return added;
+    FreeNames names;
+    for (const Attribute& attribute : cloud.attributes) (void)names.take_exactly(attribute.name);
+    for (AddedColumn& column : added) {
+        require(column.values.size() == cloud.size(), "an added column has a value a point");
+        column.name = names.take(column.name);
     }
     return added;
 }
@@ -40,26 +37,23 @@ bool is_word_letter(char letter) {
 
 std::vector<std::string> make_names_legal(std::vector<NewColumn>& columns, bool (*is_legal)(char letter),
                                           std::size_t longest) {
+    FreeNames names;
+    std::vector<NewColumn*> illegal;
+    // Names that are good stay with their columns, whatever the others become.
+    for (NewColumn& column : columns) {
+        const std::string& name = column.name;
+        const bool good =
+            !name.empty() && name.size() <= longest && std::all_of(name.begin(), name.end(), is_legal);
+        if (!good || !names.take_exactly(name)) illegal.push_back(&column);
+    }
     std::vector<std::string> words;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-        const std::string own = columns[c].name;
-        std::string base = own.empty() ? "unnamed" : own;
+    for (NewColumn* const column : illegal) {
+        std::string name = column->name.empty() ? "unnamed" : column->name;
         std::replace_if(
-            base.begin(), base.end(), [&](char letter) { return !is_legal(letter); }, '_');
-        std::string name = base.substr(0, longest);
-        const auto is_taken = [&] {
-            for (std::size_t other = 0; other < columns.size(); ++other)
-                if (other != c && columns[other].name == name && (other < c || columns[other].name != own))
-                    return true;
-            return false;
-        };
-        for (unsigned number = 2; is_taken(); ++number) {
-            const std::string suffix = "_" + std::to_string(number);
-            name = base.substr(0, longest - suffix.size()) + suffix;
-        }
-        if (name == own) continue;
-        words.push_back("the column " + in_quotes(own) + " is called " + in_quotes(name) + " there");
-        columns[c].name = std::move(name);
+            name.begin(), name.end(), [&](char letter) { return !is_legal(letter); }, '_');
+        name = names.take(name, longest);
+        words.push_back("the column " + in_quotes(column->name) + " is called " + in_quotes(name) + " there");
+        column->name = std::move(name);
     }
     return words;
 }

@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 
+#include <gtest/gtest.h>
+
 namespace knead::test {
 
 PointCloud read_bytes(std::string_view bytes, Progress& progress, const std::string& name) {
@@ -36,6 +38,18 @@ std::string refusal(std::string_view bytes, const std::string& name) {
         return words.substr(words.find(name));
     }
     return "";
+}
+
+bool is_taken(std::string_view bytes, Reader read) {
+    const auto* const begin = reinterpret_cast<const std::byte*>(bytes.data());
+    SilentProgress progress;
+    try {
+        (void)read({begin, begin + bytes.size()}, "cloud", progress);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.trouble(), Trouble::input) << error.what();
+        return false;
+    }
+    return true;
 }
 
 std::string refusal_to_write(const PointCloud& cloud, const PosedShape& shape, const std::string& name) {

@@ -22,6 +22,11 @@ std::string written(const PointCloud& cloud, const PosedShape& shape, const std:
 // The words of the Error that reading these bytes throws, from the file's name on, "" where it throws none.
 std::string refusal(std::string_view bytes, const std::string& name = "cloud.ply");
 
+// Whether a reader takes these bytes; it may refuse them with words, and nothing else. Quick, since there is
+// no file.
+using Reader = PointCloud (*)(std::vector<std::byte> bytes, const std::string& shown, Progress& progress);
+bool is_taken(std::string_view bytes, Reader read);
+
 // The words of the Error (output) that writing throws, "" where it throws none.
 std::string refusal_to_write(const PointCloud& cloud, const PosedShape& shape,
                              const std::string& name = "out.ply");

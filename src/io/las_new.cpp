@@ -25,14 +25,15 @@ double power_of_ten(int exponent) {
     return value;
 }
 
-// The finest power of ten whose steps count the extent, with half of the numbers left for later edits, and an
-// offset in the middle that is short in decimal.
+// The finest power of ten whose steps count the extent, with half of the numbers left for later edits, and
+// which doubles of that size still resolve; and an offset in the middle that is short in decimal.
 LasAxis axis_for(double lowest, double highest) {
     constexpr double most_steps = 2e9;
     const double span = highest - lowest;
     if (!(span > 0)) return {0.001, lowest};
+    const double finest = std::ldexp(std::max(std::abs(lowest), std::abs(highest)), -50);
     int exponent = static_cast<int>(std::floor(std::log10(span / most_steps)));
-    while (span / power_of_ten(exponent) > most_steps) ++exponent;
+    while (span / power_of_ten(exponent) > most_steps || power_of_ten(exponent) < finest) ++exponent;
     const double coarse = power_of_ten(exponent + 8);
     return {power_of_ten(exponent), std::nearbyint((0.5 * lowest + 0.5 * highest) / coarse) * coarse};
 }

@@ -4,6 +4,7 @@
 #include "edit/editing.h"
 #include "edit/replay.h"
 #include "io/cloud_file.h"
+#include "io/format.h"
 #include "support/scratch_folder.h"
 
 #include <iomanip>
@@ -95,7 +96,9 @@ Bent bent(const std::string& extension, const Vec3d& middle) {
 }
 
 TEST(FarCoordinates, ACloudAtUtmDeformsLikeItsTwinAtZeroInEveryFormat) {
-    for (const std::string extension : {".ply", "-text.ply", ".las"}) {
+    std::vector<std::string> endings{"-text.ply"};
+    for (const Format& format : known_formats()) endings.emplace_back(format.extensions.front());
+    for (const std::string& extension : endings) {
         SCOPED_TRACE(extension);
         const Bent near = bent(extension, Vec3d::Zero());
         const Bent far = bent(extension, utm);

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <cstring>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
 namespace knead::test {
 namespace {
@@ -206,6 +208,21 @@ TEST(LasWriter, makes_a_new_file_in_a_pose) {
     EXPECT_EQ(back.file_position(0), Vec3d(0, 0, 0));
     EXPECT_EQ(value_of(back, "far", 1), 8);
     EXPECT_EQ(read_bytes(written(make_cloud({}), {}, "none.las")).size(), 0U);
+}
+
+TEST(LasWriter, finds_steps_for_clouds_of_any_size_and_place) {
+    for (const double size : {1e-9, 1e-3, 1.0, 1e6, 1e12, 1e30})
+        for (const double place : {0.0, 1.0, 5.4e6, -1e12}) {
+            SCOPED_TRACE(testing::Message() << size << " at " << place);
+            std::ostringstream text;
+            text << std::setprecision(17) << ply_header << ply_double_xyz << "end_header\n";
+            for (const double x : {place - size, place, place + size}) text << x << ' ' << place << " 0\n";
+            const PointCloud cloud = read_bytes(text.str());
+            const PointCloud back = read_bytes(written(cloud, {}, "out.las"));
+            const double step = std::max(size * 1e-8, std::abs(place) * 1e-14);
+            for (std::size_t i = 0; i < 3; ++i)
+                EXPECT_LE((back.file_position(i) - cloud.file_position(i)).cwiseAbs().maxCoeff(), step);
+        }
 }
 
 TEST(LasWriter, refuses_a_new_file_of_points_that_are_not_finite) {

@@ -19,7 +19,7 @@ public:
     // The name, cut to `longest` letters (20 at least); where it was taken before, with the first number
     // behind it that makes it new: "red_2".
     std::string take(const std::string& name, std::size_t longest = no_limit) {
-        const std::string base = name.substr(0, longest);
+        std::string base = name.substr(0, longest);
         if (take_exactly(base)) return base;
         unsigned& number = numbers_.try_emplace(base, 2).first->second;
         while (true) {

@@ -122,6 +122,21 @@ TEST(LasWriter, turns_normals_that_are_floats) {
     EXPECT_EQ(saved, expected);
 }
 
+TEST(LasWriter, turns_normals_that_are_scaled_whole_numbers) {
+    LasKind kind;
+    for (const char* name : {"nx", "ny", "nz"}) kind.extra.push_back({name, 4, 0.125, 0});
+    std::string expected = las_sample(kind);
+    const PointCloud cloud = read_bytes(expected);
+    std::vector<float> normals = read_normals(cloud);
+    ASSERT_EQ(normals.size(), 15U);
+    EXPECT_EQ(normals[3], 0.125F);
+    normals[3] = 0.5F;
+    normals[5] = -0.3F; // between two steps
+    put(expected, las_points_begin(kind) + las_length(kind) + 20, std::int16_t{4});
+    put(expected, las_points_begin(kind) + las_length(kind) + 24, std::int16_t{-2});
+    EXPECT_EQ(written(cloud, {cloud.positions, normals}, "out.las"), expected);
+}
+
 TEST(LasWriter, adds_columns_to_every_kind_of_file) {
     const std::vector<float> far{0, 0.5F, 1, -2, 1e-20F};
     for (const LasKind& kind : all_las_kinds()) {

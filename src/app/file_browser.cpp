@@ -5,6 +5,7 @@
 
 #include "app/ui.h"
 #include "app/widgets.h"
+#include "io/cloud_file.h"
 
 #include <imgui_stdlib.h>
 
@@ -267,7 +268,7 @@ void bottom_row(const Ui& ui) {
     const bool entered = ImGui::InputText("##path", &browser.typed, ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::PopID();
     if (ImGui::Checkbox("Every file", &browser.every_file)) read_folder(browser);
-    explain("Also shows files that are neither clouds (.ply) nor sessions (.knead)");
+    explain("Also shows files that are neither clouds (" + known_extensions() + ") nor sessions (.knead)");
     if (browser.purpose == BrowseFor::save_cloud) column_choice(browser);
     const float width = ui.scaled(110), gap = ImGui::GetStyle().ItemSpacing.x;
     ImGui::SameLine(ImGui::GetWindowWidth() - 2 * width - gap - ImGui::GetStyle().WindowPadding.x);

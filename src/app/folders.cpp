@@ -2,6 +2,8 @@
 
 #include "app/file_browser.h"
 
+#include "io/cloud_file.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <system_error>
@@ -21,7 +23,7 @@ std::string extension_of(const std::filesystem::path& file) {
 }
 
 bool is_cloud(const std::filesystem::path& file) {
-    return extension_of(file) == ".ply";
+    return has_cloud_extension(file);
 }
 bool is_session(const std::filesystem::path& file) {
     return extension_of(file) == ".knead";

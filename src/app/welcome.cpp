@@ -81,7 +81,7 @@ void draw_welcome(const Ui& ui) {
                "while you drag; "
                "no mesh is needed.");
     ImGui::Dummy({0, ui.scaled(8)});
-    step(ui, "1", "Open a scan", "Drop a .ply file into this window, or press Ctrl+O.");
+    step(ui, "1", "Open a scan", "Drop a point cloud into this window, or press Ctrl+O.");
     step(ui, "2", "Make handles", "Draw around a part: Shift+H holds it fixed, H makes it one that moves.");
     step(ui, "3", "Pose", "Drag the arrows and rings, or press G, R or S. Enter keeps the pose.");
     ImGui::Dummy({0, ui.scaled(6)});

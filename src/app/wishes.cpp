@@ -4,6 +4,7 @@
 #include "app/remembered.h"
 #include "base/error.h"
 #include "edit/journal.h"
+#include "io/cloud_file.h"
 
 #include <array>
 
@@ -84,7 +85,8 @@ void fulfil(Work& work, const WishBrowse& wish) {
     if (!work.editor.document) return;
     if (wish.purpose == BrowseFor::save_session) browser.typed = opened.stem().string() + ".knead";
     if (wish.purpose == BrowseFor::save_cloud)
-        browser.typed = opened.stem().string() + "-posed" + opened.extension().string();
+        browser.typed = opened.stem().string() + "-posed" +
+                        (has_cloud_extension(opened) ? opened.extension().string() : ".ply");
 }
 
 void save(Work& work, const WishSaveTo& wish) {

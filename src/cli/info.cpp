@@ -194,7 +194,7 @@ void add_info(CLI::App& app, Job& job) {
     const auto options = std::make_shared<Options>();
     CLI::App* command =
         app.add_subcommand("info", "What is in a cloud: points, attributes, bounds, duplicates, components");
-    command->add_option("FILE", options->file, "The cloud, a PLY file")->required();
+    command->add_option("FILE", options->file, "The cloud: " + known_extensions())->required();
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options, &job] {
         job = [options](Terminal& terminal) { return info(options->file, options->json, terminal); };

@@ -50,7 +50,7 @@ int make(const MakeArguments& arguments, Terminal& terminal) {
     refuse_bad_target(arguments.out);
     Workers workers;
     const PointCloud cloud = make_shape(*shape, options, workers, terminal);
-    write_cloud(arguments.out, cloud, {}, terminal);
+    for (const std::string& words : write_cloud(arguments.out, cloud, {}, terminal)) terminal.warn(words);
     terminal.say(words_for(cloud, arguments));
     return 0;
 }
@@ -63,7 +63,9 @@ void add_make(CLI::App& app, Job& job) {
         app.add_subcommand("make", "Make a test cloud: a simple shape, or a creature as scanned");
     command->add_option("shape", arguments->shape, shape_names())->required()->type_name("SHAPE");
     command->add_option("--points", arguments->points, "How many points, strays included")->required();
-    command->add_option("--out", arguments->out, "The file to write, PLY")->required()->type_name("FILE");
+    command->add_option("--out", arguments->out, "The file to write: " + known_extensions())
+        ->required()
+        ->type_name("FILE");
     command->add_option("--seed", arguments->seed, "Another seed, another cloud of the same shape (1)");
     command->add_option("--noise", arguments->noise,
                         "Standard deviation of the points from the surface, over their mean spacing "

@@ -47,7 +47,7 @@ int render(const Arguments& arguments, Terminal& terminal) {
 void add_render(CLI::App& app, Job& job) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("render", "A picture of a cloud, with no display");
-    command->add_option("FILE", arguments->file, "The cloud, a PLY file")->required();
+    command->add_option("FILE", arguments->file, "The cloud: " + known_extensions())->required();
     command->add_option("--out", arguments->out, "The picture, a PNG file")->required();
     declare_picture_options(*command, arguments->picture);
     command->callback([arguments, &job] {

@@ -50,6 +50,10 @@ void load_values(const Attribute& attribute, std::size_t begin, std::span<double
         return load_all<std::int32_t>(from, to);
     case ScalarType::uint32:
         return load_all<std::uint32_t>(from, to);
+    case ScalarType::int64:
+        return load_all<std::int64_t>(from, to);
+    case ScalarType::uint64:
+        return load_all<std::uint64_t>(from, to);
     case ScalarType::float32:
         return load_all<float>(from, to);
     case ScalarType::float64:
@@ -108,6 +112,8 @@ std::size_t size_of(ScalarType type) {
     case ScalarType::uint32:
     case ScalarType::float32:
         return 4;
+    case ScalarType::int64:
+    case ScalarType::uint64:
     case ScalarType::float64:
         return 8;
     }
@@ -116,9 +122,13 @@ std::size_t size_of(ScalarType type) {
 }
 
 std::string_view name_of(ScalarType type) {
-    constexpr std::string_view names[] = {"int8",  "uint8",  "int16",   "uint16",
-                                          "int32", "uint32", "float32", "float64"};
+    constexpr std::string_view names[] = {"int8",   "uint8", "int16",  "uint16",  "int32",
+                                          "uint32", "int64", "uint64", "float32", "float64"};
     return names[static_cast<std::size_t>(type)];
+}
+
+bool is_whole(ScalarType type) {
+    return type != ScalarType::float32 && type != ScalarType::float64;
 }
 
 double value_at(const Attribute& attribute, std::size_t at) {
@@ -136,6 +146,10 @@ double value_at(const Attribute& attribute, std::size_t at) {
         return load<std::int32_t>(from);
     case ScalarType::uint32:
         return load<std::uint32_t>(from);
+    case ScalarType::int64:
+        return static_cast<double>(load<std::int64_t>(from));
+    case ScalarType::uint64:
+        return static_cast<double>(load<std::uint64_t>(from));
     case ScalarType::float32:
         return static_cast<double>(load<float>(from));
     case ScalarType::float64:
@@ -158,7 +172,9 @@ std::optional<std::size_t> find_attribute(const PointCloud& cloud, std::string_v
 
 std::optional<std::array<std::size_t, 3>> find_normals(const PointCloud& cloud) {
     constexpr std::array<std::string_view, 3> spellings[] = {{"nx", "ny", "nz"},
-                                                             {"normal_x", "normal_y", "normal_z"}};
+                                                             {"normal_x", "normal_y", "normal_z"},
+                                                             {"NormalX", "NormalY", "NormalZ"},
+                                                             {"Nx", "Ny", "Nz"}};
     for (const auto& names : spellings) {
         std::array<std::size_t, 3> columns{};
         std::size_t found = 0;
@@ -166,8 +182,7 @@ std::optional<std::array<std::size_t, 3>> find_normals(const PointCloud& cloud) 
             const auto column = find_attribute(cloud, names[axis]);
             if (!column) break;
             const Attribute& attribute = cloud.attributes[*column];
-            const bool real = attribute.type == ScalarType::float32 || attribute.type == ScalarType::float64;
-            if (attribute.is_list() || !real) break;
+            if (attribute.is_list() || is_whole(attribute.type)) break;
             columns[axis] = *column;
             ++found;
         }

@@ -14,10 +14,11 @@
 
 namespace knead {
 
-enum class ScalarType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+enum class ScalarType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 std::size_t size_of(ScalarType type);      // in bytes
 std::string_view name_of(ScalarType type); // "int8" … "float64"
+bool is_whole(ScalarType type);            // an integer of any width
 
 // A named column: one scalar a point, or one list of scalars a point.
 struct Attribute {
@@ -33,13 +34,20 @@ struct Attribute {
     bool is_list() const { return !first.empty(); }
 };
 
-// The scalar number `at` of a column, as double. Exact for every type.
+// The scalar number `at` of a column, as double. Exact for every type, integers of 8 bytes up to 2^53.
 double value_at(const Attribute& attribute, std::size_t at);
 
 // What a reader keeps of the file so that saving in the same format can leave every other byte as it was.
 // Each format derives its own; only that format's writer looks inside.
 struct SourceImage {
     virtual ~SourceImage() = default;
+
+    virtual std::string_view format() const = 0;   // as in the table of formats, "ply"
+    virtual std::string_view encoding() const = 0; // "ascii", "binary_compressed", "1.4, point format 6"
+
+    // What it holds besides the points and their attributes, which only saving in the same format keeps: one
+    // noun phrase each, "12 rows of the element face".
+    virtual std::vector<std::string> besides_points() const { return {}; }
 };
 
 struct PointCloud {
@@ -70,8 +78,8 @@ struct PointCloud {
 // The column called `name` (letter case counts), if there is one.
 std::optional<std::size_t> find_attribute(const PointCloud& cloud, std::string_view name);
 
-// The three columns of the normals (nx ny nz, or normal_x normal_y normal_z), if all three are there as
-// float32 or float64.
+// The three columns of the normals (nx ny nz, normal_x normal_y normal_z, NormalX NormalY NormalZ, or Nx Ny
+// Nz), if all three are there as float32 or float64.
 std::optional<std::array<std::size_t, 3>> find_normals(const PointCloud& cloud);
 
 // Normals as 3n floats, interleaved; empty without such columns.

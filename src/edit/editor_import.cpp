@@ -12,12 +12,13 @@ namespace knead {
 
 namespace {
 
-bool is_whole(ScalarType type) {
-    return type != ScalarType::float32 && type != ScalarType::float64;
+// Whole numbers of 32 bits at most. Wider columns count or measure (times, serial numbers) and name no parts.
+bool may_hold_labels(ScalarType type) {
+    return is_whole(type) && size_of(type) <= 4;
 }
 
 std::int64_t label_at(const Attribute& attribute, std::size_t point) {
-    return static_cast<std::int64_t>(value_at(attribute, point)); // whole numbers of 32 bits at most: exact
+    return static_cast<std::int64_t>(value_at(attribute, point));
 }
 
 // The values that occur and how often; nothing where there are too many.
@@ -99,7 +100,7 @@ std::vector<LabelColumn> label_columns(const PointCloud& cloud) {
     std::vector<LabelColumn> columns;
     for (std::size_t a = 0; a < cloud.attributes.size(); ++a) {
         const Attribute& attribute = cloud.attributes[a];
-        if (attribute.is_list() || !is_whole(attribute.type)) continue;
+        if (attribute.is_list() || !may_hold_labels(attribute.type)) continue;
         if (std::ranges::find(cloud.coordinate_columns, a) != cloud.coordinate_columns.end()) continue;
         auto values = values_of(attribute, cloud.size());
         if (!values || values->size() < 2) continue;
@@ -115,7 +116,7 @@ void handles_from_labels(Editor& editor, const std::string& column, std::span<co
     if (!needs_document(editor)) return;
     const PointCloud& cloud = *editor.opened.cloud;
     const auto number = find_attribute(cloud, column);
-    if (!number || cloud.attributes[*number].is_list() || !is_whole(cloud.attributes[*number].type))
+    if (!number || cloud.attributes[*number].is_list() || !may_hold_labels(cloud.attributes[*number].type))
         return say(editor, Notice::Kind::error,
                    "The cloud has no column of whole numbers called \"" + column + "\".");
     std::unordered_map<std::int64_t, std::vector<IndexRange>> points;

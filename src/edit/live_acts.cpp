@@ -123,8 +123,9 @@ void LiveWork::carry_out(task::SaveCloud& task) {
     PosedShape shape{positions, normals, {}};
     if (task.columns.displacement) shape.added.push_back({"displacement", far});
     if (task.columns.stretch) shape.added.push_back({"stretch", stretch});
-    write_cloud(task.target, document_->cloud(), shape, progress_);
+    const std::vector<std::string> heard = write_cloud(task.target, document_->cloud(), shape, progress_);
     say(Notice::Kind::information, "Saved the cloud as " + task.target.string());
+    for (const std::string& words : heard) say(Notice::Kind::warning, words);
     publish_view();
 }
 

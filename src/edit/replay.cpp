@@ -214,13 +214,16 @@ private:
         if (options_.out) {
             const std::vector<float> positions = document.positions(progress_);
             const std::vector<float> normals = document.normals(progress_);
-            write_cloud(*options_.out, document.cloud(), {positions, normals}, progress_);
+            for (const std::string& words :
+                 write_cloud(*options_.out, document.cloud(), {positions, normals}, progress_))
+                add_warning(words);
             report_.written.push_back(*options_.out);
         }
         if (!options_.record_checks) return;
         for (const RecordedCheck& recorded : recorded_) {
             const std::filesystem::path path = session_.resolve(recorded.file);
-            write_cloud(path, document.cloud(), {recorded.positions, recorded.normals}, progress_);
+            // Only positions are ever read from it, which every format holds.
+            (void)write_cloud(path, document.cloud(), {recorded.positions, recorded.normals}, progress_);
             report_.written.push_back(path);
         }
         write_session();

@@ -1,6 +1,7 @@
 #pragma once
-// Point clouds from and to files, whatever the format. The format is told by the file's content first and by
-// its extension second; the table is in cloud_file.cpp, and each format has a file of its own.
+// Point clouds from and to files, whatever the format. A file to read is told by its content first and by its
+// extension second, a file to write by its extension; the table is in formats.cpp, and each format has files
+// of its own.
 
 #include "base/progress.h"
 #include "cloud/point_cloud.h"
@@ -31,22 +32,32 @@ struct PosedShape {
     std::vector<AddedColumn> added = {};
 };
 
-// Writes the cloud in a posed shape: same points, order, attributes, types and encoding. A coordinate is
-// saved as the file's own value plus the displacement, posed - rest in double, rounded once to the column's
-// type; one that did not move keeps its bytes (its very text in a text file), and so does a normal that did
-// not turn. Everything else of a file that the cloud was read from stays as it was, byte for byte. A cloud
-// without an image is written as a new file: binary_little_endian PLY. The target is replaced whole or not at
-// all. Throws Error (output) when it cannot be written, when its extension names a format that knead does not
-// write, or when a coordinate no longer fits its column's type; Cancelled when told so.
-void write_cloud(const std::filesystem::path& path, const PointCloud& cloud, const PosedShape& shape,
-                 Progress& progress);
+// Writes the cloud in a posed shape: same points, order and attributes, in the format of the target's
+// extension. A coordinate is saved as the file's own value plus the displacement, posed - rest in double,
+// rounded once to the column's type; one that did not move keeps its bytes (its very text in a text file),
+// and so does a normal that did not turn. Where the cloud came from a file of the target's format, types and
+// encoding stay, and everything else of that file stays as it was, byte for byte; a cloud from elsewhere is
+// written as a new file, in PLY binary_little_endian. Returns what the target does not hold as the cloud had
+// it, and what else the user should hear, one sentence each that begins with the target's name; usually none.
+// The target is replaced whole or not at all. Throws Error (output) when it cannot be written, when its
+// extension names a format that knead does not write, or when a coordinate no longer fits its column's type;
+// Cancelled when told so.
+std::vector<std::string> write_cloud(const std::filesystem::path& path, const PointCloud& cloud,
+                                     const PosedShape& shape, Progress& progress);
+
+// Whether knead reads and writes files with this extension.
+bool has_cloud_extension(const std::filesystem::path& path);
+
+// The same extensions for a message: ".ply, .las".
+std::string known_extensions();
 
 // Throws what write_cloud() would for a target of the wrong extension or in a folder that cannot be written
 // to, so that one who computes for long can ask beforehand. Nothing is left behind.
 void refuse_bad_target(const std::filesystem::path& path);
 
-// The names of the format and the encoding that write_cloud() keeps: those of the file that the cloud was
-// read from ("ply", "ascii"), or of the new file that a cloud without an image becomes.
+// The names of the format and the encoding of the file that the cloud was read from ("ply", "ascii"), which
+// saving in that format keeps; or of the new PLY file that a cloud from nowhere becomes. They are good as
+// long as the cloud.
 struct FileKind {
     std::string_view format;
     std::string_view encoding;

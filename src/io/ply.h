@@ -2,6 +2,7 @@
 // The PLY format: ascii, binary_little_endian and binary_big_endian, with lists and other elements.
 
 #include "base/progress.h"
+#include "base/whole_file.h"
 #include "io/cloud_file.h"
 #include "io/ply_header.h"
 
@@ -22,6 +23,10 @@ struct PlyImage final : SourceImage {
     std::size_t rows_end = 0;
 
     const PlyElement& vertices() const { return header.elements[vertex_element]; }
+
+    std::string_view format() const override { return "ply"; }
+    std::string_view encoding() const override { return name_of(header.encoding); }
+    std::vector<std::string> besides_points() const override;
 };
 
 // Whether a file that begins with these bytes is a PLY file, good or bad.
@@ -31,8 +36,13 @@ bool looks_like_ply(std::span<const std::byte> first_bytes);
 PointCloud read_ply(std::vector<std::byte> bytes, const std::string& shown, Progress& progress);
 
 // See write_cloud().
-void write_ply(const std::filesystem::path& path, const PointCloud& cloud, const PosedShape& shape,
-               Progress& progress);
+std::vector<std::string> write_ply(const std::filesystem::path& path, const PointCloud& cloud,
+                                   const PosedShape& shape, Progress& progress);
+
+// The part of it that makes a new file of a cloud that came from no PLY file: binary_little_endian. Returns
+// what it could not hold.
+std::vector<std::string> write_new_ply(FileInTheMaking& file, const PointCloud& cloud,
+                                       const PosedShape& shape, const std::string& shown, Progress& progress);
 
 // Whether scalars of this encoding lie in the other byte order than this machine's.
 bool is_swapped(PlyEncoding encoding);

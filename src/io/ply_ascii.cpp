@@ -1,108 +1,16 @@
 #include "base/error.h"
-#include "io/ascii_rows.h"
 #include "io/ply_rows.h"
-
-#include <fast_float/fast_float.h>
+#include "io/text_numbers.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstring>
-#include <limits>
 
 namespace knead {
 
 namespace {
 
 constexpr std::size_t rows_between_reports = std::size_t{1} << 16;
-
-// The line that holds the byte `at`, from 1; `at` is within the file.
-std::size_t line_of(std::span<const std::byte> bytes, std::size_t at) {
-    std::size_t line = 1;
-    for (std::size_t i = 0; i < at; ++i) {
-        const bool lone_return = bytes[i] == std::byte{'\r'} && bytes[i + 1] != std::byte{'\n'};
-        if (bytes[i] == std::byte{'\n'} || lone_return) ++line;
-    }
-    return line;
-}
-
-// Numbers as programs write them beyond the standard: a plus sign, and what old Windows libraries print.
-template<typename Real>
-bool parse_odd_real(std::string_view word, Real& value) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    if (word.empty()) return false;
-    const auto [end, trouble] = fast_float::from_chars(word.data(), word.data() + word.size(), value);
-    // Out of range leaves an infinity or a zero, the nearest that there is.
-    if (trouble != std::errc::invalid_argument && end == word.data() + word.size()) return true;
-    const bool negative = word.starts_with('-');
-    if (negative) word.remove_prefix(1);
-    if (word.starts_with("1.#INF"))
-        value = negative ? -std::numeric_limits<Real>::infinity() : std::numeric_limits<Real>::infinity();
-    else if (word.starts_with("1.#IND") || word.starts_with("1.#QNAN") || word.starts_with("1.#SNAN") ||
-             word == "nan(ind)" || word == "nan(snan)")
-        value = std::numeric_limits<Real>::quiet_NaN();
-    else
-        return false;
-    return true;
-}
-
-// Parses the word at text.at and moves behind it; false, and no move, where it is no number of this type.
-template<typename Real>
-bool parse_real(TextCursor& text, std::byte* to) {
-    Real value{};
-    const auto [end, trouble] = fast_float::from_chars(text.at, text.end, value);
-    if (trouble == std::errc{} && (end == text.end || is_blank(*end) || is_line_end(*end))) {
-        text.at = end;
-    } else {
-        const char* const stop = word_end(text);
-        if (!parse_odd_real({text.at, stop}, value)) return false;
-        text.at = stop;
-    }
-    std::memcpy(to, &value, sizeof value);
-    return true;
-}
-
-template<typename Integer>
-bool parse_integer(TextCursor& text, std::byte* to) {
-    const char* const stop = word_end(text);
-    Integer value{};
-    const auto [end, trouble] = std::from_chars(text.at, stop, value);
-    if (trouble != std::errc{} || end != stop) {
-        // Some programs write whole numbers as "255.0".
-        double real = 0;
-        if (!parse_odd_real({text.at, stop}, real) || real != std::floor(real) ||
-            real < static_cast<double>(std::numeric_limits<Integer>::min()) ||
-            real > static_cast<double>(std::numeric_limits<Integer>::max()))
-            return false;
-        value = static_cast<Integer>(real);
-    }
-    text.at = stop;
-    std::memcpy(to, &value, sizeof value);
-    return true;
-}
-
-bool parse_scalar(TextCursor& text, ScalarType type, std::byte* to) {
-    switch (type) {
-    case ScalarType::int8:
-        return parse_integer<std::int8_t>(text, to);
-    case ScalarType::uint8:
-        return parse_integer<std::uint8_t>(text, to);
-    case ScalarType::int16:
-        return parse_integer<std::int16_t>(text, to);
-    case ScalarType::uint16:
-        return parse_integer<std::uint16_t>(text, to);
-    case ScalarType::int32:
-        return parse_integer<std::int32_t>(text, to);
-    case ScalarType::uint32:
-        return parse_integer<std::uint32_t>(text, to);
-    case ScalarType::float32:
-        return parse_real<float>(text, to);
-    case ScalarType::float64:
-        return parse_real<double>(text, to);
-    }
-    return false;
-}
 
 // One element's rows: the cursor, and the words for what is wrong with them.
 class Rows {
@@ -129,7 +37,7 @@ public:
     void scalar(const PlyProperty& property, ScalarType type, std::byte* to) {
         to_word(property);
         if (!parse_scalar(text_, type, to))
-            fail("has " + word() + " for the property " + quoted(property.name) + ", which is no " +
+            fail("has " + word() + " for the property " + in_quotes(property.name) + ", which is no " +
                  std::string(name_of(type)) + "; correct the value or the property's type");
     }
 
@@ -140,10 +48,10 @@ public:
         TextCursor ahead = text_;
         std::int64_t length = -1;
         std::array<std::byte, sizeof length> bytes{};
-        if (parse_integer<std::int64_t>(ahead, bytes.data()))
+        if (parse_scalar(ahead, ScalarType::int64, bytes.data()))
             std::memcpy(&length, bytes.data(), sizeof length);
         if (length < 0)
-            fail("has a list " + quoted(property.name) + " of the length " + word() + "; correct the row");
+            fail("has a list " + in_quotes(property.name) + " of the length " + word() + "; correct the row");
         text_ = ahead;
         return static_cast<std::uint64_t>(length);
     }
@@ -160,11 +68,11 @@ public:
 private:
     void to_word(const PlyProperty& property) {
         if (!find_word(text_))
-            fail("ends before the property " + quoted(property.name) +
+            fail("ends before the property " + in_quotes(property.name) +
                  "; a row is one line with a value for each property");
     }
 
-    std::string word() const { return quoted({text_.at, word_end(text_)}); }
+    std::string word() const { return in_quotes({text_.at, word_end(text_)}); }
 
     [[noreturn]] void fail(const std::string& words) const {
         const auto at =

@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "io/ply_rows.h"
 #include "io/scalar_bytes.h"
+#include "io/text_numbers.h"
 
 #include <algorithm>
 
@@ -27,23 +28,6 @@ void report(Progress& progress, std::uint64_t row, const PlyElement& element) {
                 element.name + " row " + std::to_string(row) + " " + words);
 }
 
-template<std::size_t size>
-void gather(const std::byte* from, std::size_t stride, std::size_t rows, bool swap, std::byte* to) {
-    if (swap)
-        for (std::size_t row = 0; row < rows; ++row, from += stride, to += size)
-            copy_scalar(from, size, true, to);
-    else
-        for (std::size_t row = 0; row < rows; ++row, from += stride, to += size) std::memcpy(to, from, size);
-}
-
-void gather(const std::byte* from, std::size_t stride, std::size_t rows, std::size_t size, bool swap,
-            std::byte* to) {
-    if (size == 1) gather<1>(from, stride, rows, swap, to);
-    if (size == 2) gather<2>(from, stride, rows, swap, to);
-    if (size == 4) gather<4>(from, stride, rows, swap, to);
-    if (size == 8) gather<8>(from, stride, rows, swap, to);
-}
-
 // Rows without lists, all equally long: taken apart a block at a time, so that a block stays in the cache
 // while its columns are gathered.
 void read_equal_rows(PlyBody& body, const PlyElement& element, bool swap, std::vector<Attribute>& columns,
@@ -58,7 +42,7 @@ void read_equal_rows(PlyBody& body, const PlyElement& element, bool swap, std::v
         const std::byte* from = body.bytes.data() + body.at + row * stride;
         for (Attribute& column : columns) {
             const std::size_t size = size_of(column.type);
-            gather(from, stride, rows, size, swap, column.values.data() + row * size);
+            gather_scalars(from, stride, rows, size, swap, column.values.data() + row * size);
             from += size;
         }
     }
@@ -79,7 +63,7 @@ std::size_t list_length(PlyBody& body, const PlyElement& element, const PlyPrope
     const std::size_t left = body.left() - size_of(property.count_type);
     if (length < 0 || static_cast<std::uint64_t>(length) > left / size_of(property.type))
         fail(body, element, row,
-             "has a list " + quoted(property.name) + " of the length " + std::to_string(length) +
+             "has a list " + in_quotes(property.name) + " of the length " + std::to_string(length) +
                  ", which the file does not hold; it is cut off or damaged, get it again from its source");
     body.at += size_of(property.count_type);
     return static_cast<std::size_t>(length);
@@ -89,7 +73,7 @@ void read_list(PlyBody& body, std::size_t length, bool swap, Attribute& column) 
     const std::size_t size = size_of(column.type);
     const std::size_t before = column.values.size();
     column.values.resize(before + length * size);
-    gather(body.bytes.data() + body.at, size, length, size, swap, column.values.data() + before);
+    gather_scalars(body.bytes.data() + body.at, size, length, size, swap, column.values.data() + before);
     column.first.push_back(column.values.size() / size);
     body.at += length * size;
 }
@@ -159,7 +143,7 @@ void refuse_lying_count(const PlyBody& body, const PlyElement& element, PlyEncod
     if (shortest == 0 || element.count <= room / shortest) return;
     throw Error(Trouble::input, body.shown + ": byte " + std::to_string(body.at),
                 "the header promises " + std::to_string(element.count) + " rows of element " +
-                    quoted(element.name) + ", but only " + std::to_string(body.left()) +
+                    in_quotes(element.name) + ", but only " + std::to_string(body.left()) +
                     " bytes follow: the file is cut off or its header lies; get it again from its source");
 }
 

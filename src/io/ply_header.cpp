@@ -1,6 +1,7 @@
 #include "io/ply_header.h"
 
 #include "base/error.h"
+#include "io/text_numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -86,12 +87,12 @@ void parse_format(const Words& words, const HeaderLines& lines, bool& seen, PlyH
     for (const auto encoding :
          {PlyEncoding::ascii, PlyEncoding::binary_little_endian, PlyEncoding::binary_big_endian}) {
         if (words[1] != name_of(encoding)) continue;
-        if (words[2] != "1.0") lines.fail("PLY version " + quoted(words[2]) + "; knead reads version 1.0");
+        if (words[2] != "1.0") lines.fail("PLY version " + in_quotes(words[2]) + "; knead reads version 1.0");
         header.encoding = encoding;
         seen = true;
         return;
     }
-    lines.fail("unknown encoding " + quoted(words[1]) +
+    lines.fail("unknown encoding " + in_quotes(words[1]) +
                "; PLY has ascii, binary_little_endian and binary_big_endian");
 }
 
@@ -103,9 +104,9 @@ void parse_element(const Words& words, const HeaderLines& lines, PlyHeader& head
     const char* const end = words[2].data() + words[2].size();
     const auto [stopped, trouble] = std::from_chars(words[2].data(), end, element.count);
     if (trouble == std::errc::result_out_of_range)
-        lines.fail("the count " + quoted(words[2]) + " is larger than any file; correct the header");
+        lines.fail("the count " + in_quotes(words[2]) + " is larger than any file; correct the header");
     if (trouble != std::errc{} || stopped != end)
-        lines.fail("the count " + quoted(words[2]) +
+        lines.fail("the count " + in_quotes(words[2]) +
                    " is not a whole number of at least 0; correct the header");
     const bool again = std::any_of(header.elements.begin(), header.elements.end(),
                                    [&](const PlyElement& other) { return other.name == element.name; });
@@ -117,7 +118,7 @@ void parse_element(const Words& words, const HeaderLines& lines, PlyHeader& head
 ScalarType parse_type(std::string_view word, const HeaderLines& lines) {
     const auto type = ply_type(word);
     if (!type)
-        lines.fail("unknown type " + quoted(word) +
+        lines.fail("unknown type " + in_quotes(word) +
                    "; PLY has char, uchar, short, ushort, int, uint, float and double (int8 … float64)");
     return *type;
 }
@@ -135,15 +136,15 @@ void parse_property(const Words& words, const HeaderLines& lines, PlyHeader& hea
     property.type = parse_type(words[words.size() - 2], lines);
     if (is_list) {
         property.count_type = parse_type(words[2], lines);
-        if (property.count_type == ScalarType::float32 || property.count_type == ScalarType::float64)
-            lines.fail("a list's length cannot be of type " + quoted(words[2]) +
+        if (!is_whole(property.count_type))
+            lines.fail("a list's length cannot be of type " + in_quotes(words[2]) +
                        "; it must be a whole number");
     }
     PlyElement& element = header.elements.back();
     for (const PlyProperty& other : element.properties)
         if (other.name == property.name)
-            lines.fail("element " + quoted(element.name) + " has two properties " + quoted(property.name) +
-                       "; rename one of them");
+            lines.fail("element " + in_quotes(element.name) + " has two properties " +
+                       in_quotes(property.name) + "; rename one of them");
     element.properties.push_back(std::move(property));
 }
 
@@ -172,14 +173,9 @@ std::optional<ScalarType> ply_type(std::string_view name) {
 }
 
 std::string_view ply_name_of(ScalarType type) {
-    return type_names[static_cast<std::size_t>(type)].classic;
-}
-
-std::string quoted(std::string_view text) {
-    constexpr std::size_t longest = 40;
-    std::string shown = "'";
-    for (const char letter : text.substr(0, longest)) shown += letter >= ' ' && letter <= '~' ? letter : '?';
-    return shown + (text.size() > longest ? "…'" : "'");
+    for (const TypeNames& names : type_names)
+        if (names.type == type) return names.classic;
+    return ply_name_of(ScalarType::float64);
 }
 
 PlyHeader parse_ply_header(std::span<const std::byte> bytes, const std::string& shown) {
@@ -202,7 +198,7 @@ PlyHeader parse_ply_header(std::span<const std::byte> bytes, const std::string& 
             header.body = lines.at();
             return header;
         } else {
-            lines.fail("unknown header line " + quoted(keyword) +
+            lines.fail("unknown header line " + in_quotes(keyword) +
                        "; a PLY header has format, comment, obj_info, element, property and end_header");
         }
     }

@@ -47,10 +47,8 @@ PlyHeader parse_ply_header(std::span<const std::byte> bytes, const std::string& 
 // A number type by either of its two spellings ("char" or "int8").
 std::optional<ScalarType> ply_type(std::string_view name);
 
-// The spelling that every PLY reader knows ("char" … "double").
+// The spelling that every PLY reader knows ("char" … "double"); PLY has no integers of 8 bytes, which are
+// written as double.
 std::string_view ply_name_of(ScalarType type);
-
-// Text of a file for a message: printable, in quotes, and not too long.
-std::string quoted(std::string_view text);
 
 } // namespace knead

@@ -1,7 +1,7 @@
 #include "base/error.h"
-#include "io/ascii_rows.h"
 #include "io/ply.h"
 #include "io/ply_rows.h"
+#include "io/text_numbers.h"
 
 #include <bit>
 #include <cstring>
@@ -97,6 +97,14 @@ bool looks_like_ply(std::span<const std::byte> first_bytes) {
 bool is_swapped(PlyEncoding encoding) {
     if (encoding == PlyEncoding::ascii) return false;
     return (encoding == PlyEncoding::binary_big_endian) != (std::endian::native == std::endian::big);
+}
+
+std::vector<std::string> PlyImage::besides_points() const {
+    std::vector<std::string> rows;
+    for (const PlyElement& element : header.elements)
+        if (element.name != "vertex" && element.count > 0)
+            rows.push_back(std::to_string(element.count) + " rows of the element " + in_quotes(element.name));
+    return rows;
 }
 
 PointCloud read_ply(std::vector<std::byte> bytes, const std::string& shown, Progress& progress) {

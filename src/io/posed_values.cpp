@@ -14,13 +14,14 @@ namespace {
 template<typename Integer>
 std::optional<double> rounded_to_integer(double value) {
     const double whole = std::nearbyint(value);
-    // The comparison is written so that it fails for NaN.
+    // The largest is 2^digits - 1, which no double is for 8 bytes. The comparison fails for NaN.
     const bool fits = whole >= static_cast<double>(std::numeric_limits<Integer>::min()) &&
-                      whole <= static_cast<double>(std::numeric_limits<Integer>::max());
+                      whole < std::ldexp(1.0, std::numeric_limits<Integer>::digits);
     return fits ? std::optional(whole) : std::nullopt;
 }
 
-// The nearest value that the type holds; nothing where it holds none.
+} // namespace
+
 std::optional<double> rounded_to(ScalarType type, double value) {
     switch (type) {
     case ScalarType::int8:
@@ -35,6 +36,10 @@ std::optional<double> rounded_to(ScalarType type, double value) {
         return rounded_to_integer<std::int32_t>(value);
     case ScalarType::uint32:
         return rounded_to_integer<std::uint32_t>(value);
+    case ScalarType::int64:
+        return rounded_to_integer<std::int64_t>(value);
+    case ScalarType::uint64:
+        return rounded_to_integer<std::uint64_t>(value);
     case ScalarType::float32:
         value = static_cast<double>(static_cast<float>(value));
         break;
@@ -43,8 +48,6 @@ std::optional<double> rounded_to(ScalarType type, double value) {
     }
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
-
-} // namespace
 
 std::vector<PosedColumn> posed_columns(const PointCloud& cloud, const PosedShape& shape) {
     std::vector<PosedColumn> columns;

@@ -25,4 +25,7 @@ std::vector<PosedColumn> posed_columns(const PointCloud& cloud, const PosedShape
 // `shown` names the target in errors. Throws Error (output) when the value does not fit.
 std::optional<double> posed_value(const PosedColumn& column, std::size_t i, const std::string& shown);
 
+// The nearest value that the type holds; nothing where it holds none near.
+std::optional<double> rounded_to(ScalarType type, double value);
+
 } // namespace knead

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
+#include <span>
 
 namespace knead {
 
@@ -17,7 +19,27 @@ inline void copy_scalar(const std::byte* from, std::size_t size, bool swap, std:
         std::memcpy(to, from, size);
 }
 
-// One scalar of an integer type; `swap` says that it lies in the other byte order.
+// The little-endian scalar at a place in a file's bytes, which must hold it.
+template<typename T>
+T load_little(std::span<const std::byte> bytes, std::size_t at) {
+    T value{};
+    copy_scalar(bytes.data() + at, sizeof value, std::endian::native == std::endian::big,
+                reinterpret_cast<std::byte*>(&value));
+    return value;
+}
+
+template<typename T>
+void store_little(T value, std::span<std::byte> bytes, std::size_t at) {
+    copy_scalar(reinterpret_cast<const std::byte*>(&value), sizeof value,
+                std::endian::native == std::endian::big, bytes.data() + at);
+}
+
+// Copies one scalar of `size` bytes out of each of `rows` records, `stride` bytes apart, into a column.
+void gather_scalars(const std::byte* from, std::size_t stride, std::size_t rows, std::size_t size, bool swap,
+                    std::byte* to);
+
+// One scalar of an integer type; `swap` says that it lies in the other byte order. A uint64 beyond the
+// largest int64 comes out negative.
 inline std::int64_t load_integer(const std::byte* from, ScalarType type, bool swap) {
     std::array<std::byte, 8> native{};
     copy_scalar(from, size_of(type), swap, native.data());
@@ -38,6 +60,10 @@ inline std::int64_t load_integer(const std::byte* from, ScalarType type, bool sw
         return as(std::int32_t{});
     case ScalarType::uint32:
         return as(std::uint32_t{});
+    case ScalarType::int64:
+        return as(std::int64_t{});
+    case ScalarType::uint64:
+        return as(std::uint64_t{});
     case ScalarType::float32:
     case ScalarType::float64:
         break;
@@ -61,6 +87,10 @@ inline void store_scalar(double value, ScalarType type, std::byte* to) {
         return put(static_cast<std::int32_t>(value));
     case ScalarType::uint32:
         return put(static_cast<std::uint32_t>(value));
+    case ScalarType::int64:
+        return put(static_cast<std::int64_t>(value));
+    case ScalarType::uint64:
+        return put(static_cast<std::uint64_t>(value));
     case ScalarType::float32:
         return put(static_cast<float>(value));
     case ScalarType::float64:

@@ -1,14 +1,12 @@
 #include "base/error.h"
+#include "io/ply.h"
 #include "io/ply_samples.h"
-#include "support/scans.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
-#include <sstream>
 
 namespace knead::test {
 namespace {
@@ -198,12 +196,11 @@ TEST(PlyReader, names_other_formats_and_says_what_to_do) {
         {"\xFF\xFEp\0l\0y\0"s, "UTF-16"},
         {"# .PCD v.7\nVERSION .7\n", "PCD"},
         {"VERSION .7\nFIELDS x y z\n", "PCD"},
-        {"LASF\0\0"s, "LAS"},
         {"OFF\n8 6 12\n", "OFF"},
         {"# a comment\n\nv 1 2 3\n", "OBJ"},
         {"0.5, 1, 2\n", "a table of numbers"},
         {R"({"knead":1})", "knead replay"},
-        {"PLY\nformat", "no format that knead knows"},
+        {"PLY\nformat", "'ply' alone"},
         {"plywood\n", "stand alone"},
     };
     for (const auto& [bytes, expected] : words)
@@ -222,10 +219,10 @@ TEST(PlyReader, never_falls_over_a_file_that_is_cut_off) {
         if (kind.coordinates != ScalarType::float32 || kind.line_end == "\r") continue;
         const std::string whole = sample(kind);
         for (std::size_t size = 0; size < whole.size(); ++size) {
-            const std::string words = refusal(whole.substr(0, size));
+            const bool loads = is_taken(whole.substr(0, size), read_ply);
             // Only a text may lack its last line's end, its last blank and the rest of its last number.
             const bool may_load = kind.encoding == PlyEncoding::ascii && size + 4 >= whole.size();
-            EXPECT_TRUE(may_load || !words.empty()) << name_of(kind) << " cut to " << size;
+            EXPECT_TRUE(may_load || !loads) << name_of(kind) << " cut to " << size;
         }
     }
 }
@@ -238,45 +235,9 @@ TEST(PlyReader, never_falls_over_a_damaged_byte) {
             for (const char damage : {'\0', '\n', '9', '-', '\xFF'}) {
                 std::string bytes = whole;
                 bytes[at] = damage;
-                (void)refusal(bytes);
+                (void)is_taken(bytes, read_ply);
             }
     }
-}
-
-// --- Files met in the wild ---------------------------------------------------------------------------------
-
-// Files that the index calls odd, but that no reader can take: why.
-const std::map<std::string, std::string> hopeless = {
-    {"pdal_sized_dims.ply", "has no z"},
-    {"magnum_unsupported-face-size.ply", "promises two faces and holds one"},
-};
-
-TEST(PlyReader, opens_odd_files_and_refuses_bad_ones) {
-    const auto folder = in_repository("../shared/files/odd");
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no ../shared/files/odd beside the checkout";
-    std::ifstream index(folder / "INDEX.tsv");
-    SilentProgress progress;
-    std::size_t files = 0;
-    for (std::string line; std::getline(index, line);) {
-        std::istringstream words(line);
-        std::string file;
-        std::string kind;
-        words >> file >> kind;
-        if (!file.ends_with(".ply") && kind != "bad") continue;
-        SCOPED_TRACE(line);
-        ++files;
-        try {
-            const PointCloud cloud = read_cloud(folder / file, progress);
-            EXPECT_EQ(kind, "odd");
-            EXPECT_EQ(written(cloud, {}), read_text(folder / file));
-        } catch (const Error& error) {
-            EXPECT_TRUE(kind == "bad" || hopeless.contains(file)) << error.what();
-            EXPECT_EQ(error.trouble(), Trouble::input);
-            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-            EXPECT_NE(std::string(error.what()).find(file), std::string::npos);
-        }
-    }
-    EXPECT_GT(files, 40U);
 }
 
 } // namespace

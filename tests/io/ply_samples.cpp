@@ -1,6 +1,5 @@
 #include "io/ply_samples.h"
 
-#include "base/error.h"
 #include "io/ply.h"
 #include "io/scalar_bytes.h"
 
@@ -72,8 +71,13 @@ std::vector<SampleKind> all_sample_kinds() {
     std::vector<SampleKind> kinds;
     for (const auto encoding :
          {PlyEncoding::ascii, PlyEncoding::binary_little_endian, PlyEncoding::binary_big_endian}) {
-        for (int type = 0; type < 8; ++type)
-            kinds.push_back({encoding, static_cast<ScalarType>(type), type % 2 == 1, true, "\n"});
+        bool more = false;
+        for (const ScalarType type :
+             {ScalarType::int8, ScalarType::uint8, ScalarType::int16, ScalarType::uint16, ScalarType::int32,
+              ScalarType::uint32, ScalarType::float32, ScalarType::float64}) {
+            kinds.push_back({encoding, type, more, true, "\n"});
+            more = !more;
+        }
         for (const bool lists : {false, true})
             for (const bool extra : {false, true})
                 for (const char* end : {"\n", "\r\n", "\r"})
@@ -104,38 +108,6 @@ std::string name_of(const SampleKind& kind) {
     const char* const end = kind.line_end == "\n" ? "LF" : kind.line_end == "\r" ? "CR" : "CRLF";
     return std::string(knead::name_of(kind.encoding)) + " " + std::string(knead::name_of(kind.coordinates)) +
            (kind.lists ? " lists" : "") + (kind.extra_elements ? " extra " : " ") + end;
-}
-
-PointCloud read_bytes(std::string_view bytes, Progress& progress) {
-    const ScratchFolder folder;
-    write_text(folder / "cloud.ply", bytes);
-    return read_cloud(folder / "cloud.ply", progress);
-}
-
-PointCloud read_bytes(std::string_view bytes) {
-    SilentProgress progress;
-    return read_bytes(bytes, progress);
-}
-
-std::string written(const PointCloud& cloud, const PosedShape& shape) {
-    const ScratchFolder folder;
-    SilentProgress progress;
-    write_cloud(folder / "out.ply", cloud, shape, progress);
-    return read_text(folder / "out.ply");
-}
-
-std::string refusal(std::string_view bytes) {
-    const ScratchFolder folder;
-    write_text(folder / "cloud.ply", bytes);
-    SilentProgress progress;
-    try {
-        read_cloud(folder / "cloud.ply", progress);
-    } catch (const Error& error) {
-        if (error.trouble() != Trouble::input) return "not an input error";
-        const std::string words = error.what();
-        return words.substr(words.find("cloud.ply"));
-    }
-    return "";
 }
 
 } // namespace knead::test

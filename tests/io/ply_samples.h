@@ -1,13 +1,10 @@
 #pragma once
 // Small PLY files of every kind, built by the tests that read and write them.
 
-#include "base/progress.h"
-#include "io/cloud_file.h"
 #include "io/ply_header.h"
-#include "support/scratch_folder.h"
+#include "io/through_files.h"
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace knead::test {
@@ -30,15 +27,5 @@ std::string sample(const SampleKind& kind);
 
 // For messages.
 std::string name_of(const SampleKind& kind);
-
-// The cloud in these bytes, by way of a file.
-PointCloud read_bytes(std::string_view bytes, Progress& progress);
-PointCloud read_bytes(std::string_view bytes);
-
-// What write_cloud() makes of it, by way of a file.
-std::string written(const PointCloud& cloud, const PosedShape& shape);
-
-// The words of the Error that reading these bytes throws, "" where it throws none; the file is "cloud.ply".
-std::string refusal(std::string_view bytes);
 
 } // namespace knead::test

@@ -26,6 +26,10 @@ std::optional<std::filesystem::path> find_survey(std::string_view name) {
     return find("KNEAD_SURVEY", "survey", name);
 }
 
+std::optional<std::filesystem::path> find_sample(std::string_view name) {
+    return find("KNEAD_FILES", "files", name);
+}
+
 std::filesystem::path in_repository(std::string_view path) {
     return std::filesystem::path(KNEAD_SOURCE_DIR) / path;
 }

@@ -1,0 +1,87 @@
+// The formats that knead only knows by sight.
+
+#include "base/error.h"
+#include "io/format.h"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+namespace knead {
+
+namespace {
+
+struct Signature {
+    std::string_view begins;
+    std::string_view words; // "is ..."
+};
+
+constexpr std::array<Signature, 25> signatures = {{
+    {"\xEF\xBB\xBFply", "is a PLY file behind a byte-order mark; save it again without the mark"},
+    {"\xFF\xFE", "is text in UTF-16; save it again as plain ASCII"},
+    {"\xFE\xFF", "is text in UTF-16; save it again as plain ASCII"},
+    {"# .PCD", "is a PCD file"},
+    {"VERSION .7", "is a PCD file"},
+    {"VERSION 0.7", "is a PCD file"},
+    {"ASTM-E57", "is an E57 file"},
+    {"OFF", "is an OFF file"},
+    {"COFF", "is an OFF file"},
+    {"NOFF", "is an OFF file"},
+    {"CNOFF", "is an OFF file"},
+    {"STOFF", "is an OFF file"},
+    {"solid", "is an STL file"},
+    {"glTF", "is a glTF file"},
+    {"mtllib ", "is an OBJ file"},
+    {"usemtl ", "is an OBJ file"},
+    {"v ", "is an OBJ file"},
+    {"o ", "is an OBJ file"},
+    {"g ", "is an OBJ file"},
+    {"vn ", "is an OBJ file"},
+    {"vt ", "is an OBJ file"},
+    {"\x1F\x8B", "is compressed with gzip; unpack it first"},
+    {"PK\x03\x04", "is a ZIP archive; unpack it first"},
+    {"{\"knead\"", "is a knead session, not a cloud; 'knead replay' runs it"},
+    {"ply", "begins like a PLY file, but 'ply' must stand alone on its first line"},
+}};
+
+// The first line that says something: neither empty nor a comment, as OBJ and tables of numbers have them.
+std::string_view first_line(std::string_view text) {
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+        const std::string_view line = text.substr(0, end);
+        if (!line.empty() && !line.starts_with('#')) return line;
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return {};
+}
+
+bool is_row_of_numbers(std::string_view line) {
+    std::string words(line);
+    std::replace_if(
+        words.begin(), words.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
+    std::istringstream numbers(words);
+    double number = 0;
+    int found = 0;
+    while (numbers >> number) ++found;
+    return found >= 3 && numbers.eof();
+}
+
+} // namespace
+
+void refuse_foreign_file(std::span<const std::byte> first_bytes, const std::string& shown) {
+    const std::string_view text(reinterpret_cast<const char*>(first_bytes.data()), first_bytes.size());
+    const std::string cure = "; knead reads " + known_extensions() + ", convert it to one of them";
+    const auto is = [&](std::string_view begin, const Signature& signature) {
+        return begin.starts_with(signature.begins);
+    };
+    for (const std::string_view begin : {text, first_line(text)})
+        for (const Signature& signature : signatures) {
+            if (!is(begin, signature)) continue;
+            const bool has_cure = signature.words.find(';') != std::string_view::npos;
+            throw Error(Trouble::input, shown, std::string(signature.words) + (has_cure ? "" : cure));
+        }
+    if (is_row_of_numbers(first_line(text)))
+        throw Error(Trouble::input, shown, "is a table of numbers" + cure);
+}
+
+} // namespace knead

@@ -1,0 +1,46 @@
+#pragma once
+// What a file format is to the rest of this room. Each format has files of its own; formats.cpp holds the
+// table.
+
+#include "io/cloud_file.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace knead {
+
+struct Format {
+    std::string_view name; // as file_kind() tells it, "ply"
+    std::span<const std::string_view>
+        extensions; // in lower case with the dot; the first one is the usual one
+
+    // Whether a file that begins with these bytes (up to `first_bytes_size`, fewer only where the file is
+    // shorter) is of this format, good or bad. A format that can only be told by its extension says no.
+    bool (*looks_like)(std::span<const std::byte> first_bytes);
+
+    // The cloud in a file's bytes, which its image keeps. `shown` names the file in errors. Throws Error
+    // (input) that names the file, the place in it and the cure.
+    PointCloud (*read)(std::vector<std::byte> bytes, const std::string& shown, Progress& progress);
+
+    // See write_cloud(). A cloud whose image is of this format is patched, any other written as a new file.
+    std::vector<std::string> (*write)(const std::filesystem::path& path, const PointCloud& cloud,
+                                      const PosedShape& shape, Progress& progress);
+};
+
+constexpr std::size_t first_bytes_size = 4096;
+
+// All of them, in the order in which content is tried.
+std::span<const Format> known_formats();
+
+// The one with this extension, letter case aside; null for none.
+const Format* format_with_extension(const std::filesystem::path& path);
+
+// Throws Error (input) that says what a file is that no format takes, by its first bytes, and the cure.
+// Returns where they say nothing, so that the extension may decide.
+void refuse_foreign_file(std::span<const std::byte> first_bytes, const std::string& shown);
+
+} // namespace knead

@@ -1,0 +1,84 @@
+#include "io/new_columns.h"
+
+#include "base/require.h"
+#include "io/free_names.h"
+#include "io/scalar_bytes.h"
+#include "io/text_numbers.h"
+
+#include <algorithm>
+
+namespace knead {
+
+std::vector<AddedColumn> with_free_names(const PointCloud& cloud, std::vector<AddedColumn> added) {
+    if (added.empty()) return added;
+    FreeNames names;
+    for (const Attribute& attribute : cloud.attributes) (void)names.take_exactly(attribute.name);
+    for (AddedColumn& column : added) {
+        require(column.values.size() == cloud.size(), "an added column has a value a point");
+        column.name = names.take(column.name);
+    }
+    return added;
+}
+
+std::vector<NewColumn> new_columns(const PointCloud& cloud, const std::vector<PosedColumn>& posed,
+                                   const std::vector<AddedColumn>& added) {
+    std::vector<NewColumn> columns;
+    for (const Attribute& attribute : cloud.attributes)
+        columns.push_back({attribute.name, attribute.type, &attribute, nullptr, nullptr});
+    for (const PosedColumn& column : posed) columns[column.column].posed = &column;
+    for (const AddedColumn& column : added)
+        columns.push_back({column.name, ScalarType::float32, nullptr, nullptr, column.values.data()});
+    return columns;
+}
+
+bool is_word_letter(char letter) {
+    return static_cast<unsigned char>(letter) > ' ' && letter != '\x7F';
+}
+
+std::vector<std::string> make_names_legal(std::vector<NewColumn>& columns, bool (*is_legal)(char letter),
+                                          std::size_t longest) {
+    FreeNames names;
+    std::vector<NewColumn*> illegal;
+    // Names that are good stay with their columns, whatever the others become.
+    for (NewColumn& column : columns) {
+        const std::string& name = column.name;
+        const bool good =
+            !name.empty() && name.size() <= longest && std::all_of(name.begin(), name.end(), is_legal);
+        if (!good || !names.take_exactly(name)) illegal.push_back(&column);
+    }
+    std::vector<std::string> words;
+    for (NewColumn* const column : illegal) {
+        std::string name = column->name.empty() ? "unnamed" : column->name;
+        std::replace_if(
+            name.begin(), name.end(), [&](char letter) { return !is_legal(letter); }, '_');
+        name = names.take(name, longest);
+        words.push_back("the column " + in_quotes(column->name) + " is called " + in_quotes(name) + " there");
+        column->name = std::move(name);
+    }
+    return words;
+}
+
+std::array<std::byte, 8> new_scalar(const NewColumn& column, std::size_t i, const std::string& shown) {
+    std::array<std::byte, 8> scalar{};
+    if (column.attribute == nullptr) {
+        std::memcpy(scalar.data(), column.added + i, sizeof(float));
+        return scalar;
+    }
+    if (column.posed != nullptr)
+        if (const auto value = posed_value(*column.posed, i, shown)) {
+            store_scalar(*value, column.type, scalar.data());
+            return scalar;
+        }
+    const std::size_t size = size_of(column.type);
+    std::memcpy(scalar.data(), column.attribute->values.data() + i * size, size);
+    return scalar;
+}
+
+double new_value(const NewColumn& column, std::size_t i, const std::string& shown) {
+    if (column.attribute == nullptr) return static_cast<double>(column.added[i]);
+    if (column.posed != nullptr)
+        if (const auto value = posed_value(*column.posed, i, shown)) return *value;
+    return value_at(*column.attribute, i);
+}
+
+} // namespace knead

@@ -1,0 +1,106 @@
+#include "io/new_columns.h"
+#include "io/patched_copy.h"
+#include "io/ply.h"
+#include "io/scalar_bytes.h"
+
+#include "base/error.h"
+
+#include <array>
+#include <bit>
+
+namespace knead {
+
+namespace {
+
+// PLY has no integers of 8 bytes.
+bool is_too_wide(ScalarType type) {
+    return is_whole(type) && size_of(type) == 8;
+}
+
+std::string new_header(std::size_t points, const std::vector<NewColumn>& columns) {
+    std::string header =
+        "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(points) + "\n";
+    for (const NewColumn& column : columns) {
+        header += "property ";
+        if (column.is_list()) header.append("list ").append(ply_name_of(column.attribute->count_type)) += ' ';
+        header.append(ply_name_of(column.type)).append(" ").append(column.name) += '\n';
+    }
+    return header + "end_header\n";
+}
+
+// Appends `count` native scalars as little endian.
+void append_scalars(BlockWriter& out, const std::byte* from, std::size_t count, std::size_t size) {
+    if constexpr (std::endian::native == std::endian::little) {
+        out.append({from, count * size});
+    } else {
+        std::array<std::byte, 8> turned{};
+        for (; count > 0; --count, from += size) {
+            copy_scalar(from, size, true, turned.data());
+            out.append(std::span(turned).first(size));
+        }
+    }
+}
+
+void append_list(BlockWriter& out, const Attribute& list, std::size_t point, const std::string& shown) {
+    const std::uint64_t length = list.first[point + 1] - list.first[point];
+    std::array<std::byte, 8> count{};
+    store_scalar(static_cast<double>(length), list.count_type, count.data());
+    const std::int64_t stored = load_integer(count.data(), list.count_type, false);
+    if (stored < 0 || static_cast<std::uint64_t>(stored) != length)
+        throw Error(Trouble::output, shown,
+                    "the list " + list.name + " of point " + std::to_string(point) + " has " +
+                        std::to_string(length) + " values, more than its length's type can count");
+    append_scalars(out, count.data(), 1, size_of(list.count_type));
+    const std::size_t size = size_of(list.type);
+    append_scalars(out, list.values.data() + list.first[point] * size, length, size);
+}
+
+// As double what PLY has no type for. Lists only come from PLY files, which have none of these.
+void widen(std::vector<NewColumn>& columns, std::vector<std::string>& left_out) {
+    for (NewColumn& column : columns) {
+        if (!is_too_wide(column.type)) continue;
+        left_out.push_back("the column " + column.name + " is of type " + std::string(name_of(column.type)) +
+                           ", which PLY does not have: it becomes double, exact up to 2^53");
+        column.type = ScalarType::float64;
+    }
+}
+
+void append_scalar(BlockWriter& out, const NewColumn& column, std::size_t point, const std::string& shown) {
+    std::array<std::byte, 8> scalar{};
+    if (column.attribute != nullptr && column.attribute->type != column.type)
+        store_scalar(new_value(column, point, shown), column.type, scalar.data());
+    else
+        scalar = new_scalar(column, point, shown);
+    append_scalars(out, scalar.data(), 1, size_of(column.type));
+}
+
+} // namespace
+
+std::vector<std::string> write_new_ply(FileInTheMaking& file, const PointCloud& cloud,
+                                       const PosedShape& shape, const std::string& shown,
+                                       Progress& progress) {
+    const std::vector<PosedColumn> posed = posed_columns(cloud, shape);
+    const std::vector<AddedColumn> added = with_free_names(cloud, shape.added);
+    std::vector<NewColumn> columns = new_columns(cloud, posed, added);
+    constexpr std::size_t no_limit = 1000;
+    std::vector<std::string> left_out = make_names_legal(columns, is_word_letter, no_limit);
+    widen(columns, left_out);
+    const std::string header = new_header(cloud.size(), columns);
+    std::size_t total = header.size();
+    for (const NewColumn& column : columns)
+        total += column.is_list()
+                     ? column.attribute->values.size() + cloud.size() * size_of(column.attribute->count_type)
+                     : cloud.size() * size_of(column.type);
+    BlockWriter out(file, total, progress);
+    out.append(header);
+    for (std::size_t point = 0; point < cloud.size(); ++point)
+        for (const NewColumn& column : columns)
+            if (column.is_list())
+                append_list(out, *column.attribute, point, shown);
+            else
+                append_scalar(out, column, point, shown);
+    out.finish();
+    return left_out;
+}
+
+} // namespace knead

@@ -1,0 +1,71 @@
+// Files met in the wild, of all formats: what is legal opens and comes back as it was, what is bad is refused
+// in one line.
+
+#include "base/error.h"
+#include "io/through_files.h"
+#include "support/scans.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace knead::test {
+namespace {
+
+// Files that the index calls odd, but that no reader can take: why.
+const std::map<std::string, std::string> hopeless = {
+    {"pdal_sized_dims.ply", "has no z"},
+    {"magnum_unsupported-face-size.ply", "promises two faces and holds one"},
+};
+
+// Opens it and saves it unedited in its own format.
+void expect_whole(const std::filesystem::path& file, const PointCloud& cloud) {
+    std::vector<std::string> heard;
+    EXPECT_EQ(written(cloud, {}, "out" + file.extension().string(), &heard), read_text(file));
+    EXPECT_EQ(joined(heard), "");
+}
+
+TEST(WildFiles, open_if_odd_and_are_refused_if_bad) {
+    KNEAD_SAMPLE_OR_SKIP(path, "odd/INDEX.tsv");
+    const std::filesystem::path folder = path.parent_path();
+    std::ifstream index(path);
+    SilentProgress progress;
+    std::size_t files = 0;
+    for (std::string line; std::getline(index, line);) {
+        std::istringstream words(line);
+        std::string file, kind;
+        words >> file >> kind;
+        const std::filesystem::path opened = folder / file;
+        if (kind == "kind" || (kind == "odd" && !has_cloud_extension(opened))) continue;
+        SCOPED_TRACE(line);
+        ++files;
+        try {
+            const PointCloud cloud = read_cloud(opened, progress);
+            EXPECT_EQ(kind, "odd");
+            expect_whole(opened, cloud);
+        } catch (const Error& error) {
+            EXPECT_TRUE(kind == "bad" || hopeless.contains(file)) << error.what();
+            EXPECT_EQ(error.trouble(), Trouble::input);
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+            EXPECT_NE(std::string(error.what()).find(file), std::string::npos);
+        }
+    }
+    EXPECT_GT(files, 50U);
+}
+
+TEST(WildFiles, open_if_plain) {
+    KNEAD_SAMPLE_OR_SKIP(path, "plain/test1_4.las");
+    SilentProgress progress;
+    for (const auto& entry : std::filesystem::directory_iterator(path.parent_path())) {
+        if (!has_cloud_extension(entry.path())) continue;
+        SCOPED_TRACE(entry.path().filename());
+        const PointCloud cloud = read_cloud(entry.path(), progress);
+        EXPECT_GT(cloud.size(), 300U);
+        expect_whole(entry.path(), cloud);
+    }
+}
+
+} // namespace
+} // namespace knead::test

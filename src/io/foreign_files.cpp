@@ -16,13 +16,10 @@ struct Signature {
     std::string_view words; // "is ..."
 };
 
-constexpr std::array<Signature, 25> signatures = {{
+constexpr std::array<Signature, 22> signatures = {{
     {"\xEF\xBB\xBFply", "is a PLY file behind a byte-order mark; save it again without the mark"},
     {"\xFF\xFE", "is text in UTF-16; save it again as plain ASCII"},
     {"\xFE\xFF", "is text in UTF-16; save it again as plain ASCII"},
-    {"# .PCD", "is a PCD file"},
-    {"VERSION .7", "is a PCD file"},
-    {"VERSION 0.7", "is a PCD file"},
     {"ASTM-E57", "is an E57 file"},
     {"OFF", "is an OFF file"},
     {"COFF", "is an OFF file"},

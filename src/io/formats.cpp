@@ -1,5 +1,6 @@
 #include "io/format.h"
 #include "io/las.h"
+#include "io/pcd.h"
 #include "io/ply.h"
 
 #include <algorithm>
@@ -14,9 +15,12 @@ constexpr std::array<std::string_view, 1> ply_extensions = {".ply"};
 
 constexpr std::array<std::string_view, 1> las_extensions = {".las"};
 
-constexpr std::array<Format, 2> formats = {{
+constexpr std::array<std::string_view, 1> pcd_extensions = {".pcd"};
+
+constexpr std::array<Format, 3> formats = {{
     {"ply", ply_extensions, looks_like_ply, read_ply, write_ply},
     {"las", las_extensions, looks_like_las, read_las, write_las},
+    {"pcd", pcd_extensions, looks_like_pcd, read_pcd, write_pcd},
 }};
 
 std::string lower_case(std::string text) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 
 namespace knead {
 
@@ -41,7 +40,7 @@ constexpr std::array<Signature, 22> signatures = {{
     {"ply", "begins like a PLY file, but 'ply' must stand alone on its first line"},
 }};
 
-// The first line that says something: neither empty nor a comment, as OBJ and tables of numbers have them.
+// The first line that says something: neither empty nor a comment, as OBJ has them.
 std::string_view first_line(std::string_view text) {
     while (!text.empty()) {
         const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
@@ -50,17 +49,6 @@ std::string_view first_line(std::string_view text) {
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return {};
-}
-
-bool is_row_of_numbers(std::string_view line) {
-    std::string words(line);
-    std::replace_if(
-        words.begin(), words.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
-    std::istringstream numbers(words);
-    double number = 0;
-    int found = 0;
-    while (numbers >> number) ++found;
-    return found >= 3 && numbers.eof();
 }
 
 } // namespace
@@ -77,8 +65,6 @@ void refuse_foreign_file(std::span<const std::byte> first_bytes, const std::stri
             const bool has_cure = signature.words.find(';') != std::string_view::npos;
             throw Error(Trouble::input, shown, std::string(signature.words) + (has_cure ? "" : cure));
         }
-    if (is_row_of_numbers(first_line(text)))
-        throw Error(Trouble::input, shown, "is a table of numbers" + cure);
 }
 
 } // namespace knead

@@ -15,8 +15,9 @@ struct Signature {
     std::string_view words; // "is ..."
 };
 
-constexpr std::array<Signature, 22> signatures = {{
+constexpr std::array<Signature, 23> signatures = {{
     {"\xEF\xBB\xBFply", "is a PLY file behind a byte-order mark; save it again without the mark"},
+    {"\xEF\xBB\xBF# .PCD", "is a PCD file behind a byte-order mark; save it again without the mark"},
     {"\xFF\xFE", "is text in UTF-16; save it again as plain ASCII"},
     {"\xFE\xFF", "is text in UTF-16; save it again as plain ASCII"},
     {"ASTM-E57", "is an E57 file"},

@@ -59,8 +59,10 @@ void add_names(Patching& patching) {
     const TableLayout& layout = patching.image.layout;
     const std::string quote = layout.has_quoted_names ? "\"" : "";
     std::string text;
-    for (const AddedColumn& column : patching.added)
-        text += patching.separator() + quote + column.name + quote;
+    for (const AddedColumn& column : patching.added) {
+        text += patching.separator();
+        text.append(quote).append(column.name).append(quote);
+    }
     patching.copy.replace(layout.names_end, 0, std::as_bytes(std::span(text)));
 }
 

@@ -323,6 +323,8 @@ TEST(Pcd, PackedColorsOfEitherTypeAreColumnsAndOnlyOnce) {
 }
 
 TEST(Pcd, RefusesHeadersThatAreWrong) {
+    EXPECT_REFUSED("\xEF\xBB\xBF" + points_text("1", "1 2 3"), "cloud.pcd");
+    EXPECT_REFUSED("\xEF\xBB\xBF# .PCD v0.7\n" + points_text("1", "1 2 3"), "behind a byte-order mark");
     EXPECT_REFUSED("VERSION 0.8\nFIELDS x y z\nPOINTS 0\nDATA ascii\n", "cloud.pcd:1: PCD version '0.8'");
     EXPECT_REFUSED("VERSION .7\nFIELDS x y z\nPOINTS 0\n", "no DATA line");
     EXPECT_REFUSED("VERSION .7\nPOINTS 0\nDATA ascii\n", "no FIELDS line");

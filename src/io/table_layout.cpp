@@ -97,7 +97,7 @@ public:
         // Rows or not, something must say that there are points.
         if (!found && header_.empty() && !layout_.has_count)
             fail("ends before any row of numbers; there are no points in it");
-        if (!found) layout_.columns = header_.empty() ? 3 : split_header(header_).size();
+        if (!found && !header_.empty()) layout_.columns = split_line(header_, separator_of(header_)).size();
         settle_names();
         if (layout_.separator == ';') settle_decimal_comma();
         return std::move(layout_);
@@ -162,17 +162,17 @@ private:
         header_ = line;
     }
 
-    // By the separator of the rows where it gives a name for each column, else by its own.
-    Fields split_header(std::string_view line) const {
-        Fields names = split_line(line, layout_.separator);
-        return names.size() == layout_.columns && names_axes(names) ? names
-                                                                    : split_line(line, separator_of(line));
+    // The separator of the rows where it gives a name for each column, else the line's own.
+    char names_separator(std::string_view line) const {
+        const Fields names = split_line(line, layout_.separator);
+        return names.size() == layout_.columns && names_axes(names) ? layout_.separator : separator_of(line);
     }
 
     void settle_names() {
         const std::string_view line = header_.empty() ? remark_ : header_;
         if (line.empty()) return;
-        const Fields names = split_header(line);
+        const char separator = names_separator(line);
+        const Fields names = split_line(line, separator);
         if (names.size() != layout_.columns) {
             if (header_.empty()) return; // it was a remark after all
             at_ = static_cast<std::size_t>(line.data() - text_.data());
@@ -181,6 +181,8 @@ private:
                  " numbers; correct it, or put # in front of it if it is a remark");
         }
         layout_.names.assign(names.begin(), names.end());
+        const bool has_tabs = line.find('\t') != std::string_view::npos;
+        layout_.names_separator = separator == ' ' && has_tabs ? '\t' : separator;
         const char* end = names.back().data() + names.back().size();
         layout_.has_quoted_names = end != line.data() + line.size() && *end == '"';
         layout_.names_end = static_cast<std::size_t>(end - text_.data()) + (layout_.has_quoted_names ? 1 : 0);

@@ -23,6 +23,7 @@ struct TableLayout {
 
     std::vector<std::string> names; // of all columns as the file has them, without quotes; empty: none
     std::size_t names_end = 0;      // the byte behind the last name
+    char names_separator = ' ';     // between them: ',', ';', ' ' or '\t'
     bool has_quoted_names = false;
 
     bool has_count = false;     // a line with the number of points comes first

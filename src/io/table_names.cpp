@@ -120,6 +120,14 @@ bool is_opaque(const Attribute& column) {
     return all_of(column, [](double value) { return value == 255; });
 }
 
+// Behind x y z. An intensity stands alone in a .pts file, or in front of colours; x y z i r g b and x y z r g
+// b a may look alike, and a fourth value that is always 255 is an alpha.
+bool begins_with_intensity(TableKind kind, std::span<const Attribute> columns) {
+    if (columns.size() == 4) return kind == TableKind::pts;
+    if (columns.size() == 7 && are_colors(columns, 3) && is_opaque(columns[6])) return false;
+    return columns.size() % 3 == 1 && are_colors(columns, 4);
+}
+
 void guess_names(TableKind kind, std::vector<Attribute>& columns) {
     const auto name = [&](std::size_t at, std::initializer_list<const char*> names) {
         for (const char* const word : names) columns[at++].name = word;
@@ -129,11 +137,7 @@ void guess_names(TableKind kind, std::vector<Attribute>& columns) {
     bool has_normals = false;
     std::size_t at = name(0, {"x", "y", "z"});
     while (at < columns.size()) {
-        // x y z i r g b and x y z r g b a may look alike: a fourth value that is always 255 is an alpha.
-        const bool intensity_first =
-            at == 3 && (columns.size() - at) % 3 == 1 && are_colors(columns, at + 1) &&
-            !(columns.size() == 7 && are_colors(columns, at) && is_opaque(columns[6]));
-        if (intensity_first) {
+        if (at == 3 && begins_with_intensity(kind, columns)) {
             at = name(at, {"intensity"});
         } else if (!has_normals && are_normals(columns, at)) {
             at = name(at, {"nx", "ny", "nz"});
@@ -143,8 +147,6 @@ void guess_names(TableKind kind, std::vector<Attribute>& columns) {
             has_colors = true;
             if (at < columns.size() && columns.size() == 7 && is_opaque(columns[at]))
                 at = name(at, {"alpha"});
-        } else if (kind == TableKind::pts && columns.size() == 4) {
-            at = name(at, {"intensity"});
         } else {
             columns[at].name = "column_" + std::to_string(at + 1);
             ++at;

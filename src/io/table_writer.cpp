@@ -60,7 +60,7 @@ void add_names(Patching& patching) {
     const std::string quote = layout.has_quoted_names ? "\"" : "";
     std::string text;
     for (const AddedColumn& column : patching.added) {
-        text += patching.separator();
+        text += layout.names_separator;
         text.append(quote).append(column.name).append(quote);
     }
     patching.copy.replace(layout.names_end, 0, std::as_bytes(std::span(text)));

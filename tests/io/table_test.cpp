@@ -132,6 +132,8 @@ TEST(Table, AddsColumnsBehindTheOthers) {
         EXPECT_EQ(heard.empty(), named) << joined(heard);
         for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(value_at(back.attributes[3], i), far[i]);
     }
+    EXPECT_EQ(written(read_bytes("x,y,z\n1 2 3\n4\t5 6\n", "a.csv"), {{}, {}, {{"far", far}}}, "a.csv"),
+              "x,y,z,far\n1 2 3 0.5\n4\t5 6 -2\n");
     EXPECT_EQ(
         written(read_bytes("\"X\",\"Y\",\"Z\"\n1,2,3\n4,5,6\n", "a.csv"), {{}, {}, {{"far", far}}}, "a.csv"),
         "\"X\",\"Y\",\"Z\",\"far\"\n1,2,3,0.5\n4,5,6,-2\n");

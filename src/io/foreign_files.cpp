@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 
 namespace knead {
 
@@ -16,13 +15,11 @@ struct Signature {
     std::string_view words; // "is ..."
 };
 
-constexpr std::array<Signature, 25> signatures = {{
+constexpr std::array<Signature, 23> signatures = {{
     {"\xEF\xBB\xBFply", "is a PLY file behind a byte-order mark; save it again without the mark"},
+    {"\xEF\xBB\xBF# .PCD", "is a PCD file behind a byte-order mark; save it again without the mark"},
     {"\xFF\xFE", "is text in UTF-16; save it again as plain ASCII"},
     {"\xFE\xFF", "is text in UTF-16; save it again as plain ASCII"},
-    {"# .PCD", "is a PCD file"},
-    {"VERSION .7", "is a PCD file"},
-    {"VERSION 0.7", "is a PCD file"},
     {"ASTM-E57", "is an E57 file"},
     {"OFF", "is an OFF file"},
     {"COFF", "is an OFF file"},
@@ -44,7 +41,7 @@ constexpr std::array<Signature, 25> signatures = {{
     {"ply", "begins like a PLY file, but 'ply' must stand alone on its first line"},
 }};
 
-// The first line that says something: neither empty nor a comment, as OBJ and tables of numbers have them.
+// The first line that says something: neither empty nor a comment, as OBJ has them.
 std::string_view first_line(std::string_view text) {
     while (!text.empty()) {
         const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
@@ -53,17 +50,6 @@ std::string_view first_line(std::string_view text) {
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return {};
-}
-
-bool is_row_of_numbers(std::string_view line) {
-    std::string words(line);
-    std::replace_if(
-        words.begin(), words.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
-    std::istringstream numbers(words);
-    double number = 0;
-    int found = 0;
-    while (numbers >> number) ++found;
-    return found >= 3 && numbers.eof();
 }
 
 } // namespace
@@ -80,8 +66,6 @@ void refuse_foreign_file(std::span<const std::byte> first_bytes, const std::stri
             const bool has_cure = signature.words.find(';') != std::string_view::npos;
             throw Error(Trouble::input, shown, std::string(signature.words) + (has_cure ? "" : cure));
         }
-    if (is_row_of_numbers(first_line(text)))
-        throw Error(Trouble::input, shown, "is a table of numbers" + cure);
 }
 
 } // namespace knead

@@ -1,10 +1,12 @@
 #include "io/format.h"
 #include "io/las.h"
+#include "io/pcd.h"
 #include "io/ply.h"
+#include "io/table.h"
+#include "io/text_numbers.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace knead {
 
@@ -14,16 +16,28 @@ constexpr std::array<std::string_view, 1> ply_extensions = {".ply"};
 
 constexpr std::array<std::string_view, 1> las_extensions = {".las"};
 
-constexpr std::array<Format, 2> formats = {{
+constexpr std::array<std::string_view, 1> pcd_extensions = {".pcd"};
+
+constexpr std::array<std::string_view, 1> xyz_extensions = {".xyz"};
+constexpr std::array<std::string_view, 2> txt_extensions = {".txt", ".asc"};
+constexpr std::array<std::string_view, 1> csv_extensions = {".csv"};
+constexpr std::array<std::string_view, 1> pts_extensions = {".pts"};
+
+// The kinds of tables look alike; the reader tells them by the file's name.
+bool looks_like_none(std::span<const std::byte> /*first_bytes*/) {
+    return false;
+}
+
+constexpr std::array<Format, 7> formats = {{
     {"ply", ply_extensions, looks_like_ply, read_ply, write_ply},
     {"las", las_extensions, looks_like_las, read_las, write_las},
+    {"pcd", pcd_extensions, looks_like_pcd, read_pcd, write_pcd},
+    // Behind all others, since any row of numbers is a table.
+    {"txt", txt_extensions, looks_like_table, read_table, write_txt},
+    {"xyz", xyz_extensions, looks_like_none, read_table, write_xyz},
+    {"csv", csv_extensions, looks_like_none, read_table, write_csv},
+    {"pts", pts_extensions, looks_like_none, read_table, write_pts},
 }};
-
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return text;
-}
 
 } // namespace
 

@@ -31,6 +31,16 @@ std::vector<NewColumn> new_columns(const PointCloud& cloud, const std::vector<Po
     return columns;
 }
 
+void name_standard_columns(std::vector<NewColumn>& columns, const PointCloud& cloud,
+                           const std::array<std::string_view, 3>& normals) {
+    constexpr std::array<std::string_view, 3> axes = {"x", "y", "z"};
+    const auto normal_columns = find_normals(cloud);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        columns[cloud.coordinate_columns[axis]].name = axes[axis];
+        if (normal_columns) columns[(*normal_columns)[axis]].name = normals[axis];
+    }
+}
+
 bool is_word_letter(char letter) {
     return static_cast<unsigned char>(letter) > ' ' && letter != '\x7F';
 }
@@ -56,6 +66,14 @@ std::vector<std::string> make_names_legal(std::vector<NewColumn>& columns, bool 
         column->name = std::move(name);
     }
     return words;
+}
+
+std::optional<std::uint64_t> common_length(const Attribute& list) {
+    if (list.first.size() < 2) return 0;
+    const std::uint64_t length = list.first[1] - list.first[0];
+    for (std::size_t i = 1; i + 1 < list.first.size(); ++i)
+        if (list.first[i + 1] - list.first[i] != length) return std::nullopt;
+    return length;
 }
 
 std::array<std::byte, 8> new_scalar(const NewColumn& column, std::size_t i, const std::string& shown) {

@@ -5,7 +5,10 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace knead {
@@ -28,6 +31,10 @@ struct NewColumn {
 std::vector<NewColumn> new_columns(const PointCloud& cloud, const std::vector<PosedColumn>& posed,
                                    const std::vector<AddedColumn>& added);
 
+// Calls the coordinates x, y and z, and the normals, where there are some, by the format's own names.
+void name_standard_columns(std::vector<NewColumn>& columns, const PointCloud& cloud,
+                           const std::array<std::string_view, 3>& normals);
+
 // Makes the names such that a format can write them: letters that `is_legal` refuses become '_', longer names
 // than `longest` are cut, and a name that is then taken gets a number. Returns a sentence for each that
 // changed.
@@ -36,6 +43,9 @@ std::vector<std::string> make_names_legal(std::vector<NewColumn>& columns, bool 
 
 // Whether a letter may stand in a name that is one word of a text.
 bool is_word_letter(char letter);
+
+// How many numbers each list of a column has; nothing where that differs. 0 where there are no points.
+std::optional<std::uint64_t> common_length(const Attribute& list);
 
 // The scalar to write for point i, in native byte order: the posed value, or the very bytes of the cloud's
 // column. Not for lists. `shown` names the target in errors.

@@ -1,6 +1,7 @@
 #include "io/ply_header.h"
 
 #include "base/error.h"
+#include "io/header_lines.h"
 #include "io/text_numbers.h"
 
 #include <algorithm>
@@ -27,56 +28,6 @@ constexpr std::array<TypeNames, 8> type_names = {{
     {ScalarType::float32, "float", "float32"},
     {ScalarType::float64, "double", "float64"},
 }};
-
-using Words = std::vector<std::string_view>;
-
-Words split(std::string_view line) {
-    constexpr std::string_view blanks = " \t\r\v\f";
-    Words words;
-    for (std::size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;) {
-        const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
-        words.push_back(line.substr(at, end - at));
-        at = line.find_first_not_of(blanks, end);
-    }
-    return words;
-}
-
-// Cuts the header into lines and knows where it is.
-class HeaderLines {
-public:
-    HeaderLines(std::string_view text, std::string shown) : text_(text), shown_(std::move(shown)) {
-        // The first line tells how lines end. A lone \r must not swallow a first body byte that happens to
-        // be \n.
-        const std::size_t end = text.find_first_of("\r\n");
-        const bool lone_return =
-            end != std::string_view::npos && text[end] == '\r' && text.substr(end + 1, 1) != "\n";
-        ending_ = lone_return ? '\r' : '\n';
-    }
-
-    // The next line's words; nothing at the end of the file.
-    std::optional<Words> next() {
-        if (at_ >= text_.size()) return std::nullopt;
-        const std::size_t end = std::min(text_.find(ending_, at_), text_.size());
-        const std::string_view line = text_.substr(at_, end - at_);
-        at_ = std::min(end + 1, text_.size());
-        ++line_;
-        return split(line);
-    }
-
-    std::size_t at() const { return at_; }
-    std::size_t line() const { return line_; }
-
-    [[noreturn]] void fail(const std::string& words) const {
-        throw Error(Trouble::input, shown_ + ":" + std::to_string(line_), words);
-    }
-
-private:
-    std::string_view text_;
-    std::string shown_;
-    char ending_ = '\n';
-    std::size_t at_ = 0;
-    std::size_t line_ = 0;
-};
 
 void parse_format(const Words& words, const HeaderLines& lines, bool& seen, PlyHeader& header) {
     if (seen) lines.fail("a second format line; keep only one");

@@ -41,7 +41,8 @@ void append_scalars(BlockWriter& out, const std::byte* from, std::size_t count, 
     }
 }
 
-void append_list(BlockWriter& out, const Attribute& list, std::size_t point, const std::string& shown) {
+void append_list(BlockWriter& out, const NewColumn& column, std::size_t point, const std::string& shown) {
+    const Attribute& list = *column.attribute;
     const std::uint64_t length = list.first[point + 1] - list.first[point];
     std::array<std::byte, 8> count{};
     store_scalar(static_cast<double>(length), list.count_type, count.data());
@@ -52,10 +53,16 @@ void append_list(BlockWriter& out, const Attribute& list, std::size_t point, con
                         std::to_string(length) + " values, more than its length's type can count");
     append_scalars(out, count.data(), 1, size_of(list.count_type));
     const std::size_t size = size_of(list.type);
-    append_scalars(out, list.values.data() + list.first[point] * size, length, size);
+    if (list.type == column.type)
+        return append_scalars(out, list.values.data() + list.first[point] * size, length, size);
+    std::array<std::byte, 8> scalar{};
+    for (std::uint64_t k = list.first[point]; k < list.first[point + 1]; ++k) {
+        store_scalar(value_at(list, k), column.type, scalar.data());
+        append_scalars(out, scalar.data(), 1, size_of(column.type));
+    }
 }
 
-// As double what PLY has no type for. Lists only come from PLY files, which have none of these.
+// As double what PLY has no type for.
 void widen(std::vector<NewColumn>& columns, std::vector<std::string>& left_out) {
     for (NewColumn& column : columns) {
         if (!is_too_wide(column.type)) continue;
@@ -82,6 +89,7 @@ std::vector<std::string> write_new_ply(FileInTheMaking& file, const PointCloud& 
     const std::vector<PosedColumn> posed = posed_columns(cloud, shape);
     const std::vector<AddedColumn> added = with_free_names(cloud, shape.added);
     std::vector<NewColumn> columns = new_columns(cloud, posed, added);
+    name_standard_columns(columns, cloud, {"nx", "ny", "nz"});
     constexpr std::size_t no_limit = 1000;
     std::vector<std::string> left_out = make_names_legal(columns, is_word_letter, no_limit);
     widen(columns, left_out);
@@ -96,7 +104,7 @@ std::vector<std::string> write_new_ply(FileInTheMaking& file, const PointCloud& 
     for (std::size_t point = 0; point < cloud.size(); ++point)
         for (const NewColumn& column : columns)
             if (column.is_list())
-                append_list(out, *column.attribute, point, shown);
+                append_list(out, column, point, shown);
             else
                 append_scalar(out, column, point, shown);
     out.finish();

@@ -4,6 +4,8 @@
 
 #include <fast_float/fast_float.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -122,6 +124,13 @@ std::string in_quotes(std::string_view text) {
     std::string shown = "'";
     for (const char letter : text.substr(0, longest)) shown += letter >= ' ' && letter <= '~' ? letter : '?';
     return shown + (text.size() > longest ? "…'" : "'");
+}
+
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return lower;
 }
 
 } // namespace knead

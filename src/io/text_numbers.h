@@ -27,4 +27,7 @@ std::size_t line_of(std::span<const std::byte> bytes, std::size_t at);
 // Text of a file for a message: printable, in quotes, and not too long.
 std::string in_quotes(std::string_view text);
 
+// Text in lower case, as far as its letters are those of ASCII.
+std::string lower_case(std::string_view text);
+
 } // namespace knead

@@ -34,7 +34,7 @@ protected:
 };
 
 TEST_F(Formats, AnUneditedCloudComesBackAsTheIdenticalFile) {
-    for (const char* extension : {".ply", ".las"}) {
+    for (const char* extension : {".ply", ".las", ".pcd", ".xyz", ".txt", ".asc", ".csv", ".pts"}) {
         const std::string file = std::string("bar") + extension;
         ASSERT_EQ(run({"make", "bar", "--points", "600", "--out", file}).code, 0);
         session(file, ends);

@@ -314,7 +314,7 @@ TEST_F(Replay, ACheckOfAnotherCountOfPointsFails) {
 TEST_F(Replay, TellsWhereItCannotWrite) {
     session(edit);
     expect_failure(5, "missing", {"--out", "missing/out.ply"});
-    expect_failure(5, ".xyz", {"--out", "out.xyz"});
+    expect_failure(5, ".stl", {"--out", "out.stl"});
     std::filesystem::create_directory(folder / "taken.ply");
     expect_failure(5, "taken.ply", {"--out", "taken.ply"});
 }

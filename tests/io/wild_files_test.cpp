@@ -18,6 +18,8 @@ namespace {
 const std::map<std::string, std::string> hopeless = {
     {"pdal_sized_dims.ply", "has no z"},
     {"magnum_unsupported-face-size.ply", "promises two faces and holds one"},
+    {"pcl_stereo_left.pcd", "has colours and no x, y, z"},
+    {"meshlab_chameleon4k.pts", "is no table but a binary file of PointShop3D"},
 };
 
 // Opens it and saves it unedited in its own format.
@@ -62,7 +64,7 @@ TEST(WildFiles, open_if_plain) {
         if (!has_cloud_extension(entry.path())) continue;
         SCOPED_TRACE(entry.path().filename());
         const PointCloud cloud = read_cloud(entry.path(), progress);
-        EXPECT_GT(cloud.size(), 300U);
+        EXPECT_GE(cloud.size(), 100U);
         expect_whole(entry.path(), cloud);
     }
 }

@@ -1,0 +1,153 @@
+#include "io/new_columns.h"
+#include "io/patched_copy.h"
+#include "io/pcd.h"
+#include "io/scalar_bytes.h"
+#include "io/text_numbers.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <optional>
+
+namespace knead {
+
+namespace {
+
+constexpr bool swapped = std::endian::native == std::endian::big; // PCD is little endian
+
+// A field of the new file: one column, or the colours in one number.
+struct NewField {
+    std::string name;
+    std::string_view letter;
+    std::size_t size = 4;
+    std::uint64_t count = 1;
+    const NewColumn* column = nullptr;           // null for colours
+    std::array<const NewColumn*, 4> colors = {}; // blue, green, red and, if there is one, alpha
+};
+
+const NewColumn* find_byte_column(const std::vector<NewColumn>& columns, std::string_view name) {
+    for (const NewColumn& column : columns)
+        if (column.name == name && column.type == ScalarType::uint8 && !column.is_list()) return &column;
+    return nullptr;
+}
+
+// 8-bit colours as the Point Cloud Library packs them: a float "rgb", or with transparency a whole "rgba".
+// Other colours stay columns of their own.
+std::optional<NewField> packed_colors(const std::vector<NewColumn>& columns) {
+    NewField field;
+    constexpr std::array<std::string_view, 4> names = {"blue", "green", "red", "alpha"};
+    for (std::size_t c = 0; c < names.size(); ++c) field.colors[c] = find_byte_column(columns, names[c]);
+    if (field.colors[0] == nullptr || field.colors[1] == nullptr || field.colors[2] == nullptr)
+        return std::nullopt;
+    const bool transparent = field.colors[3] != nullptr;
+    field.name = transparent ? "rgba" : "rgb";
+    field.letter = transparent ? "U" : "F";
+    // The name may be taken by a column that is something else.
+    const auto is_taken = [&](const NewColumn& column) { return column.name == field.name; };
+    if (std::any_of(columns.begin(), columns.end(), is_taken)) return std::nullopt;
+    return field;
+}
+
+std::vector<NewField> new_fields(const std::vector<NewColumn>& columns, std::vector<std::string>& left_out) {
+    std::vector<NewField> fields;
+    const std::optional<NewField> colors = packed_colors(columns);
+    for (const NewColumn& column : columns) {
+        if (colors &&
+            std::find(colors->colors.begin(), colors->colors.end(), &column) != colors->colors.end()) {
+            if (&column == colors->colors[2]) fields.push_back(*colors);
+            continue;
+        }
+        NewField field{column.name, pcd_letter_of(column.type), size_of(column.type), 1, &column, {}};
+        if (column.is_list()) {
+            // Of no points, any length is right.
+            const std::uint64_t length =
+                column.attribute->first.size() < 2 ? 1 : common_length(*column.attribute).value_or(0);
+            if (length == 0 || length > std::numeric_limits<std::uint32_t>::max()) {
+                left_out.push_back(
+                    "the lists " + in_quotes(column.name) +
+                    " are left out, since PCD asks for lists that are equally long and not empty");
+                continue;
+            }
+            field.count = length;
+        }
+        fields.push_back(std::move(field));
+    }
+    return fields;
+}
+
+// Nothing is lost by it, but who opens the file elsewhere should know.
+void remark_on_wide_coordinates(const std::vector<NewColumn>& columns, const PointCloud& cloud,
+                                std::vector<std::string>& left_out) {
+    for (const std::size_t column : cloud.coordinate_columns)
+        if (columns[column].type != ScalarType::float32) {
+            left_out.push_back(
+                "coordinates are written as " + std::string(name_of(columns[column].type)) +
+                ", as the cloud has them; programs of the Point Cloud Library take only float32");
+            return;
+        }
+}
+
+std::string new_header(std::size_t points, const std::vector<NewField>& fields) {
+    std::string names = "FIELDS", sizes = "SIZE", letters = "TYPE", counts = "COUNT";
+    for (const NewField& field : fields) {
+        (names += ' ') += field.name;
+        (sizes += ' ') += std::to_string(field.size);
+        (letters += ' ') += field.letter;
+        (counts += ' ') += std::to_string(field.count);
+    }
+    const std::string number = std::to_string(points);
+    return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + names + '\n' + sizes + '\n' +
+           letters + '\n' + counts + "\nWIDTH " + number + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
+           number + "\nDATA binary\n";
+}
+
+void append_scalar(BlockWriter& out, const std::byte* native, std::size_t size) {
+    std::array<std::byte, 8> stored{};
+    copy_scalar(native, size, swapped, stored.data());
+    out.append(std::span(stored).first(size));
+}
+
+void append_field(BlockWriter& out, const NewField& field, std::size_t point, const std::string& shown) {
+    if (field.column == nullptr) {
+        for (const NewColumn* part : field.colors) {
+            const auto byte = part == nullptr ? std::array<std::byte, 8>{} : new_scalar(*part, point, shown);
+            out.append(std::span(byte).first(1));
+        }
+    } else if (field.column->is_list()) {
+        const Attribute& list = *field.column->attribute;
+        const std::byte* from = list.values.data() + list.first[point] * field.size;
+        for (std::uint64_t k = 0; k < field.count; ++k, from += field.size)
+            append_scalar(out, from, field.size);
+    } else {
+        append_scalar(out, new_scalar(*field.column, point, shown).data(), field.size);
+    }
+}
+
+} // namespace
+
+std::vector<std::string> write_new_pcd(FileInTheMaking& file, const PointCloud& cloud,
+                                       const PosedShape& shape, const std::string& shown,
+                                       Progress& progress) {
+    const std::vector<PosedColumn> posed = posed_columns(cloud, shape);
+    const std::vector<AddedColumn> added = with_free_names(cloud, shape.added);
+    std::vector<NewColumn> columns = new_columns(cloud, posed, added);
+    name_standard_columns(columns, cloud, {"normal_x", "normal_y", "normal_z"});
+    for (NewColumn& column : columns)
+        if (column.name == "_") column.name.clear(); // padding, in PCD
+    constexpr std::size_t no_limit = 1000;
+    std::vector<std::string> left_out = make_names_legal(columns, is_word_letter, no_limit);
+    const std::vector<NewField> fields = new_fields(columns, left_out);
+    remark_on_wide_coordinates(columns, cloud, left_out);
+    const std::string header = new_header(cloud.size(), fields);
+    std::size_t total = header.size();
+    for (const NewField& field : fields) total += cloud.size() * field.size * field.count;
+    BlockWriter out(file, total, progress);
+    out.append(header);
+    for (std::size_t point = 0; point < cloud.size(); ++point)
+        for (const NewField& field : fields) append_field(out, field, point, shown);
+    out.finish();
+    return left_out;
+}
+
+} // namespace knead

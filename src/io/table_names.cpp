@@ -1,0 +1,206 @@
+#include "io/table_names.h"
+
+#include "io/text_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+
+namespace knead {
+
+namespace {
+
+// --- Names of the file
+// ---------------------------------------------------------------------------------------
+
+struct Spelling {
+    std::string_view standard;
+    std::array<std::string_view, 5> others; // in lower case
+};
+
+constexpr std::array<Spelling, 8> spellings = {{
+    {"nx", {"nx", "normalx", "normal_x", "normals:0", "normal[0]"}},
+    {"ny", {"ny", "normaly", "normal_y", "normals:1", "normal[1]"}},
+    {"nz", {"nz", "normalz", "normal_z", "normals:2", "normal[2]"}},
+    {"red", {"red", "r", "rf", "red", "red"}}, // "Rf" as CloudCompare calls fractions
+    {"green", {"green", "g", "gf", "green", "green"}},
+    {"blue", {"blue", "b", "bf", "blue", "blue"}},
+    {"alpha", {"alpha", "a", "af", "alpha", "alpha"}},
+    {"intensity", {"intensity", "i", "intensity", "intensity", "intensity"}},
+}};
+
+std::string standard_name(std::string_view name) {
+    constexpr std::array<std::string_view, 3> axes = {"x", "y", "z"};
+    if (const auto axis = axis_of(name)) return std::string(axes[*axis]);
+    const std::string lower = lower_case(name);
+    for (const Spelling& spelling : spellings)
+        if (std::find(spelling.others.begin(), spelling.others.end(), lower) != spelling.others.end())
+            return std::string(spelling.standard);
+    return "";
+}
+
+// A name of one word, since that is what columns have in other formats.
+std::string one_word(std::string_view name, std::size_t column) {
+    std::string word(name.empty() ? "column_" + std::to_string(column + 1) : std::string(name));
+    std::replace_if(
+        word.begin(), word.end(), [](char c) { return static_cast<unsigned char>(c) <= ' '; }, '_');
+    return word;
+}
+
+void take_names(const TableLayout& layout, std::vector<Attribute>& columns) {
+    const auto is_taken = [&](std::string_view name) {
+        return std::any_of(columns.begin(), columns.end(),
+                           [&](const Attribute& column) { return column.name == name; });
+    };
+    // Standard names go to the first that has a claim, and no other name may be one of those that are taken.
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        if (const std::string name = standard_name(layout.names[c]); !name.empty() && !is_taken(name))
+            columns[c].name = name;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        if (!columns[c].name.empty()) continue;
+        const std::string own = one_word(layout.names[c], c);
+        std::string name = own;
+        for (unsigned number = 2; is_taken(name); ++number) name = own + "_" + std::to_string(number);
+        columns[c].name = name;
+    }
+}
+
+// --- Names by the numbers
+// ------------------------------------------------------------------------------------
+
+// All columns are of this type until colours are found.
+std::size_t rows_of(const Attribute& column) {
+    return column.values.size() / sizeof(double);
+}
+
+double number_at(const Attribute& column, std::size_t row) {
+    double number = 0;
+    std::memcpy(&number, column.values.data() + row * sizeof number, sizeof number);
+    return number;
+}
+
+bool all_of(const Attribute& column, bool (*is_right)(double value)) {
+    for (std::size_t i = 0; i < rows_of(column); ++i)
+        if (!is_right(number_at(column, i))) return false;
+    return rows_of(column) > 0;
+}
+
+bool is_byte(double value) {
+    return value >= 0 && value <= 255 && value == std::floor(value);
+}
+
+bool is_short(double value) {
+    return value >= 0 && value <= 65535 && value == std::floor(value);
+}
+
+// Three columns of what is whole and from 0 to 255.
+bool are_colors(std::span<const Attribute> columns, std::size_t at) {
+    if (at + 3 > columns.size()) return false;
+    return all_of(columns[at], is_byte) && all_of(columns[at + 1], is_byte) &&
+           all_of(columns[at + 2], is_byte);
+}
+
+// Three columns of vectors of length 1, as far as few digits tell it, or 0 where there was no normal.
+bool are_normals(std::span<const Attribute> columns, std::size_t at) {
+    constexpr double rounding = 0.02;
+    if (at + 3 > columns.size()) return false;
+    bool any = false;
+    for (std::size_t i = 0; i < rows_of(columns[at]); ++i) {
+        const Vec3d normal(number_at(columns[at], i), number_at(columns[at + 1], i),
+                           number_at(columns[at + 2], i));
+        if (normal.isZero(0)) continue;
+        if (!(std::abs(normal.norm() - 1) < rounding)) return false;
+        any = true;
+    }
+    return any;
+}
+
+bool is_opaque(const Attribute& column) {
+    return all_of(column, [](double value) { return value == 255; });
+}
+
+// Behind x y z. An intensity stands alone in a .pts file, or in front of colours; x y z i r g b and x y z r g
+// b a may look alike, and a fourth value that is always 255 is an alpha.
+bool begins_with_intensity(TableKind kind, std::span<const Attribute> columns) {
+    if (columns.size() == 4) return kind == TableKind::pts;
+    if (columns.size() == 7 && are_colors(columns, 3) && is_opaque(columns[6])) return false;
+    return columns.size() % 3 == 1 && are_colors(columns, 4);
+}
+
+void guess_names(TableKind kind, std::vector<Attribute>& columns) {
+    const auto name = [&](std::size_t at, std::initializer_list<const char*> names) {
+        for (const char* const word : names) columns[at++].name = word;
+        return at;
+    };
+    bool has_colors = false;
+    bool has_normals = false;
+    std::size_t at = name(0, {"x", "y", "z"});
+    while (at < columns.size()) {
+        if (at == 3 && begins_with_intensity(kind, columns)) {
+            at = name(at, {"intensity"});
+        } else if (!has_normals && are_normals(columns, at)) {
+            at = name(at, {"nx", "ny", "nz"});
+            has_normals = true;
+        } else if (!has_colors && are_colors(columns, at)) {
+            at = name(at, {"red", "green", "blue"});
+            has_colors = true;
+            if (at < columns.size() && columns.size() == 7 && is_opaque(columns[at]))
+                at = name(at, {"alpha"});
+        } else {
+            columns[at].name = "column_" + std::to_string(at + 1);
+            ++at;
+        }
+    }
+}
+
+// --- Colours
+// -------------------------------------------------------------------------------------------------
+
+template<typename Whole>
+void make_whole(Attribute& column, ScalarType type) {
+    std::vector<std::byte> values(rows_of(column) * sizeof(Whole));
+    for (std::size_t i = 0; i < rows_of(column); ++i) {
+        const auto value = static_cast<Whole>(number_at(column, i));
+        std::memcpy(values.data() + i * sizeof value, &value, sizeof value);
+    }
+    column.values = std::move(values);
+    column.type = type;
+}
+
+// Whole colours as other formats have them; all of them alike.
+void type_colors(std::vector<Attribute>& columns) {
+    std::vector<Attribute*> colors;
+    for (Attribute& column : columns)
+        for (const std::string_view name : {"red", "green", "blue", "alpha"})
+            if (column.name == name) colors.push_back(&column);
+    const auto all = [&](bool (*is_right)(double)) {
+        return std::all_of(colors.begin(), colors.end(),
+                           [&](const Attribute* column) { return all_of(*column, is_right); });
+    };
+    const bool bytes = all(is_byte);
+    if (!bytes && !all(is_short)) return;
+    for (Attribute* const column : colors)
+        if (bytes)
+            make_whole<std::uint8_t>(*column, ScalarType::uint8);
+        else
+            make_whole<std::uint16_t>(*column, ScalarType::uint16);
+}
+
+} // namespace
+
+std::array<std::size_t, 3> name_table_columns(const TableLayout& layout, TableKind kind,
+                                              std::vector<Attribute>& columns) {
+    if (layout.names.empty())
+        guess_names(kind, columns);
+    else
+        take_names(layout, columns);
+    type_colors(columns);
+    std::array<std::size_t, 3> axes{};
+    for (std::size_t c = columns.size(); c-- > 0;)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (columns[c].name == std::string_view("xyz").substr(axis, 1)) axes[axis] = c;
+    return axes;
+}
+
+} // namespace knead

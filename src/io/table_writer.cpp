@@ -1,0 +1,136 @@
+#include "base/require.h"
+#include "io/new_columns.h"
+#include "io/patched_copy.h"
+#include "io/table.h"
+#include "io/table_rows.h"
+#include "io/text_numbers.h"
+
+#include <algorithm>
+#include <array>
+
+namespace knead {
+
+namespace {
+
+// What the functions below share.
+struct Patching {
+    const TableImage& image;
+    std::vector<const PosedColumn*> posed; // one a column; null where nothing changes
+    std::vector<AddedColumn> added;
+    std::string shown;
+    PatchedCopy copy;
+
+    char separator() const {
+        return image.layout.separator == ' ' ? image.layout.blank : image.layout.separator;
+    }
+};
+
+// The shortest text of a number, with the file's decimal sign.
+std::string_view print(double value, ScalarType type, const TableLayout& layout,
+                       std::array<char, 64>& buffer) {
+    const std::size_t length = print_scalar(value, type, buffer);
+    if (layout.decimal_comma)
+        std::replace(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(length), '.', ',');
+    return {buffer.data(), length};
+}
+
+void patch_number(Patching& patching, const PosedColumn& column, std::size_t point, const TableRows& rows) {
+    const auto value = posed_value(column, point, patching.shown);
+    if (!value) return;
+    std::array<char, 64> buffer{};
+    // Normals are computed as floats; more digits would be noise.
+    const ScalarType type = column.rest == nullptr ? ScalarType::float32 : ScalarType::float64;
+    const std::string_view text = print(*value, type, patching.image.layout, buffer);
+    patching.copy.replace(rows.at(), rows.number().size(), std::as_bytes(std::span(text)));
+}
+
+void add_numbers(Patching& patching, std::size_t point, const TableRows& rows) {
+    std::string text;
+    for (const AddedColumn& column : patching.added) {
+        std::array<char, 64> buffer{};
+        text += patching.separator();
+        text += print(static_cast<double>(column.values[point]), ScalarType::float32, patching.image.layout,
+                      buffer);
+    }
+    patching.copy.replace(rows.at(), 0, std::as_bytes(std::span(text)));
+}
+
+void add_names(Patching& patching) {
+    const TableLayout& layout = patching.image.layout;
+    const std::string quote = layout.has_quoted_names ? "\"" : "";
+    std::string text;
+    for (const AddedColumn& column : patching.added) {
+        text += layout.names_separator;
+        text.append(quote).append(column.name).append(quote);
+    }
+    patching.copy.replace(layout.names_end, 0, std::as_bytes(std::span(text)));
+}
+
+void patch_rows(Patching& patching, std::size_t points) {
+    TableRows rows(patching.image.bytes, patching.image.layout);
+    for (std::size_t point = 0; point < points; ++point) {
+        require(rows.next_row(), "rows lie where they were read");
+        for (const PosedColumn* const column : patching.posed) {
+            require(rows.next_number(), "numbers lie where they were read");
+            if (column != nullptr) patch_number(patching, *column, point, rows);
+            require(rows.pass_number(), "numbers lie where they were read");
+        }
+        if (!patching.added.empty()) add_numbers(patching, point, rows);
+        require(rows.end_row(), "rows end where they were read");
+    }
+}
+
+std::vector<std::string> write_patched(FileInTheMaking& file, const TableImage& image,
+                                       const PointCloud& cloud, const PosedShape& shape,
+                                       const std::string& shown, Progress& progress) {
+    require(image.layout.columns == cloud.attributes.size(), "a cloud has the columns of its image");
+    BlockWriter out(file, image.bytes.size(), progress);
+    const std::vector<PosedColumn> columns = posed_columns(cloud, shape);
+    Patching patching{image, {}, with_free_names(cloud, shape.added), shown, PatchedCopy(image.bytes, out)};
+    patching.posed.resize(cloud.attributes.size(), nullptr);
+    for (const PosedColumn& column : columns) patching.posed[column.column] = &column;
+    const bool nameless = image.layout.names.empty();
+    if (!patching.added.empty() && !nameless) add_names(patching);
+    if (!columns.empty() || !patching.added.empty()) patch_rows(patching, cloud.size());
+    patching.copy.finish();
+    out.finish();
+    if (patching.added.empty() || !nameless) return {};
+    return {"the added columns stand behind the others without their names, since the file names no columns"};
+}
+
+std::vector<std::string> write_table(TableKind kind, const std::filesystem::path& path,
+                                     const PointCloud& cloud, const PosedShape& shape, Progress& progress) {
+    FileInTheMaking file(path);
+    const auto* image = dynamic_cast<const TableImage*>(cloud.image.get());
+    std::vector<std::string> left_out =
+        image != nullptr && image->kind == kind
+            ? write_patched(file, *image, cloud, shape, path.string(), progress)
+            : write_new_table(file, kind, cloud, shape, path.string(), progress);
+    progress.stop_if_cancelled();
+    file.commit();
+    return left_out;
+}
+
+} // namespace
+
+std::vector<std::string> write_xyz(const std::filesystem::path& path, const PointCloud& cloud,
+                                   const PosedShape& shape, Progress& progress) {
+    return write_table(TableKind::xyz, path, cloud, shape, progress);
+}
+
+std::vector<std::string> write_txt(const std::filesystem::path& path, const PointCloud& cloud,
+                                   const PosedShape& shape, Progress& progress) {
+    return write_table(TableKind::txt, path, cloud, shape, progress);
+}
+
+std::vector<std::string> write_csv(const std::filesystem::path& path, const PointCloud& cloud,
+                                   const PosedShape& shape, Progress& progress) {
+    return write_table(TableKind::csv, path, cloud, shape, progress);
+}
+
+std::vector<std::string> write_pts(const std::filesystem::path& path, const PointCloud& cloud,
+                                   const PosedShape& shape, Progress& progress) {
+    return write_table(TableKind::pts, path, cloud, shape, progress);
+}
+
+} // namespace knead

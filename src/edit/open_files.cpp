@@ -77,7 +77,7 @@ std::vector<pid_t> OpenFiles::others_with(const fs::path& file) const {
             others.push_back(*process);
     }
     std::ranges::sort(others);
-    others.erase(std::ranges::unique(others).begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
     return others;
 }
 

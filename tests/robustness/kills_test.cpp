@@ -109,7 +109,7 @@ TEST_F(Kills, OfSavesOfACloudAndASession) {
                     for (bool second = true;; second = !second) save(second);
                 });
             },
-            0.05);
+            0.1);
         const std::string now = read_text(target);
         if (!clouds.contains(now) || !sessions.contains(read_text(session))) ++broken;
         if (now != before) ++changed;

@@ -11,20 +11,13 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 cd "$root"
 report=build/tests.xml
 
-# How many lines of ctest's report match.
-count() { { cat "$report" 2>/dev/null || true; } | grep -cE "^[[:space:]]*<$1" || true; }
-
 ./run.sh --build </dev/null
 rm -f "$report"
 code=0
 ctest --preset release --parallel 2 --output-junit "$root/$report" "$@" </dev/null || code=$?
 
-# A test "notrun" was skipped by its own word, or could not be started, which is a failure.
-passed=$(count 'testcase .* status="run"')
-not_run=$(count 'testcase .* status="notrun"')
-skipped_itself=$(count 'skipped message="SKIP_')
-skipped=$((skipped_itself + $(count 'testcase .* status="disabled"')))
-failed=$((not_run - skipped_itself + $(count 'testcase .* status="fail"')))
+. tests/count.sh
+count_tests "$report"
 if [ "$failed" -gt 0 ] || [ $((passed + failed)) = 0 ]; then
     [ "$code" != 0 ] || code=1
 fi

@@ -1,10 +1,13 @@
 #include "app/recent_files.h"
 
+#include "base/error.h"
+#include "base/whole_file.h"
 #include "edit/journal.h"
 
 #include <algorithm>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 namespace knead {
 
@@ -22,8 +25,15 @@ void write_list(const std::vector<std::filesystem::path>& recent) {
     if (target.empty()) return;
     std::error_code ignored;
     std::filesystem::create_directories(target.parent_path(), ignored);
-    std::ofstream out(target, std::ios::trunc);
-    for (const std::filesystem::path& file : recent) out << file.string() << '\n';
+    std::string text;
+    for (const std::filesystem::path& file : recent) text += file.string() + '\n';
+    try {
+        FileInTheMaking file(target);
+        file.write(std::string_view(text));
+        file.commit();
+    } catch (const Error&) {
+        // A convenience; nothing of the user's work.
+    }
 }
 
 } // namespace

@@ -1,9 +1,12 @@
 #include "app/remembered.h"
 
+#include "base/error.h"
+#include "base/whole_file.h"
 #include "edit/journal.h"
 
 #include <fstream>
 #include <string>
+#include <string_view>
 
 namespace knead {
 
@@ -29,7 +32,13 @@ void remember_up_axis(UpAxis up) {
     if (target.empty()) return;
     std::error_code ignored;
     std::filesystem::create_directories(target.parent_path(), ignored);
-    std::ofstream(target, std::ios::trunc) << "up " << (up == UpAxis::y ? "y" : "z") << '\n';
+    try {
+        FileInTheMaking file(target);
+        file.write(std::string_view(up == UpAxis::y ? "up y\n" : "up z\n"));
+        file.commit();
+    } catch (const Error&) {
+        // A convenience; nothing of the user's work.
+    }
 }
 
 } // namespace knead

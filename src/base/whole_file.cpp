@@ -17,30 +17,34 @@ std::string system_words(int code) {
     return std::generic_category().message(code);
 }
 
-class Descriptor {
-public:
-    explicit Descriptor(int value) : value_(value) {}
-    ~Descriptor() {
-        if (value_ >= 0) ::close(value_);
+std::string why_not_written(int code) {
+    switch (code) {
+    case ENOSPC:
+    case EDQUOT:
+        return "the disk is full; free some space or choose another place";
+    case EFBIG:
+        return "it would be larger than files may be here; choose another place";
+    case EROFS:
+        return "the disk is read-only; choose another place";
+    case EACCES:
+    case EPERM:
+        return "there is no permission to write in its folder; choose another place";
+    case ENOENT:
+    case ENOTDIR:
+        return "its folder is not there; make it, or choose another place";
+    default:
+        return system_words(code);
     }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int value() const { return value_; }
+}
 
-private:
-    int value_;
-};
-
-void sync_folder(const std::filesystem::path& folder) {
-    const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    // Some file systems cannot sync a folder; the renamed file itself is already safe.
-    if (descriptor.value() >= 0) (void)::fsync(descriptor.value());
+Descriptor open_to_read(const std::filesystem::path& path) {
+    return Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)); // a pipe must not block
 }
 
 } // namespace
 
 std::vector<std::byte> read_whole_file(const std::filesystem::path& path, Progress& progress) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)); // a pipe must not block
+    const Descriptor file = open_to_read(path);
     struct stat facts {};
     if (file.value() < 0 || ::fstat(file.value(), &facts) != 0)
         throw Error(Trouble::input, path.string(), "cannot be opened: " + system_words(errno));
@@ -61,41 +65,59 @@ std::vector<std::byte> read_whole_file(const std::filesystem::path& path, Progre
     return bytes;
 }
 
+std::string first_bytes_of_file(const std::filesystem::path& path, std::size_t most) {
+    const Descriptor file = open_to_read(path);
+    struct stat facts {};
+    if (!file || ::fstat(file.value(), &facts) != 0 || !S_ISREG(facts.st_mode)) return {};
+    std::string bytes(most, '\0');
+    const ssize_t got = ::read(file.value(), bytes.data(), bytes.size());
+    bytes.resize(got < 0 ? 0 : static_cast<std::size_t>(got));
+    return bytes;
+}
+
+void refuse_to_write(const std::filesystem::path& shown, int code) {
+    throw Error(Trouble::output, shown.string(), "cannot be written: " + why_not_written(code));
+}
+
+void sync_folder(const std::filesystem::path& folder) {
+    const Descriptor descriptor(
+        ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    // Some file systems cannot sync a folder; what was renamed in it is already safe.
+    if (descriptor) (void)::fsync(descriptor.value());
+}
+
 FileInTheMaking::FileInTheMaking(const std::filesystem::path& target) : shown_(target), target_(target) {
     std::error_code ignored;
     if (std::filesystem::is_symlink(target, ignored)) {
         const auto named = std::filesystem::weakly_canonical(target, ignored);
         if (!ignored) target_ = named;
     }
-    if (std::filesystem::is_directory(target_, ignored))
-        throw Error(Trouble::output, shown_.string(), "is a folder; name a file");
-    std::string name = target_.string() + ".XXXXXX";
-    descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
-    if (descriptor_ < 0) fail("cannot be written");
-    temporary_ = name;
-
     struct stat facts {};
-    mode_t mode = 0;
-    if (::stat(target_.c_str(), &facts) == 0) {
-        mode = facts.st_mode & 07777;
-    } else {
-        const mode_t mask = ::umask(0);
-        ::umask(mask);
-        mode = 0666 & ~mask;
+    const bool is_there = ::stat(target_.c_str(), &facts) == 0;
+    if (is_there && S_ISDIR(facts.st_mode))
+        throw Error(Trouble::output, shown_.string(), "is a folder; name a file");
+    if (is_there && !S_ISREG(facts.st_mode))
+        throw Error(Trouble::output, shown_.string(), "is not a regular file; name another");
+    if (is_there && ::access(target_.c_str(), W_OK) != 0 && errno == EACCES)
+        throw Error(Trouble::output, shown_.string(),
+                    "is write-protected; allow writing to it, or choose another name");
+    try {
+        temporary_.emplace(Claim::beside(target_, Claim::Kind::file));
+    } catch (const std::system_error& error) {
+        refuse_to_write(shown_, error.code().value());
     }
-    (void)::fchmod(descriptor_, mode);
-}
-
-FileInTheMaking::~FileInTheMaking() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    const int descriptor = temporary_->descriptor();
+    if (is_there) (void)::fchown(descriptor, facts.st_uid, facts.st_gid); // as far as it is allowed
+    (void)::fchmod(descriptor, is_there ? facts.st_mode & 07777 : 0666 & ~mask);
 }
 
 void FileInTheMaking::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-        const ssize_t put = ::write(descriptor_, bytes.data(), bytes.size());
+        const ssize_t put = ::write(temporary_->descriptor(), bytes.data(), bytes.size());
         if (put < 0 && errno == EINTR) continue;
-        if (put < 0) fail("cannot be written");
+        if (put < 0) refuse_to_write(shown_, errno);
         bytes = bytes.subspan(static_cast<std::size_t>(put));
     }
 }
@@ -105,18 +127,14 @@ void FileInTheMaking::write(std::string_view text) {
 }
 
 void FileInTheMaking::commit() {
-    if (::fsync(descriptor_) != 0) fail("cannot be written");
-    const int closed = ::close(descriptor_);
-    descriptor_ = -1;
-    if (closed != 0) fail("cannot be written");
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot be written");
-    temporary_.clear();
-    sync_folder(target_.has_parent_path() ? target_.parent_path() : std::filesystem::path("."));
-}
-
-void FileInTheMaking::fail(const char* doing) const {
-    const int code = errno;
-    throw Error(Trouble::output, shown_.string(), std::string(doing) + ": " + system_words(code));
+    if (::fsync(temporary_->descriptor()) != 0) refuse_to_write(shown_, errno);
+    try {
+        temporary_->rename_to(target_);
+    } catch (const std::system_error& error) {
+        refuse_to_write(shown_, error.code().value());
+    }
+    temporary_.reset();
+    sync_folder(target_.parent_path());
 }
 
 } // namespace knead

@@ -1,11 +1,14 @@
 #pragma once
 // Files as wholes: read at once, and written so that the target is either its old self or complete.
 
+#include "base/claim.h"
 #include "base/progress.h"
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,18 +18,25 @@ namespace knead {
 // shrinks while it is read. Reports through `progress` under the stage "reading".
 std::vector<std::byte> read_whole_file(const std::filesystem::path& path, Progress& progress);
 
-// A file in the making beside its target: bytes go to a temporary name in the target's folder; commit() syncs
-// it and renames it over the target, keeping the permissions of a file that was there. Destroyed before that,
-// it removes the temporary and leaves the target as it was.
+// The first bytes of a file, at most so many; none of what cannot be read or is no regular file. Never waits.
+std::string first_bytes_of_file(const std::filesystem::path& path, std::size_t most);
+
+// Throws Error (output): that `shown` cannot be written, why, after errno's `code`, and what helps.
+[[noreturn]] void refuse_to_write(const std::filesystem::path& shown, int code);
+
+// Makes names in a folder last: they are on the disk when this returns, where the file system can say so.
+void sync_folder(const std::filesystem::path& folder);
+
+// A file in the making beside its target: bytes go to a temporary name in the target's folder, a Claim;
+// commit() syncs it and renames it over the target, keeping the permissions of a file that was there.
+// Destroyed before that, it removes the temporary and leaves the target as it was; a process that is killed
+// leaves the temporary, which the next one that writes the same target removes.
 class FileInTheMaking {
 public:
-    // Throws Error (output) when the folder is missing or cannot be written to, or when `target` is a folder.
-    // A symbolic link is followed, so that the file it names is replaced and the link stays.
+    // Throws Error (output) when the folder is missing or cannot be written to, and when `target` is a
+    // folder, no regular file, or write-protected. A symbolic link is followed, so that the file it names is
+    // replaced and the link stays.
     explicit FileInTheMaking(const std::filesystem::path& target);
-    ~FileInTheMaking();
-    FileInTheMaking(const FileInTheMaking&) = delete;
-    FileInTheMaking& operator=(const FileInTheMaking&) = delete;
-
     // Throws Error (output) when the disk is full or fails.
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
@@ -35,12 +45,9 @@ public:
     void commit();
 
 private:
-    [[noreturn]] void fail(const char* doing) const;
-
     std::filesystem::path shown_; // as the user named it, for errors
     std::filesystem::path target_;
-    std::filesystem::path temporary_;
-    int descriptor_ = -1;
+    std::optional<Claim> temporary_; // none after commit()
 };
 
 } // namespace knead

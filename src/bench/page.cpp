@@ -1,9 +1,9 @@
 #include "bench/page.h"
 
+#include "base/temporary_folder.h"
 #include "base/whole_file.h"
 #include "bench/machine.h"
 #include "bench/page_studio.h"
-#include "bench/temporary_folder.h"
 #include "upsample/devices.h"
 
 namespace knead {
@@ -31,7 +31,7 @@ void write_evaluation_page(const PageOptions& options, Progress& progress) {
     Workers workers(options.threads);
     PageDrawer drawer(workers);
     const UpsamplerChoice choice = make_upsampler(options.device, workers, options.threads);
-    const TemporaryFolder folder(options.folder);
+    TemporaryFolder folder(options.folder);
     PageStudio studio{workers,       *choice.upsampler, progress,      drawer,
                       options.scans, options.survey,    folder.path(), {}};
     const std::vector<PageSection> sections{survey_section(studio),   elasticity_section(studio),
@@ -41,8 +41,7 @@ void write_evaluation_page(const PageOptions& options, Progress& progress) {
     FileInTheMaking page(folder.path() / "index.html");
     page.write(std::string_view(page_html("How well knead deforms", introduction(), sections)));
     page.commit();
-    studio.files.emplace_back("index.html");
-    folder.hand_over(studio.files);
+    folder.hand_over();
 }
 
 } // namespace knead

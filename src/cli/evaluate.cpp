@@ -1,8 +1,8 @@
 // knead evaluate: how good the deformed shapes are, and whether what must hold does hold.
 
+#include "base/temporary_folder.h"
 #include "bench/evaluation.h"
 #include "bench/page.h"
-#include "bench/temporary_folder.h"
 #include "cli/commands.h"
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 #include "cli/replay_pictures.h"
 
-#include "bench/temporary_folder.h"
+#include "base/temporary_folder.h"
 
 #include <cstdio>
 #include <optional>
@@ -77,9 +77,7 @@ std::vector<fs::path> ReplayPictures::write() {
         written.push_back(s.options.picture);
     }
     if (s.made) {
-        std::vector<std::string> names;
-        for (std::size_t i = 1; i <= s.frames; ++i) names.push_back(frame_name(i));
-        s.made->hand_over(names);
+        s.made->hand_over();
         written.push_back(folder_of(s.options.frames));
     }
     return written;

@@ -13,6 +13,19 @@ namespace {
 // A signal handler can reach nothing but static storage.
 volatile std::sig_atomic_t stop_asked = 0;
 
+// Names come from files, and must not command the terminal: control characters are shown as "?".
+std::string printable(std::string text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+        const bool is_c0 = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F;
+        const bool is_c1 = byte == 0xC2 && next >= 0x80 && next < 0xA0; // U+0080 … U+009F
+        if (is_c1) text.erase(i, 1);
+        if (is_c0 || is_c1) text[i] = '?';
+    }
+    return text;
+}
+
 void ask_to_stop(int /*signal*/) {
     stop_asked = 1;
 }
@@ -23,7 +36,8 @@ Terminal::Terminal() : is_terminal_(::isatty(STDERR_FILENO) != 0) {
     struct sigaction action {};
     action.sa_handler = ask_to_stop;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaction(signal, &action, nullptr);
-    ::signal(SIGPIPE, SIG_IGN);
+    // Writing fails with words instead: to a pipe that nobody reads, and beyond a limit on files (ulimit -f).
+    for (const int signal : {SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_IGN);
 }
 
 Terminal::~Terminal() {
@@ -32,7 +46,7 @@ Terminal::~Terminal() {
 
 void Terminal::say(const std::string& words) {
     clear_bar();
-    std::fprintf(stderr, "%s\n", words.c_str());
+    std::fprintf(stderr, "%s\n", printable(words).c_str());
 }
 
 void Terminal::warn(const std::string& words) {
@@ -71,7 +85,7 @@ void Terminal::clear_bar() {
 
 void Terminal::flush_data() {
     clear_bar();
-    const std::string text = out.str();
+    const std::string text = printable(out.str()); // JSON has no control characters anyway
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
     if (!written || std::fflush(stdout) != 0)
         throw Error(Trouble::output, "standard output", "cannot be written");

@@ -10,8 +10,8 @@
 namespace knead {
 
 // Data goes to `out` and reaches stdout only when the command succeeded, so that a failed command leaves it
-// empty. Words go to stderr at once. On a terminal a bar is drawn for anything that takes over a second.
-// Ctrl-C, SIGTERM and SIGHUP cancel.
+// empty. Words go to stderr at once. Control characters in either are shown as "?". On a terminal a bar is
+// drawn for anything that takes over a second. Ctrl-C, SIGTERM and SIGHUP cancel.
 class Terminal final : public Progress {
 public:
     Terminal(); // takes over those signals for the rest of the program

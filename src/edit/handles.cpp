@@ -27,16 +27,19 @@ struct Contains {
 
 std::vector<Index> points_of(const std::vector<IndexRange>& ranges, const PointCloud& cloud,
                              const std::string& place) {
-    std::vector<Index> points;
-    for (const IndexRange& range : ranges) {
+    for (const IndexRange& range : ranges)
         if (range.last >= cloud.size())
             throw Error(Trouble::input, place,
                         "\"points\" names point " + std::to_string(range.last) + ", but the cloud has " +
                             std::to_string(cloud.size()) + " points, numbered from 0");
-        for (std::uint64_t i = range.first; i <= range.last; ++i) points.push_back(static_cast<Index>(i));
-    }
-    std::ranges::sort(points);
-    points.erase(std::ranges::unique(points).begin(), points.end());
+    // Each point once from the start: a short line can name all points many times over.
+    std::vector<IndexRange> ascending = ranges;
+    std::ranges::sort(ascending, {}, &IndexRange::first);
+    std::vector<Index> points;
+    std::uint64_t next = 0;
+    for (const IndexRange& range : ascending)
+        for (next = std::max(next, range.first); next <= range.last; ++next)
+            points.push_back(static_cast<Index>(next));
     return points;
 }
 

@@ -1,6 +1,7 @@
 #include "edit/journal.h"
 
 #include "base/error.h"
+#include "base/whole_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -35,12 +36,17 @@ void write_all(int descriptor, std::string_view text, const std::filesystem::pat
     }
 }
 
-std::string read_all(int descriptor) {
+// All of it, or Error (input): half of a journal must not pass for the whole.
+std::string read_all(int descriptor, const std::filesystem::path& file) {
     std::string text;
     char buffer[65536];
-    for (ssize_t got = 0; (got = ::read(descriptor, buffer, sizeof buffer)) > 0;)
+    for (;;) {
+        const ssize_t got = ::read(descriptor, buffer, sizeof buffer);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail(file, Trouble::input, "read");
+        if (got == 0) return text;
         text.append(buffer, static_cast<std::size_t>(got));
-    return text;
+    }
 }
 
 // A name that no other journal has: the time, then the process, then a count.
@@ -60,10 +66,8 @@ std::optional<LostWork> look_at(const std::filesystem::path& file) {
     if (descriptor < 0) return std::nullopt;
     std::optional<LostWork> found;
     if (lock(descriptor)) {
-        const std::string text = read_all(descriptor);
-        const std::string whole = text.substr(0, text.rfind('\n') + 1);
         try {
-            const Session session = parse_session(whole, file);
+            const Session session = parse_session(mended(read_all(descriptor, file), file).text, file);
             if (session.lines.empty())
                 ::unlink(file.c_str());
             else
@@ -101,6 +105,7 @@ Journal Journal::create(const std::filesystem::path& folder, const std::string& 
         struct stat status {};
         if (::fstat(descriptor, &status) == 0 && status.st_nlink == 0) continue;
         journal.append(header);
+        sync_folder(folder); // or the file could be nameless after a power cut
         return journal;
     }
 }
@@ -111,9 +116,10 @@ Journal Journal::take_over(const std::filesystem::path& file) {
     Journal journal(file, descriptor);
     if (!lock(descriptor))
         throw Error(Trouble::input, file.string(), "another knead is working on this recording");
-    const std::string text = read_all(descriptor);
-    const auto whole = static_cast<off_t>(text.rfind('\n') + 1);
-    if (::ftruncate(descriptor, whole) != 0) fail(file, Trouble::output, "mend");
+    const std::string text = read_all(descriptor, file);
+    const std::string whole = mended(text, file).text;
+    if (whole.size() > text.size()) write_all(descriptor, std::string_view(whole).substr(text.size()), file);
+    if (::ftruncate(descriptor, static_cast<off_t>(whole.size())) != 0) fail(file, Trouble::output, "mend");
     return journal;
 }
 
@@ -144,6 +150,18 @@ void Journal::append(std::string_view line) {
 
 void Journal::discard() {
     ::unlink(file_.c_str());
+}
+
+MendedText mended(std::string text, const std::filesystem::path& file) {
+    const std::size_t whole = text.rfind('\n') + 1; // 0 where there is none
+    if (whole == text.size()) return {std::move(text), false};
+    try {
+        (void)parse_session(text, file);
+        return {std::move(text) + '\n', false};
+    } catch (const Error&) {
+        text.resize(whole);
+        return {std::move(text), true};
+    }
 }
 
 std::vector<LostWork> find_lost_work(const std::filesystem::path& folder) {

@@ -20,8 +20,8 @@ class Journal {
 public:
     // A new one in `folder`, which is made where it is missing. Throws Error (output).
     static Journal create(const std::filesystem::path& folder, const std::string& header);
-    // One that a crash left: whatever stands behind its last whole line is cut off. Throws Error (input) when
-    // it is gone or another process has it.
+    // One that a crash left, mended as below. Throws Error (input) when it is gone, cannot be read, or
+    // another process has it.
     static Journal take_over(const std::filesystem::path& file);
 
     ~Journal();
@@ -40,6 +40,14 @@ private:
     std::filesystem::path file_;
     int descriptor_ = -1;
 };
+
+// A journal's text as whole lines. The last one has no end where a crash cut it short: it counts if it can be
+// read all the same, and is dropped if not. `file` is for errors, of which there are none.
+struct MendedText {
+    std::string text;
+    bool dropped = false; // the last line
+};
+MendedText mended(std::string text, const std::filesystem::path& file);
 
 // A journal that a crash left behind.
 struct LostWork {

@@ -116,6 +116,7 @@ void LiveWork::show_where_it_rests() {
 
 void LiveWork::carry_out(task::SaveCloud& task) {
     finish_settling();
+    look_for_others(task.target);
     const std::vector<float> positions = document_->positions(progress_);
     const std::vector<float> normals = document_->normals(progress_);
     const std::vector<float> far = task.columns.displacement ? displacement_column() : std::vector<float>{};
@@ -132,10 +133,12 @@ void LiveWork::carry_out(task::SaveCloud& task) {
 
 void LiveWork::carry_out(task::SaveSession& task) {
     finish_settling();
+    look_for_others(task.target);
     recording_->save(task.target);
     recording_->discard(); // the journal: a crash loses nothing of this any more
     saved_.session_state = recording_->state();
-    session_file_ = task.target;
+    session_file_ = std::filesystem::absolute(task.target);
+    tell_what_is_open();
     say(Notice::Kind::information, "Saved the session as " + task.target.string());
     publish_view();
 }

@@ -16,6 +16,7 @@
 #include "edit/document.h"
 #include "edit/journal.h"
 #include "edit/session.h"
+#include "upsample/devices.h"
 
 #include <chrono>
 #include <cstdint>
@@ -92,6 +93,7 @@ struct OpenRequest {
     std::optional<std::filesystem::path> restore; // a journal to take over instead: `file` is not looked at
     std::string device;                           // as make_upsampler() takes it
     unsigned threads = 0;
+    UpsamplerMaker make_upsampler = knead::make_upsampler; // another one, for tests of failing devices
     SettingsChange settings;
 };
 

@@ -2,8 +2,16 @@
 
 namespace knead {
 
-Session session_to_open(const OpenRequest& request, Progress& progress) {
-    if (request.restore) return recovered_session(*request.restore);
+Session session_to_open(const OpenRequest& request, Progress& progress, std::string& remark) {
+    if (request.restore) {
+        bool dropped = false;
+        Session session = recovered_session(*request.restore, dropped);
+        if (dropped)
+            remark =
+                "The recording breaks off in the middle of its last line, which is left out: what was being "
+                "written when knead ended is lost, and everything before it is here.";
+        return session;
+    }
     if (is_session(request.file, progress)) return read_session(request.file);
     Session session;
     session.cloud = std::filesystem::absolute(request.file);

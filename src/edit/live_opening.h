@@ -9,8 +9,8 @@
 namespace knead {
 
 // The session of the request's file, or of its journal; for a plain cloud a new one without a file of its
-// own. Throws Error (input).
-Session session_to_open(const OpenRequest& request, Progress& progress);
+// own. `remark` becomes what the user should hear about a journal. Throws Error (input).
+Session session_to_open(const OpenRequest& request, Progress& progress, std::string& remark);
 
 // Any act but undo and redo; a check is none. Throws what the document throws.
 void carry_out_act(Document& document, const SessionAction& action, const std::string& place,

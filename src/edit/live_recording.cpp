@@ -4,8 +4,6 @@
 #include "base/whole_file.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace knead {
@@ -41,18 +39,15 @@ std::size_t count_steps(const Acts& acts) {
 
 bool is_session(const std::filesystem::path& file, Progress& progress) {
     progress.step("reading", 0);
-    std::ifstream stream(file, std::ios::binary);
-    std::string first(1024, '\0');
-    stream.read(first.data(), static_cast<std::streamsize>(first.size()));
-    first.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
-    return looks_like_session(first);
+    return looks_like_session(first_bytes_of_file(file, 1024));
 }
 
-Session recovered_session(const std::filesystem::path& journal) {
-    std::ifstream stream(journal, std::ios::binary);
-    if (!stream) throw Error(Trouble::input, journal.string(), "the recording cannot be opened");
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    return parse_session(std::string_view(text).substr(0, text.rfind('\n') + 1), journal);
+Session recovered_session(const std::filesystem::path& journal, bool& dropped) {
+    SilentProgress silent;
+    const std::vector<std::byte> bytes = read_whole_file(journal, silent);
+    MendedText text = mended({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, journal);
+    dropped = text.dropped;
+    return parse_session(text.text, journal);
 }
 
 LiveRecording::LiveRecording(const Session& session, const std::optional<std::filesystem::path>& restored)

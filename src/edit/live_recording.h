@@ -13,12 +13,12 @@
 
 namespace knead {
 
-// Whether the file is a session rather than a cloud, by its first bytes. Throws Error (input) if it cannot be
-// read.
+// Whether the file is a session rather than a cloud, by its first bytes; what cannot be read is none.
 bool is_session(const std::filesystem::path& file, Progress& progress);
 
-// A journal as a session, without a last line that a crash cut short. Throws Error (input).
-Session recovered_session(const std::filesystem::path& journal);
+// A journal as a session, mended (edit/journal.h); `dropped` tells whether a last line was left out. Throws
+// Error (input).
+Session recovered_session(const std::filesystem::path& journal, bool& dropped);
 
 class LiveRecording {
 public:

@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "edit/live_opening.h"
 #include "edit/session_cloud.h"
-#include "upsample/devices.h"
 #include "view/framing.h"
 
 #include <exception>
@@ -20,6 +19,9 @@ using Stage = LiveDocument::Stage;
 // meanwhile.
 constexpr double shortest_frame = 0.008, longest_frame = 0.05;
 
+// Other editors are looked for at most this often while acts are carried out, in seconds.
+constexpr double between_looks = 2;
+
 bool ends_drag(const LiveTask& task) {
     return std::holds_alternative<task::EndDrag>(task) || std::holds_alternative<task::CancelDrag>(task);
 }
@@ -31,18 +33,21 @@ LiveWork::LiveWork(OpenRequest request, Locked<LiveShared>& shared)
       publisher_(shared, workers_) {}
 
 void LiveWork::open() {
-    Session session = session_to_open(request_, progress_);
+    std::string about_journal;
+    Session session = session_to_open(request_, progress_, about_journal);
+    if (!about_journal.empty()) say(Notice::Kind::warning, about_journal);
     const bool is_plain_cloud = session.file.empty();
     PointCloud cloud =
         read_session_cloud(session, is_plain_cloud ? std::optional(request_.file) : std::nullopt, progress_);
     for (const std::string& remark : cloud.remarks) say(Notice::Kind::warning, remark);
-    UpsamplerChoice choice = make_upsampler(request_.device, workers_, request_.threads);
+    UpsamplerChoice choice = request_.make_upsampler(request_.device, workers_, request_.threads);
     if (!choice.warning.empty()) say(Notice::Kind::warning, choice.warning);
     upsampler_ = std::move(choice.upsampler);
     session.points = cloud.size();
     document_ = std::make_unique<Document>(std::move(cloud), session.settings, workers_, *upsampler_);
     recording_ = std::make_unique<LiveRecording>(session, request_.restore);
     if (!request_.restore && !is_plain_cloud) session_file_ = std::filesystem::absolute(request_.file);
+    tell_what_is_open();
     document_->shape(progress_); // the order of the points
     replay_session(session, *document_, *recording_, progress_);
     if (!request_.restore) saved_.session_state = recording_->state();
@@ -112,6 +117,7 @@ bool LiveWork::turn() {
     else if (task) {
         guarded([&] { finish_playing(); });
         guarded([&] { std::visit([&](auto& t) { carry_out(t); }, *task); });
+        if (since_look_.seconds() > between_looks) look_for_others();
     } else
         guarded([&] { go_on(); });
     rest_if_idle();
@@ -159,6 +165,31 @@ void LiveWork::go_on() {
         return publish_view();
     }
     if (converge_) settle();
+}
+
+void LiveWork::tell_what_is_open() {
+    std::vector<std::filesystem::path> files{recording_->cloud()};
+    if (!session_file_.empty()) files.push_back(session_file_);
+    open_files_.reset();
+    open_files_.emplace(request_.journal_folder, files);
+    look_for_others();
+}
+
+// After this one told what it has open itself: so of two that open a file at once, one sees the other.
+bool LiveWork::look_for_others(const std::filesystem::path& file) {
+    const std::vector<pid_t> others = open_files_->others_with(file);
+    for (const pid_t process : others) {
+        const std::string words = "Another knead (process " + std::to_string(process) + ") has " +
+                                  file.string() + " open, too: of what both save there, the last stays.";
+        if (told_of_others_.insert(words).second) say(Notice::Kind::warning, words);
+    }
+    return !others.empty();
+}
+
+// Whoever has the session has its cloud, too.
+void LiveWork::look_for_others() {
+    since_look_ = Stopwatch();
+    if (session_file_.empty() || !look_for_others(session_file_)) look_for_others(recording_->cloud());
 }
 
 void LiveWork::rest_if_idle() {

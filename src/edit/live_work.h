@@ -8,6 +8,7 @@
 #include "edit/live_publisher.h"
 #include "edit/live_recording.h"
 #include "edit/live_shared.h"
+#include "edit/open_files.h"
 
 #include <set>
 #include <span>
@@ -30,6 +31,9 @@ private:
     bool something_to_do() const;
     void go_on();
     void rest_if_idle();
+    void tell_what_is_open();
+    bool look_for_others(const std::filesystem::path& file);
+    void look_for_others();
     template<typename Do>
     void guarded(Do&& work);
 
@@ -107,6 +111,10 @@ private:
     bool told_of_journal_ = false;
     LiveDocument::Saved saved_;
     std::filesystem::path session_file_;
+
+    std::optional<OpenFiles> open_files_;
+    std::set<std::string> told_of_others_; // in these words
+    Stopwatch since_look_;
 };
 
 // The act is done; that its line cannot be written is said, once, and changes nothing.

@@ -2,11 +2,11 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "base/temporary_folder.h"
 #include "base/whole_file.h"
 #include "edit/session_cloud.h"
 #include "io/cloud_file.h"
 #include "io/compare.h"
-#include "upsample/devices.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -67,12 +67,12 @@ public:
         : session_(session), options_(options), progress_(progress), warn_(warn), workers_(options.threads) {}
 
     ReplayReport run() {
-        if (options_.out) refuse_bad_target(*options_.out);
+        refuse_bad_targets();
         find_check_files();
         Stopwatch clock;
         PointCloud cloud = read_session_cloud(session_, options_.cloud, progress_);
         report_.read = clock.lap();
-        UpsamplerChoice choice = make_upsampler(options_.device, workers_, options_.threads);
+        UpsamplerChoice choice = options_.make_upsampler(options_.device, workers_, options_.threads);
         const double device_seconds = clock.lap();
         upsampler_ = choice.upsampler.get();
         for (const std::string& remark : cloud.remarks) add_warning(remark);
@@ -90,13 +90,22 @@ public:
         clock.lap();
         measure_extent(document);
         if (!options_.rehearse) write_results(document);
+        take_device_warning(); // of shapes that were made again at the end
         report_.write = clock.lap();
         fill_report(document, device_seconds);
         return std::move(report_);
     }
 
 private:
-    // A missing file is told before the work, not after it.
+    // What cannot be written is told before the work, not after it.
+    void refuse_bad_targets() const {
+        if (options_.out) refuse_bad_target(*options_.out);
+        if (!options_.record_checks || options_.rehearse) return;
+        const TemporaryFolder checks(folder_of_session());
+        const FileInTheMaking session(session_.file);
+    }
+
+    // So is a missing file.
     void find_check_files() const {
         for (const SessionLine& line : session_.lines) {
             const auto* check = std::get_if<CheckLine>(&line.action);
@@ -112,6 +121,10 @@ private:
         const std::string place = session_.place(line.number);
         progress_.stop_if_cancelled();
         std::visit([&](const auto& action) { act(document, action, line.number, place); }, line.action);
+        take_device_warning();
+    }
+
+    void take_device_warning() {
         const std::string words = upsampler_->take_warning();
         if (!words.empty()) add_warning(words);
     }
@@ -210,7 +223,14 @@ private:
         return 1e-4;
     }
 
+    // What was recorded is put in its place when all of it, and `out`, is written.
     void write_results(Document& document) {
+        std::optional<TemporaryFolder> checks;
+        std::optional<FileInTheMaking> session;
+        if (options_.record_checks) {
+            write_checks(document.cloud(), checks.emplace(folder_of_session()));
+            write_session(session.emplace(session_.file));
+        }
         if (options_.out) {
             const std::vector<float> positions = document.positions(progress_);
             const std::vector<float> normals = document.normals(progress_);
@@ -221,19 +241,27 @@ private:
             report_.written.push_back(*options_.out);
         }
         if (!options_.record_checks) return;
-        for (const RecordedCheck& recorded : recorded_) {
-            const std::filesystem::path path = session_.resolve(recorded.file);
-            // Only positions are ever read from it, which every format holds.
-            (void)write_cloud(path, document.cloud(), {recorded.positions, recorded.normals}, progress_);
-            report_.written.push_back(path);
-        }
-        write_session();
+        checks->hand_over();
+        session->commit();
+        for (const RecordedCheck& recorded : recorded_)
+            report_.written.push_back(session_.resolve(recorded.file));
         report_.written.push_back(session_.file);
     }
 
+    std::filesystem::path folder_of_session() const {
+        const std::filesystem::path folder = session_.file.parent_path();
+        return folder.empty() ? "." : folder;
+    }
+
+    void write_checks(const PointCloud& cloud, const TemporaryFolder& folder) {
+        // Only positions are ever read from them, which every format holds.
+        for (const RecordedCheck& recorded : recorded_)
+            (void)write_cloud(folder.path() / recorded.file, cloud, {recorded.positions, recorded.normals},
+                              progress_);
+    }
+
     // The session as it was, line for line, with the recorded checks in place of earlier recorded ones.
-    void write_session() const {
-        FileInTheMaking file(session_.file);
+    void write_session(FileInTheMaking& file) const {
         file.write(session_.header_text + "\n");
         auto next = recorded_.begin();
         const auto put_checks_up_to = [&](std::size_t line) {
@@ -247,7 +275,6 @@ private:
             if (!check || !is_recorded_name(check->positions)) file.write(line.text + "\n");
         }
         put_checks_up_to(no_index);
-        file.commit();
     }
 
     void measure_extent(Document& document) {

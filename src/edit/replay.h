@@ -4,6 +4,7 @@
 #include "edit/document.h"
 #include "edit/extent_change.h"
 #include "edit/session.h"
+#include "upsample/devices.h"
 
 #include <filesystem>
 #include <functional>
@@ -22,7 +23,8 @@ struct ReplayOptions {
     std::optional<std::filesystem::path> out;   // where the last shape is written
     SettingsChange overrides;                   // win over the header and over every `set` line
     std::string device;                         // as make_upsampler() takes it; empty: the default
-    unsigned threads = 0;                       // 0: one a core
+    UpsamplerMaker make_upsampler = knead::make_upsampler; // another one, for tests of failing devices
+    unsigned threads = 0;                                  // 0: one a core
     bool record_checks =
         false;             // writes the session again with a check after each edit, and the clouds beside it
     bool rehearse = false; // checks everything that can be checked without computing a shape

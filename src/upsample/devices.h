@@ -5,6 +5,7 @@
 #include "upsample/upsample.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace knead {
@@ -44,15 +45,19 @@ struct UpsamplerChoice {
 // make_fallback_upsampler() says. `workers` must outlive the result. `threads` limits a CPU device to so many
 // cores; 0 does not.
 UpsamplerChoice make_upsampler(const std::string& request, Workers& workers, unsigned threads);
+using UpsamplerMaker = std::function<decltype(make_upsampler)>;
 
 // Where a device finds the points. On a CPU its memory is the caller's, and nothing is copied; a GPU has its
 // own, filled by prepare(), and a frame is one write of the motions and one read of each result.
 enum class DeviceMemory { as_the_device_has_it, own };
 
 // One device by its number in list_devices(), with nothing to fall back on: prepare() and run() may throw
-// DeviceFailure. Opens nothing before the first prepare(). `own` copies on a CPU too (for tests).
+// DeviceFailure. Opens nothing before the first prepare(); throws DeviceFailure if there is no such device
+// any more. For tests: `own` copies on a CPU too, and `kernel` is built instead of kernels/upsample.cl; it
+// must outlive the result.
 std::unique_ptr<Upsampler> make_opencl_upsampler(std::size_t device, unsigned threads,
-                                                 DeviceMemory memory = DeviceMemory::as_the_device_has_it);
+                                                 DeviceMemory memory = DeviceMemory::as_the_device_has_it,
+                                                 const char* kernel = nullptr);
 
 // Runs `primary` until it throws DeviceFailure; from that very call on the reference does the work, and
 // take_warning() tells of it. Other exceptions go through. `workers` must outlive the result.

@@ -25,6 +25,8 @@ constexpr const char* codes_in_words(cl_int code) {
         return "the kernel does not compile";
     case CL_DEVICE_PARTITION_FAILED:
         return "the device cannot be divided";
+    case CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST:
+        return "what it has to wait for failed on the device";
     case CL_INVALID_VALUE:
         return "an invalid value";
     case CL_INVALID_BUFFER_SIZE:

@@ -25,6 +25,7 @@ using ContextHandle = OpenClHandle<cl_context, clReleaseContext>;
 using QueueHandle = OpenClHandle<cl_command_queue, clReleaseCommandQueue>;
 using ProgramHandle = OpenClHandle<cl_program, clReleaseProgram>;
 using KernelHandle = OpenClHandle<cl_kernel, clReleaseKernel>;
+using EventHandle = OpenClHandle<cl_event, clReleaseEvent>;
 using BufferHandle = OpenClHandle<cl_mem, clReleaseMemObject>;
 
 // Throws DeviceFailure unless `code` is CL_SUCCESS. `doing` completes "OpenCL failed in ...".

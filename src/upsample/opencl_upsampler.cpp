@@ -49,9 +49,8 @@ std::string build_options(cl_device_id device) {
     return options;
 }
 
-ProgramHandle build(cl_context context, cl_device_id device) {
+ProgramHandle build(cl_context context, cl_device_id device, const char* text) {
     cl_int code = CL_SUCCESS;
-    const char* text = embedded::upsample_kernel;
     ProgramHandle program(clCreateProgramWithSource(context, 1, &text, nullptr, &code));
     check_opencl(code, "reading the kernel");
     const std::string options = build_options(device);
@@ -69,7 +68,7 @@ KernelHandle kernel_named(cl_program program, const char* name) {
     return kernel;
 }
 
-OpenedDevice open_device(const OpenClDevice& device, unsigned threads) {
+OpenedDevice open_device(const OpenClDevice& device, unsigned threads, const char* kernel) {
     OpenedDevice opened;
     opened.part = limited_to(device, threads);
     cl_device_id id = opened.part ? opened.part.get() : device.id;
@@ -78,7 +77,7 @@ OpenedDevice open_device(const OpenClDevice& device, unsigned threads) {
     check_opencl(code, "opening the device");
     opened.queue.reset(clCreateCommandQueue(opened.context.get(), id, 0, &code));
     check_opencl(code, "making a queue");
-    opened.program = build(opened.context.get(), id);
+    opened.program = build(opened.context.get(), id, kernel);
     opened.move_positions = kernel_named(opened.program.get(), "upsample_positions");
     opened.move_both = kernel_named(opened.program.get(), "upsample_positions_and_normals");
     return opened;
@@ -99,6 +98,16 @@ void set_arguments(cl_kernel kernel, const Arguments&... arguments) {
      ...);
 }
 
+// What a call has to wait for. Each call of a frame names the one before it: so that a kernel or a copy that
+// fails on the device fails the call that waits for the result, which an order in the queue alone need not
+// do.
+struct After {
+    explicit After(const EventHandle& done) : event(done.get()) {}
+    cl_event event;
+    cl_uint count() const { return event ? 1 : 0; }
+    const cl_event* list() const { return event ? &event : nullptr; }
+};
+
 // A buffer for one of the results, and the caller's array that it wraps or is read into.
 struct Result {
     BufferHandle buffer;
@@ -107,10 +116,17 @@ struct Result {
 
 class OpenClUpsampler final : public Upsampler {
 public:
-    OpenClUpsampler(OpenClDevice device, unsigned threads, DeviceMemory memory)
-        : device_(std::move(device)), threads_(threads),
+    OpenClUpsampler(OpenClDevice device, unsigned threads, DeviceMemory memory, const char* kernel)
+        : device_(std::move(device)), threads_(threads), kernel_(kernel ? kernel : embedded::upsample_kernel),
           shares_memory_(memory == DeviceMemory::as_the_device_has_it &&
                          device_.description.type == DeviceType::cpu) {}
+
+    // What a call that failed left under way must not write into arrays that somebody else has by then.
+    ~OpenClUpsampler() override {
+        if (opened_.queue) (void)clFinish(opened_.queue.get());
+    }
+    OpenClUpsampler(const OpenClUpsampler&) = delete;
+    OpenClUpsampler& operator=(const OpenClUpsampler&) = delete;
 
     std::string device() const override { return device_.description.name; }
 
@@ -120,7 +136,7 @@ public:
         motion_count_ = motions;
         moved_positions_ = {};
         moved_normals_ = {};
-        if (!opened_.queue) opened_ = open_device(device_, threads_);
+        if (!opened_.queue) opened_ = open_device(device_, threads_, kernel_);
         if (!input.row.empty()) {
             positions_ = hand_over(input.positions);
             normals_ = input.normals.empty() ? nullptr : hand_over(input.normals);
@@ -137,15 +153,15 @@ public:
     void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override {
         require_valid_frame(input_, motion_count_, motions, positions, normals);
         if (positions.empty()) return;
-        write_motions(motions);
+        const EventHandle written = write_motions(motions);
         if (shares_memory_) {
             wrap(positions, moved_positions_);
             if (!normals.empty()) wrap(normals, moved_normals_);
         }
-        launch(input_.row.size(), input_.row.size(), moved_positions_.buffer.get(),
-               moved_normals_.buffer.get());
-        read(moved_positions_, positions);
-        if (!normals.empty()) read(moved_normals_, normals);
+        const EventHandle moved = launch(input_.row.size(), input_.row.size(), moved_positions_.buffer.get(),
+                                         moved_normals_.buffer.get(), After(written));
+        read(moved_positions_, positions, After(moved));
+        if (!normals.empty()) read(moved_normals_, normals, After(moved));
     }
 
 private:
@@ -178,32 +194,35 @@ private:
     // to move.
     void launch_once(const UpsampleInput& input) {
         const std::vector<Motion> unmoved(motion_count_);
-        write_motions(unmoved);
+        const EventHandle written = write_motions(unmoved);
         const std::size_t points = std::min(input.row.size(), points_per_group);
         const std::size_t bytes = 3 * points * sizeof(float);
         const BufferHandle positions = make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, bytes, nullptr);
         const BufferHandle normals = make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, bytes, nullptr);
-        launch(points, input.row.size(), positions.get(), normals.get());
-        check_opencl(clFinish(opened_.queue.get()), "the first launch");
+        const EventHandle moved =
+            launch(points, input.row.size(), positions.get(), normals.get(), After(written));
+        check_opencl(clWaitForEvents(1, After(moved).list()), "the first launch");
     }
 
-    void write_motions(std::span<const Motion> motions) {
+    EventHandle write_motions(std::span<const Motion> motions) {
+        cl_event written = nullptr;
         cl_command_queue queue = opened_.queue.get();
         const std::size_t bytes = motions.size() * packed_motion_floats * sizeof(float);
         if (!shares_memory_) {
             pack_motions(motions, packed_.data());
             check_opencl(clEnqueueWriteBuffer(queue, motions_.get(), CL_FALSE, 0, bytes, packed_.data(), 0,
-                                              nullptr, nullptr),
+                                              nullptr, &written),
                          "writing the motions");
-            return;
+            return EventHandle(written);
         }
         cl_int code = CL_SUCCESS;
         void* mapped = clEnqueueMapBuffer(queue, motions_.get(), CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0,
                                           bytes, 0, nullptr, nullptr, &code);
         check_opencl(code, "mapping the motions");
         pack_motions(motions, static_cast<float*>(mapped));
-        check_opencl(clEnqueueUnmapMemObject(queue, motions_.get(), mapped, 0, nullptr, nullptr),
+        check_opencl(clEnqueueUnmapMemObject(queue, motions_.get(), mapped, 0, nullptr, &written),
                      "writing the motions");
+        return EventHandle(written);
     }
 
     void wrap(std::span<float> array, Result& result) {
@@ -215,7 +234,8 @@ private:
     }
 
     // Moves the first `points` by a grid made for `grid_points`.
-    void launch(cl_ulong points, std::size_t grid_points, cl_mem moved_positions, cl_mem moved_normals) {
+    EventHandle launch(cl_ulong points, std::size_t grid_points, cl_mem moved_positions, cl_mem moved_normals,
+                       const After& after) {
         cl_mem const positions = positions_.get();
         cl_mem const row = row_.get();
         cl_mem const sample = sample_.get();
@@ -229,23 +249,25 @@ private:
         else
             set_arguments(kernel, points, positions, row, sample, weight, motions, moved_positions);
         const std::size_t items = (grid_points + points_per_group - 1) / points_per_group * points_per_group;
+        cl_event moved = nullptr;
         check_opencl(clEnqueueNDRangeKernel(opened_.queue.get(), kernel, 1, nullptr, &items,
-                                            &points_per_group, 0, nullptr, nullptr),
+                                            &points_per_group, after.count(), after.list(), &moved),
                      "launching the kernel");
+        return EventHandle(moved);
     }
 
     // Waits for the result and makes it visible in the caller's array.
-    void read(const Result& result, std::span<float> array) {
+    void read(const Result& result, std::span<float> array, const After& after) {
         cl_command_queue queue = opened_.queue.get();
         if (!shares_memory_) {
             check_opencl(clEnqueueReadBuffer(queue, result.buffer.get(), CL_TRUE, 0, array.size_bytes(),
-                                             array.data(), 0, nullptr, nullptr),
+                                             array.data(), after.count(), after.list(), nullptr),
                          "reading the result");
             return;
         }
         cl_int code = CL_SUCCESS;
         void* mapped = clEnqueueMapBuffer(queue, result.buffer.get(), CL_TRUE, CL_MAP_READ, 0,
-                                          array.size_bytes(), 0, nullptr, nullptr, &code);
+                                          array.size_bytes(), after.count(), after.list(), nullptr, &code);
         check_opencl(code, "running the kernel");
         check_opencl(clEnqueueUnmapMemObject(queue, result.buffer.get(), mapped, 0, nullptr, nullptr),
                      "reading the result");
@@ -254,6 +276,7 @@ private:
 
     OpenClDevice device_;
     unsigned threads_;
+    const char* kernel_;
     bool shares_memory_;
     OpenedDevice opened_;
 
@@ -266,10 +289,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<Upsampler> make_opencl_upsampler(std::size_t device, unsigned threads, DeviceMemory memory) {
+std::unique_ptr<Upsampler> make_opencl_upsampler(std::size_t device, unsigned threads, DeviceMemory memory,
+                                                 const char* kernel) {
     std::vector<OpenClDevice> devices = find_opencl_devices();
-    require(device < devices.size(), "the number of an OpenCL device");
-    return std::make_unique<OpenClUpsampler>(std::move(devices[device]), threads, memory);
+    if (device >= devices.size()) throw DeviceFailure("the device is not there any more");
+    return std::make_unique<OpenClUpsampler>(std::move(devices[device]), threads, memory, kernel);
 }
 
 } // namespace knead

@@ -1,9 +1,14 @@
 #include "base/error.h"
 #include "base/whole_file.h"
+#include "support/child.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
 
+#include <csignal>
+
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace knead::test {
@@ -126,6 +131,152 @@ TEST(FileInTheMaking, writes_into_the_current_folder) {
     file.commit();
     std::filesystem::current_path(before);
     EXPECT_EQ(read_text(folder / "bare"), "text");
+}
+
+TEST(FileInTheMaking, refuses_what_is_write_protected_or_no_file) {
+    const ScratchFolder folder;
+    write_text(folder / "protected", "old");
+    ASSERT_EQ(::chmod(folder.path().c_str(), 0777), 0);
+    ASSERT_EQ(::chmod((folder / "protected").c_str(), 0444), 0);
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0666), 0);
+    EXPECT_EQ(trouble_of(folder / "pipe"), Trouble::output);
+    const std::string words = in_child([&]() -> std::string {
+        if (!become_nobody()) return "write-protected";
+        FileInTheMaking file(folder / "protected");
+        return "accepted";
+    });
+    EXPECT_NE(words.find("write-protected"), std::string::npos) << words;
+    EXPECT_EQ(entries_of(folder.path()), 2U);
+}
+
+// --- What stands in the way of writing: the old file stays, and nothing else
+
+// Tries to replace "old" in the file by a megabyte; returns the words of the refusal.
+std::string words_of_replacing(const std::filesystem::path& target) {
+    try {
+        FileInTheMaking file(target);
+        file.write(std::string(std::size_t{1} << 20, 'n'));
+        file.commit();
+    } catch (const Error& error) {
+        return error.trouble() == Trouble::output ? error.what() : "not of output";
+    }
+    return "written";
+}
+
+std::string left_in(const std::filesystem::path& folder) {
+    std::string left;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        left += " " + entry.path().filename().string() + "=" + read_text(entry.path());
+    return left;
+}
+
+constexpr const char* no_mounts = "file systems cannot be mounted here: it takes root or user namespaces";
+
+TEST(FileInTheMaking, on_a_full_disk_leaves_the_old_file) {
+    const ScratchFolder folder;
+    const std::string outcome = in_child([&]() -> std::string {
+        if (!mount_small_disk(folder.path(), 256 << 10)) return "";
+        write_text(folder / "file", "old");
+        return words_of_replacing(folder / "file") + left_in(folder.path());
+    });
+    if (outcome.empty()) GTEST_SKIP() << no_mounts;
+    EXPECT_EQ(outcome, (folder / "file").string() + ": cannot be written: the disk is full; free some space "
+                                                    "or choose another place file=old");
+}
+
+TEST(FileInTheMaking, on_a_disk_that_becomes_read_only_leaves_the_old_file) {
+    const ScratchFolder folder;
+    const std::string outcome = in_child([&]() -> std::string {
+        if (!mount_small_disk(folder.path(), 4 << 20)) return "";
+        write_text(folder / "file", "old");
+        if (!make_read_only(folder.path())) return "";
+        return words_of_replacing(folder / "file") + left_in(folder.path());
+    });
+    if (outcome.empty()) GTEST_SKIP() << no_mounts;
+    EXPECT_EQ(outcome, (folder / "file").string() +
+                           ": cannot be written: the disk is read-only; choose another place file=old");
+}
+
+TEST(FileInTheMaking, in_a_read_only_folder_leaves_the_old_file) {
+    const ScratchFolder folder;
+    write_text(folder / "file", "old");
+    ASSERT_EQ(::chmod((folder / "file").c_str(), 0666), 0);
+    ASSERT_EQ(::chmod(folder.path().c_str(), 0555), 0);
+    const std::string outcome = in_child([&]() -> std::string {
+        if (!become_nobody()) return "";
+        return words_of_replacing(folder / "file") + left_in(folder.path());
+    });
+    ASSERT_EQ(::chmod(folder.path().c_str(), 0755), 0);
+    if (outcome.empty()) GTEST_SKIP() << "root's rights cannot be given up here";
+    EXPECT_EQ(outcome, (folder / "file").string() + ": cannot be written: there is no permission to write in "
+                                                    "its folder; choose another place file=old");
+}
+
+TEST(FileInTheMaking, beyond_a_limit_on_files_leaves_the_old_file) {
+    const ScratchFolder folder;
+    write_text(folder / "file", "old");
+    const std::string words = in_child([&] {
+        ::signal(SIGXFSZ, SIG_IGN); // as the program does
+        const rlimit limit{100'000, 100'000};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        return words_of_replacing(folder / "file");
+    });
+    EXPECT_NE(words.find("larger than files may be here"), std::string::npos) << words;
+    EXPECT_EQ(left_in(folder.path()), " file=old");
+}
+
+TEST(FileInTheMaking, says_so_when_its_folder_vanished_or_went_elsewhere) {
+    const ScratchFolder folder;
+    for (const bool moved : {false, true}) {
+        std::filesystem::create_directory(folder / "here");
+        {
+            FileInTheMaking file(folder / "here/file");
+            file.write("new");
+            if (moved)
+                std::filesystem::rename(folder / "here", folder / "there");
+            else
+                std::filesystem::remove_all(folder / "here");
+            try {
+                file.commit();
+                ADD_FAILURE() << "there was no folder to write in";
+            } catch (const Error& error) {
+                EXPECT_EQ(error.trouble(), Trouble::output);
+                EXPECT_NE(std::string(error.what()).find("its folder is not there"), std::string::npos);
+            }
+        }
+        EXPECT_EQ(entries_of(folder.path()), moved ? 1U : 0U);
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "there"));
+}
+
+TEST(FileInTheMaking, clears_away_what_a_killed_one_left) {
+    const ScratchFolder folder;
+    const pid_t child = begin_child([&] {
+        FileInTheMaking file(folder / "file");
+        file.write("half");
+        write_text(folder / "ready", "");
+        ::pause();
+    });
+    while (!std::filesystem::exists(folder / "ready")) ::usleep(1000);
+    kill_child(child);
+    EXPECT_EQ(left_in(folder.path()).find(" file="), std::string::npos);
+    EXPECT_EQ(entries_of(folder.path()), 2U) << "the temporary of the killed one";
+    FileInTheMaking file(folder / "file");
+    file.write("whole");
+    file.commit();
+    EXPECT_EQ(read_text(folder / "file"), "whole");
+    EXPECT_EQ(entries_of(folder.path()), 2U) << "the file and \"ready\"";
+}
+
+TEST(FirstBytes, are_those_of_regular_files_only_and_never_waited_for) {
+    const ScratchFolder folder;
+    write_text(folder / "file", "bytes");
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0666), 0);
+    EXPECT_EQ(first_bytes_of_file(folder / "file", 3), "byt");
+    EXPECT_EQ(first_bytes_of_file(folder / "file", 100), "bytes");
+    EXPECT_EQ(first_bytes_of_file(folder / "pipe", 3), "");
+    EXPECT_EQ(first_bytes_of_file(folder.path(), 3), "");
+    EXPECT_EQ(first_bytes_of_file(folder / "missing", 3), "");
 }
 
 } // namespace

@@ -6,7 +6,6 @@
 #include "bench/made_cloud.h"
 #include "bench/page_joints.h"
 #include "bench/posing.h"
-#include "bench/temporary_folder.h"
 
 #include "base/error.h"
 #include "support/scratch_folder.h"
@@ -56,29 +55,6 @@ TEST(PageJoints, RollUpWithoutStretching) {
     };
     EXPECT_LT((end_at(frames[9]) - (joint.pivot + Vec3d(0, 0, 2))).norm(), 1e-12);
     EXPECT_LT((end_at(frames[4]) - (joint.pivot + Vec3d(2, 0, 2))).norm(), 1e-12); // a quarter of radius 2
-}
-
-TEST(TemporaryFolder, HandsOverOrLeavesNothing) {
-    const test::ScratchFolder scratch;
-    const fs::path target = scratch / "made";
-    fs::path inside;
-    {
-        const TemporaryFolder folder(target);
-        inside = folder.path();
-        test::write_text(inside / "a", "1");
-    }
-    EXPECT_FALSE(fs::exists(inside));
-    EXPECT_FALSE(fs::exists(target));
-    {
-        const TemporaryFolder folder(target);
-        test::write_text(folder.path() / "a", "1");
-        const std::vector<std::string> names{"a"};
-        folder.hand_over(names);
-    }
-    EXPECT_TRUE(fs::exists(target / "a"));
-    EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path()), fs::directory_iterator()), 1);
-    EXPECT_THROW(TemporaryFolder(target / "a"), Error);
-    EXPECT_EQ(folder_of("made/"), fs::path("made"));
 }
 
 TEST(AirNeighbors, CountOnlyWhereThePathsDiffer) {

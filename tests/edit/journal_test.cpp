@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace knead::test {
 
 namespace {
@@ -61,6 +63,37 @@ TEST(Journal, ALineThatWasCutShortIsDropped) {
     Journal journal = Journal::take_over(file);
     journal.append(commit);
     EXPECT_EQ(read_text(file), std::string(header) + "\n" + commit + "\n" + commit + "\n");
+}
+
+TEST(Journal, ALastLineThatOnlyLacksItsEndIsKept) {
+    const ScratchFolder folder;
+    const std::filesystem::path file = abandoned(folder, R"({"op":"settle","iterations":3})");
+    const std::vector<LostWork> lost = find_lost_work(folder.path());
+    ASSERT_EQ(lost.size(), 1U);
+    EXPECT_EQ(lost[0].acts, 2U);
+    Journal journal = Journal::take_over(file);
+    journal.append(commit);
+    EXPECT_EQ(read_text(file), std::string(header) + "\n" + commit + "\n" +
+                                   R"({"op":"settle","iterations":3})" + "\n" + commit + "\n");
+}
+
+TEST(Journal, IsMendedWhereverACrashCutIt) {
+    const std::string whole =
+        std::string(header) + "\n" + R"({"op":"settle","iterations":3})" + "\n" + commit + "\n";
+    const auto lines_up_to = [&](std::size_t end) {
+        return static_cast<std::size_t>(std::ranges::count(whole.substr(0, end), '\n'));
+    };
+    for (std::size_t cut = 0; cut <= whole.size(); ++cut) {
+        const MendedText text = mended(whole.substr(0, cut), "j");
+        // A line that lacks nothing but its end counts.
+        const bool lacks_end = cut < whole.size() && whole[cut] == '\n';
+        EXPECT_EQ(lines_up_to(text.text.size()), lines_up_to(cut + (lacks_end ? 1 : 0))) << cut;
+        EXPECT_TRUE(whole.starts_with(text.text)) << cut;
+        const bool is_whole = cut == 0 || whole[cut - 1] == '\n' || lacks_end;
+        EXPECT_EQ(text.dropped, !is_whole) << cut;
+    }
+    // What a power cut may leave behind it.
+    EXPECT_EQ(mended(whole + std::string(100, '\0'), "j").text, whole);
 }
 
 TEST(Journal, IsTakenOverByOneOnly) {

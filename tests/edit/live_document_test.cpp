@@ -189,6 +189,26 @@ TEST_F(LiveBar, WhatACrashLeavesIsRestored) {
     EXPECT_EQ(read_session(lost[0].journal).lines.size(), 5U) << "the same recording goes on";
 }
 
+TEST_F(LiveBar, RestoringSaysSoWhereTheLastLineWasCutShort) {
+    const std::string header = R"({"knead":1,"cloud":{"path":"bar.ply"}})"
+                               "\n";
+    const std::string renamed = R"({"op":"set","iterations":4})"
+                                "\n";
+    for (const char* torn : {"", R"({"op":"commit"})", R"({"op":"com)"}) {
+        write_text(folder_ / "torn.knead", header + renamed + torn);
+        OpenRequest restore = request_for({});
+        restore.restore = folder_ / "torn.knead";
+        LiveDocument live(restore);
+        wait_until_open(live);
+        ASSERT_EQ(live.status().stage, LiveDocument::Stage::open);
+        EXPECT_EQ(live.view()->acts, std::string(torn).ends_with('}') ? 2U : 1U);
+        const std::vector<Notice> notices = live.take_notices();
+        EXPECT_EQ(notices.size(), std::string(torn) == R"({"op":"com)" ? 1U : 0U);
+        for (const Notice& notice : notices)
+            EXPECT_NE(notice.words.find("last line"), std::string::npos) << notice.words;
+    }
+}
+
 TEST_F(LiveBar, AnActPostedDuringADragComesAfterIt) {
     live_->begin_drag(++step_, "high", {0, 0, 2});
     live_->drag_to(turned(0.5));

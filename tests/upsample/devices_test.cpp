@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/workers.h"
 #include "upsample/devices.h"
+#include "upsample/failing_upsampler.h"
 #include "upsample/scene.h"
 
 #include <gtest/gtest.h>
@@ -13,33 +14,6 @@ namespace knead {
 namespace {
 
 using namespace knead::test;
-
-// Works until the frame that it is told to fail in; 0 fails in prepare().
-class FailingUpsampler final : public Upsampler {
-public:
-    FailingUpsampler(Workers& workers, int failing_frame)
-        : works_(make_reference_upsampler(workers)), failing_frame_(failing_frame) {}
-
-    std::string device() const override { return "a flaky device"; }
-
-    void prepare(const UpsampleInput& input, std::size_t motions) override {
-        if (failing_frame_ == 0) throw DeviceFailure("the kernel does not compile");
-        works_->prepare(input, motions);
-    }
-
-    void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override {
-        if (++frame_ == failing_frame_) {
-            std::fill(positions.begin(), positions.end(), 7.0F); // half-written results
-            throw DeviceFailure("the device was lost");
-        }
-        works_->run(motions, positions, normals);
-    }
-
-private:
-    std::unique_ptr<Upsampler> works_;
-    int failing_frame_;
-    int frame_ = 0;
-};
 
 std::string refusal(const std::string& request) {
     Workers workers(1);
@@ -52,13 +26,13 @@ std::string refusal(const std::string& request) {
     return {};
 }
 
-TEST(FallbackUpsampler, GivesTheRightResultInTheFrameThatFails) {
+TEST(FallbackUpsampler, GivesTheRightResultInTheCallThatFails) {
     Workers workers(2);
     const Scene scene = random_scene(5000, 40, 21);
     const Posed expected = upsampled(*make_reference_upsampler(workers), scene);
-    for (const int failing_frame : {0, 1, 2}) {
+    for (const int failing_call : {1, 2, 3}) {
         const auto upsampler =
-            make_fallback_upsampler(std::make_unique<FailingUpsampler>(workers, failing_frame), workers);
+            make_fallback_upsampler(std::make_unique<FailingUpsampler>(workers, failing_call), workers);
         EXPECT_EQ(upsampler->device(), "a flaky device");
         EXPECT_EQ(upsampled(*upsampler, scene), expected);
         Posed second = {std::vector<float>(15'000), std::vector<float>(15'000)};
@@ -70,6 +44,29 @@ TEST(FallbackUpsampler, GivesTheRightResultInTheFrameThatFails) {
         const Scene other = random_scene(100, 7, 22);
         EXPECT_EQ(upsampled(*upsampler, other), upsampled(*make_reference_upsampler(workers), other));
     }
+}
+
+TEST(FallbackUpsampler, ReplacesARealDeviceWhoseKernelDoesNotBuild) {
+    if (list_devices().empty()) GTEST_SKIP() << "there is no OpenCL device";
+    Workers workers(2);
+    const Scene scene = random_scene(5000, 40, 24);
+    const Posed expected = upsampled(*make_reference_upsampler(workers), scene);
+    const std::pair<const char*, const char*> kernels[] = {
+        {"kernel void upsample_positions(this is no C) {}", "does not compile"},
+        {"kernel void another(global float* a) { a[0] = 0; }", "finding the kernel"}};
+    for (const auto& [kernel, words] : kernels)
+        for (const DeviceMemory memory : {DeviceMemory::as_the_device_has_it, DeviceMemory::own}) {
+            const auto upsampler =
+                make_fallback_upsampler(make_opencl_upsampler(0, 0, memory, kernel), workers);
+            EXPECT_EQ(upsampled(*upsampler, scene), expected);
+            EXPECT_EQ(upsampler->device(), "reference");
+            const std::string warning = upsampler->take_warning();
+            EXPECT_NE(warning.find(words), std::string::npos) << warning;
+        }
+}
+
+TEST(FallbackUpsampler, ADeviceThatIsGoneIsAFailure) {
+    EXPECT_THROW(make_opencl_upsampler(list_devices().size(), 0), DeviceFailure);
 }
 
 TEST(FallbackUpsampler, SaysNothingWhileAllIsWell) {

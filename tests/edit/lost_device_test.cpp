@@ -1,0 +1,86 @@
+// A device that fails in the middle of an edit: another one takes over, the pose is right, and the user hears
+// of it.
+
+#include "edit/editing.h"
+#include "edit/live_bar.h"
+#include "io/cloud_file.h"
+#include "upsample/failing_upsampler.h"
+
+namespace knead::test {
+namespace {
+
+// Two edits, with undo, so that shapes are made again and the device is prepared several times.
+const std::string wriggle = ends + drag(turn('y', 20) + "," + turn('y', 40)) + settle(5) + commit +
+                            drag(turn('z', 30) + "," + turn('z', 60)) + undo + redo + undo + undo +
+                            drag(turn('x', 10));
+
+struct Replayed {
+    ReplayReport report;
+    std::string bytes;
+};
+
+Replayed replayed(const ScratchFolder& folder, const UpsamplerMaker& maker) {
+    ReplayOptions options;
+    options.out = folder / "out.ply";
+    options.threads = 2;
+    options.make_upsampler = maker;
+    SilentProgress silent;
+    Replayed result;
+    result.report = replay(read_session(folder / "s.knead"), options, silent, [](const std::string&) {});
+    result.bytes = read_text(folder / "out.ply");
+    return result;
+}
+
+TEST(LostDevice, InWhicheverCallOfAReplayTheShapeIsRight) {
+    const ScratchFolder folder;
+    bar_file(folder, 900);
+    write_text(folder / "s.knead", "{\"knead\":1,\"cloud\":{\"path\":\"bar.ply\"}}\n" + wriggle);
+    int calls = 0;
+    const Replayed whole = replayed(folder, failing_in_call(1'000'000, &calls));
+    EXPECT_TRUE(whole.report.warnings.empty());
+    EXPECT_EQ(whole.report.device, "a flaky device");
+    ASSERT_GE(calls, 9);
+    for (int call = 1; call <= calls; ++call) {
+        SCOPED_TRACE("failing in call " + std::to_string(call) + " of " + std::to_string(calls));
+        const Replayed lost = replayed(folder, failing_in_call(call));
+        EXPECT_EQ(lost.bytes, whole.bytes);
+        EXPECT_EQ(lost.report.device, "reference");
+        ASSERT_EQ(lost.report.warnings.size(), 1U);
+        EXPECT_SAYS(lost.report.warnings[0], "a flaky device failed");
+        EXPECT_SAYS(lost.report.warnings[0], "plain C++");
+    }
+}
+
+TEST(LostDevice, InMidDragTheEditorGoesOnWithAWord) {
+    const ScratchFolder folder;
+    for (const int call : {1, 2, 5}) {
+        OpenRequest request = request_for(bar_file(folder));
+        request.make_upsampler = failing_in_call(call);
+        LiveDocument live(request);
+        wait_until_open(live);
+        StepNumber step = 0;
+        for (const SessionAction& handle : bar_handles()) live.post(++step, {handle});
+        live.begin_drag(++step, "high", {0, 0, 2});
+        PosedFrame frame;
+        for (int k = 1; k <= 10; ++k) {
+            live.drag_to(turned(0.1 * k));
+            const std::uint64_t seen = frame.version;
+            ASSERT_TRUE(wait_until([&] { return live.take_frame(frame) && frame.version > seen; }));
+        }
+        live.end_drag();
+        live.save_cloud(folder / "saved.ply");
+        live.save_session(folder / "saved.knead");
+        wait_until_idle(live);
+        EXPECT_EQ(live.view()->device, "reference");
+        std::size_t words = 0;
+        for (const Notice& notice : live.take_notices())
+            if (says(notice.words, "a flaky device failed") && notice.kind == Notice::Kind::warning) ++words;
+        EXPECT_EQ(words, 1U);
+        std::filesystem::copy_file(folder / "saved.knead", folder / "s.knead",
+                                   std::filesystem::copy_options::overwrite_existing);
+        EXPECT_EQ(replayed(folder, make_upsampler).bytes, read_text(folder / "saved.ply"));
+    }
+}
+
+} // namespace
+} // namespace knead::test

@@ -1,0 +1,53 @@
+#pragma once
+// A device that is lost.
+
+#include "base/workers.h"
+#include "upsample/devices.h"
+
+#include <algorithm>
+
+namespace knead::test {
+
+// Works until the call of prepare() or run() that it is told to fail in, from 1; and never again.
+class FailingUpsampler final : public Upsampler {
+public:
+    FailingUpsampler(Workers& workers, int failing_call, int* calls = nullptr)
+        : works_(make_reference_upsampler(workers)), failing_call_(failing_call), calls_(calls) {}
+
+    std::string device() const override { return "a flaky device"; }
+
+    void prepare(const UpsampleInput& input, std::size_t motions) override {
+        if (fails()) throw DeviceFailure("the kernel does not compile");
+        works_->prepare(input, motions);
+    }
+
+    void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override {
+        if (fails()) {
+            std::ranges::fill(positions, 7.0F); // half-written results
+            std::ranges::fill(normals, 7.0F);
+            throw DeviceFailure("the device was lost");
+        }
+        works_->run(motions, positions, normals);
+    }
+
+private:
+    bool fails() {
+        if (calls_) ++*calls_;
+        return ++call_ >= failing_call_;
+    }
+
+    std::unique_ptr<Upsampler> works_;
+    int failing_call_;
+    int call_ = 0;
+    int* calls_; // counts them for whoever wants to know; or null
+};
+
+// For ReplayOptions and OpenRequest: such a device, with what replaces it.
+inline UpsamplerMaker failing_in_call(int call, int* calls = nullptr) {
+    return [=](const std::string& /*request*/, Workers& workers, unsigned /*threads*/) {
+        return UpsamplerChoice{
+            make_fallback_upsampler(std::make_unique<FailingUpsampler>(workers, call, calls), workers), {}};
+    };
+}
+
+} // namespace knead::test

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "base/stopwatch.h"
+#include "cloud/splats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +47,7 @@ bool needs_commit(const SessionAction& act) {
 Document::Document(PointCloud cloud, const Settings& settings, Workers& workers, Upsampler& upsampler,
                    Mode mode)
     : mode_(mode), cloud_(std::move(cloud)), bounds_(bounds_of(cloud_)),
-      pipeline_(cloud_, workers, upsampler) {
+      holds_splats_(find_splats(cloud_).has_value()), pipeline_(cloud_, workers, upsampler) {
     history_.emplace_back().settings = settings;
 }
 
@@ -199,8 +200,7 @@ void Document::commit(Progress& progress) {
     State next = now();
     if (is_posed()) {
         next.rest = std::make_shared<Committed>();
-        next.rest->shape =
-            std::make_shared<const RestShape>(mode_ == Mode::real ? shape(progress) : RestShape{});
+        next.rest->shape = mode_ == Mode::real ? posed_now(progress) : std::make_shared<const RestShape>();
         next.rest->made_from = at_;
     }
     const auto committed = is_posed() ? next.rest : nullptr;
@@ -257,6 +257,17 @@ std::vector<float> Document::normals(Progress& progress) {
     const PointOrder& order = pipeline_.order();
     for (std::size_t i = 0; i < order.points(); ++i)
         std::copy_n(now.normals.data() + 3 * i, 3, result.data() + 3 * std::size_t{order.file_index[i]});
+    return result;
+}
+
+std::vector<float> Document::rotations(Progress& progress) {
+    if (mode_ == Mode::rehearsal || !holds_splats_ || (!now().rest && !is_posed())) return {};
+    const auto shape = is_posed() ? posed_now(progress) : rest_of(now(), progress);
+    const PointOrder& order = pipeline_.order();
+    std::vector<float> result(4 * cloud_.size(), 0.0F);
+    for (std::size_t i = 0; i < cloud_.size(); ++i) result[4 * i] = 1;
+    for (std::size_t i = 0; i < order.points(); ++i)
+        std::copy_n(shape->rotations.data() + 4 * i, 4, result.data() + 4 * std::size_t{order.file_index[i]});
     return result;
 }
 
@@ -359,6 +370,18 @@ const RestShape& Document::shape(Progress& progress) {
         posed_is_now_ = true;
     }
     return pipeline_.posed();
+}
+
+std::shared_ptr<const RestShape> Document::posed_now(Progress& progress) {
+    const auto samples = samples_of(now(), progress);
+    shape(progress);
+    return posed_shape(now(), *samples);
+}
+
+std::shared_ptr<const RestShape> Document::posed_shape(const State& state, const SampleState& samples) const {
+    auto shape = std::make_shared<RestShape>(pipeline_.posed());
+    if (holds_splats_) shape->rotations = pipeline_.rotations(state.motions, samples);
+    return shape;
 }
 
 // Regions are told on the rest shape now. A point lies where the file says plus how far it was moved, so one

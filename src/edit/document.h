@@ -117,6 +117,9 @@ public:
     // 3n floats in the order of the file, relative to cloud().origin; and normals, empty without.
     std::vector<float> positions(Progress& progress);
     std::vector<float> normals(Progress& progress);
+    // How each point turned since the cloud was opened: 4n floats in the order of the file, w x y z, unit
+    // quaternions; empty unless the cloud holds splats (cloud/splats.h), and where nothing was ever moved.
+    std::vector<float> rotations(Progress& progress);
 
     // How far the handles pull the shape out of its proportions (Pipeline::strain); 1 when nothing is posed.
     double strain(Progress& progress);
@@ -170,6 +173,9 @@ private:
     // From any state in history; made again where it was dropped.
     std::shared_ptr<const RestShape> rest_of(const State& state, Progress& progress);
     std::shared_ptr<const SampleState> samples_of(const State& state, Progress& progress); // of a posed one
+    std::shared_ptr<const RestShape> posed_now(Progress& progress); // where something is posed
+    // The pipeline's posed points, which are those of `state`, as a shape to keep.
+    std::shared_ptr<const RestShape> posed_shape(const State& state, const SampleState& samples) const;
     void repeat(const Posed& posed, SampleState& samples, Progress& progress);
     const State& now() const { return history_[at_]; }
     void end(UnderWay act, std::variant<DragLine, SettleLine> line);
@@ -180,6 +186,7 @@ private:
     Mode mode_;
     PointCloud cloud_;
     Bounds bounds_;
+    bool holds_splats_;
     Pipeline pipeline_;
     std::vector<State> history_; // from the cloud as it was opened to what can be redone
     std::size_t at_ = 0;         // the present one

@@ -18,7 +18,7 @@ std::size_t bytes_of(const SampleState& samples) {
 }
 
 std::size_t bytes_of(const RestShape& shape) {
-    return (shape.positions.size() + shape.normals.size()) * sizeof(float);
+    return (shape.positions.size() + shape.normals.size() + shape.rotations.size()) * sizeof(float);
 }
 
 } // namespace
@@ -85,7 +85,7 @@ std::shared_ptr<const RestShape> Document::rest_of(const State& state, Progress&
         posed_is_now_ = false;
         pipeline_.prepare({from.settings, from.handles, rest_of(from, progress)}, progress);
         pipeline_.upsample(from.motions, *samples);
-        committed->shape = std::make_shared<const RestShape>(pipeline_.posed());
+        committed->shape = posed_shape(from, *samples);
     }
     const std::shared_ptr<const RestShape> shape = committed->shape;
     keep(committed);
@@ -99,6 +99,7 @@ std::shared_ptr<const SampleState> Document::samples_of(const State& state, Prog
     std::shared_ptr<const SampleState> samples = posed ? posed->samples : nullptr;
     for (auto next = dropped.rbegin(); next != dropped.rend(); ++next) {
         const State& from = history_[(*next)->made_from];
+        posed_is_now_ = false;
         pipeline_.prepare({from.settings, from.handles, rest_of(from, progress)}, progress);
         SampleState made = samples ? *samples : pipeline_.rest_state();
         repeat(**next, made, progress);

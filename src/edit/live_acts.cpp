@@ -120,7 +120,8 @@ void LiveWork::carry_out(task::SaveCloud& task) {
     const std::vector<float> normals = document_->normals(progress_);
     const std::vector<float> far = task.columns.displacement ? displacement_column() : std::vector<float>{};
     const std::vector<float> stretch = task.columns.stretch ? stretch_column() : std::vector<float>{};
-    PosedShape shape{positions, normals, {}};
+    const std::vector<float> rotations = document_->rotations(progress_);
+    PosedShape shape{positions, normals, {}, rotations};
     if (task.columns.displacement) shape.added.push_back({"displacement", far});
     if (task.columns.stretch) shape.added.push_back({"stretch", stretch});
     const std::vector<std::string> heard = write_cloud(task.target, document_->cloud(), shape, progress_);

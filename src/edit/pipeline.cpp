@@ -8,6 +8,7 @@
 #include "graph/bridges.h"
 #include "graph/edge_weights.h"
 #include "graph/octree.h"
+#include "upsample/point_rotations.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -38,6 +39,13 @@ Motion motion_about(const Mat3d& beyond_identity, const Vec3d& offset) {
 
 Motion motion_of_handle(const HandleMotion& handle) {
     return motion_about(handle.linear - Mat3d::Identity(), handle.offset);
+}
+
+// The turn of a motion that is rigid.
+Quatd rotation_in(const Motion& motion) {
+    using Map = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
+    const Mat3d turn = Eigen::Map<const Map>(motion.map).leftCols<3>().cast<double>();
+    return nearest_rotation(Mat3d::Identity() + turn, Quatd::Identity());
 }
 
 } // namespace
@@ -355,6 +363,23 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
         motions_[first_carried + part] = carried_motion(carried_, part, motions_);
     });
     upsampler_.run(motions_, posed_.positions, posed_.normals);
+}
+
+std::vector<float> Pipeline::rotations(const std::vector<HandleMotion>& motions,
+                                       const SampleState& state) const {
+    require(motions.size() == labels_.outside && state.rotation.size() == samples_.size(),
+            "a motion a handle, and a turn a sample");
+    std::vector<Quatd> turns(motions_.size(), Quatd::Identity());
+    for (std::size_t s = 0; s < samples_.size(); ++s) {
+        const Index handle = system_.rest.handle[s];
+        const bool given = handle != no_index && system_.unknown[s] == no_index;
+        turns[s] = given && handle != labels_.outside ? motions[handle].rotation : state.rotation[s];
+    }
+    for (std::size_t h = 0; h < motions.size(); ++h) turns[samples_.size() + h] = motions[h].rotation;
+    for (std::size_t carried = turns.size() - carried_.size(); carried < turns.size(); ++carried)
+        turns[carried] = rotation_in(motions_[carried]);
+    const std::span<const float> before = input_.rest ? input_.rest->rotations : std::span<const float>{};
+    return point_rotations(row_of_point_, rows_, turns, before, workers_);
 }
 
 std::string words_about(const Pipeline::Strays& strays) {

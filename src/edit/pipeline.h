@@ -42,6 +42,9 @@ namespace knead {
 struct RestShape {
     std::vector<float> positions; // 3n, relative to the cloud's origin
     std::vector<float> normals;   // 3n, or empty
+    // How each point turned since the cloud was opened: 4n, w x y z. Only committed shapes of clouds of
+    // splats have it, see Pipeline::rotations().
+    std::vector<float> rotations = {};
 };
 
 // All that the stages depend on beside the cloud.
@@ -95,6 +98,10 @@ public:
     // Every point's position and normal for a state of the samples, into buffers that the pipeline keeps.
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
     const RestShape& posed() const { return posed_; }
+
+    // How each point turned from the shape as opened to posed(), 4n, w x y z, for the state that upsample()
+    // was called with last: for points with a direction of their own, when the shape is committed or saved.
+    std::vector<float> rotations(const std::vector<HandleMotion>& motions, const SampleState& state) const;
 
     const PointOrder& order() const { return order_; }
     const Graph& graph() const { return *graph_; }

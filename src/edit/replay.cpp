@@ -206,8 +206,9 @@ private:
         if (options_.out) {
             const std::vector<float> positions = document.positions(progress_);
             const std::vector<float> normals = document.normals(progress_);
+            const std::vector<float> rotations = document.rotations(progress_);
             for (const std::string& words :
-                 write_cloud(*options_.out, document.cloud(), {positions, normals}, progress_))
+                 write_cloud(*options_.out, document.cloud(), {positions, normals, {}, rotations}, progress_))
                 add_warning(words);
             report_.written.push_back(*options_.out);
         }

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/whole_file.h"
+#include "cloud/splats.h"
 #include "io/format.h"
 
 #include <algorithm>
@@ -101,6 +102,11 @@ std::vector<std::string> write_cloud(const std::filesystem::path& path, const Po
     if (cloud.image && cloud.image->format() != format.name)
         for (const std::string& what : cloud.image->besides_points())
             left_out.push_back("what only the file's own format keeps is left out: " + what);
+    if (!shape.rotations.empty())
+        if (const auto splats = find_splats(cloud); splats && splats->other_harmonics)
+            left_out.emplace_back(
+                "the view-dependent colours (f_rest_0 …) do not turn with the splats, since "
+                "they are not the 9, 24 or 45 columns that knead knows how to turn");
     for (std::string& words : left_out) words = path.filename().string() + ": " + words;
     return left_out;
 }

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
+#include "io/turned_splats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,7 @@ std::optional<double> rounded_to(ScalarType type, double value) {
 std::vector<PosedColumn> posed_columns(const PointCloud& cloud, const PosedShape& shape) {
     std::vector<PosedColumn> columns;
     const auto add = [&](std::size_t column, const float* rest, const float* posed) {
-        columns.push_back({column, &cloud.attributes[column], rest, posed});
+        columns.push_back({column, &cloud.attributes[column], rest, posed, nullptr, 0});
     };
     if (!shape.positions.empty()) {
         require(shape.positions.size() == cloud.positions.size(), "a pose has a position for each point");
@@ -65,14 +66,27 @@ std::vector<PosedColumn> posed_columns(const PointCloud& cloud, const PosedShape
         for (std::size_t axis = 0; axis < 3; ++axis)
             add((*normals)[axis], nullptr, shape.normals.data() + axis);
     }
+    if (const auto splats = find_splats(cloud); splats && !shape.rotations.empty()) {
+        const auto turned = std::make_shared<TurnedSplats>(cloud, *splats, shape.rotations);
+        for (std::size_t slot = 0; slot < turned->columns().size(); ++slot) {
+            const std::size_t column = turned->columns()[slot];
+            columns.push_back({column, &cloud.attributes[column], nullptr, nullptr, turned, slot});
+        }
+    }
     std::sort(columns.begin(), columns.end(),
               [](const PosedColumn& a, const PosedColumn& b) { return a.column < b.column; });
     return columns;
 }
 
 std::optional<double> posed_value(const PosedColumn& column, std::size_t i, const std::string& shown) {
-    const float posed = column.posed[3 * i];
     const double own = value_at(*column.attribute, i);
+    if (column.splats) {
+        const double turned = column.splats->value(i, column.slot);
+        // What is not finite stays as it was.
+        const auto rounded = turned == own ? std::nullopt : rounded_to(column.attribute->type, turned);
+        return rounded == own ? std::nullopt : rounded;
+    }
+    const float posed = column.posed[3 * i];
     if (column.rest == nullptr) {
         // A normal with no direction stays as it was: normals are turned, never invented.
         if (!std::isfinite(posed) || posed == static_cast<float>(own)) return std::nullopt;

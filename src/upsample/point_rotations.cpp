@@ -1,0 +1,56 @@
+#include "upsample/point_rotations.h"
+
+#include "base/require.h"
+
+#include <algorithm>
+
+namespace knead {
+
+namespace {
+
+constexpr std::size_t points_per_chunk = 8192;
+
+Quatd mean_turn(const InfluenceRows& rows, std::size_t row, std::span<const Quatd> turns) {
+    const auto first = static_cast<std::ptrdiff_t>(influences_per_row * row);
+    const auto begin = rows.weight.begin() + first;
+    const auto heaviest = std::max_element(begin, begin + influences_per_row) - begin;
+    const Quatd& leader = turns[rows.sample[static_cast<std::size_t>(first + heaviest)]];
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+    for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(first) + influences_per_row;
+         ++k) {
+        const Quatd& turn = turns[rows.sample[k]];
+        const double weight = static_cast<double>(rows.weight[k]);
+        sum += (turn.dot(leader) < 0 ? -weight : weight) * turn.coeffs();
+    }
+    // A vertex that nothing moves has a row of weights 0.
+    if (!(sum.squaredNorm() > 0)) return Quatd::Identity();
+    Quatd mean;
+    mean.coeffs() = sum.normalized();
+    return mean;
+}
+
+} // namespace
+
+std::vector<float> point_rotations(std::span<const Index> row, const InfluenceRows& rows,
+                                   std::span<const Quatd> turns, std::span<const float> before,
+                                   Workers& workers) {
+    require(before.empty() || before.size() == 4 * row.size(), "a turn before for every point, or none");
+    std::vector<float> result(4 * row.size());
+    workers.for_each(row.size(), points_per_chunk, [&](std::size_t i) {
+        float* const to = result.data() + 4 * i;
+        Quatd turn = mean_turn(rows, row[i], turns);
+        if (!before.empty()) {
+            // What does not turn any further keeps every bit.
+            if (turn.w() == 1 && turn.vec().isZero(0)) return void(std::copy_n(before.data() + 4 * i, 4, to));
+            const auto at = [&](std::size_t part) { return static_cast<double>(before[4 * i + part]); };
+            turn = (turn * Quatd(at(0), at(1), at(2), at(3))).normalized();
+        }
+        to[0] = static_cast<float>(turn.w());
+        to[1] = static_cast<float>(turn.x());
+        to[2] = static_cast<float>(turn.y());
+        to[3] = static_cast<float>(turn.z());
+    });
+    return result;
+}
+
+} // namespace knead

@@ -1,0 +1,25 @@
+#pragma once
+// How every point turned, for points that have a direction beside a normal: Gaussian splats. It is needed
+// when a shape is committed or saved, not in a frame.
+
+#include "base/workers.h"
+#include "graph/influences.h"
+
+#include <span>
+#include <vector>
+
+namespace knead {
+
+// The turn of each point: the weighted mean of the turns that its row of influences names, as a unit
+// quaternion, after the turn that the point had made before. A point with one influence takes exactly that
+// one, and turns are given the sign of the heaviest before they are added, so that a turn of more than 180°
+// comes out as it is.
+//     row      n: each point's row in `rows`
+//     turns    of every motion that `rows` names: unit quaternions, from the rest shape to now
+//     before   4n, w x y z: from the shape as opened to the rest shape; or empty, where that is the same
+// Returns 4n floats, w x y z: unit quaternions, from the shape as opened to now.
+std::vector<float> point_rotations(std::span<const Index> row, const InfluenceRows& rows,
+                                   std::span<const Quatd> turns, std::span<const float> before,
+                                   Workers& workers);
+
+} // namespace knead

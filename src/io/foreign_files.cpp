@@ -15,25 +15,13 @@ struct Signature {
     std::string_view words; // "is ..."
 };
 
-constexpr std::array<Signature, 22> signatures = {{
+constexpr std::array<Signature, 10> signatures = {{
     {"\xEF\xBB\xBFply", "is a PLY file behind a byte-order mark; save it again without the mark"},
     {"\xFF\xFE", "is text in UTF-16; save it again as plain ASCII"},
     {"\xFE\xFF", "is text in UTF-16; save it again as plain ASCII"},
     {"ASTM-E57", "is an E57 file"},
-    {"OFF", "is an OFF file"},
-    {"COFF", "is an OFF file"},
-    {"NOFF", "is an OFF file"},
-    {"CNOFF", "is an OFF file"},
-    {"STOFF", "is an OFF file"},
     {"solid", "is an STL file"},
     {"glTF", "is a glTF file"},
-    {"mtllib ", "is an OBJ file"},
-    {"usemtl ", "is an OBJ file"},
-    {"v ", "is an OBJ file"},
-    {"o ", "is an OBJ file"},
-    {"g ", "is an OBJ file"},
-    {"vn ", "is an OBJ file"},
-    {"vt ", "is an OBJ file"},
     {"\x1F\x8B", "is compressed with gzip; unpack it first"},
     {"PK\x03\x04", "is a ZIP archive; unpack it first"},
     {"{\"knead\"", "is a knead session, not a cloud; 'knead replay' runs it"},

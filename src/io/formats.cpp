@@ -1,5 +1,7 @@
 #include "io/format.h"
 #include "io/las.h"
+#include "io/obj.h"
+#include "io/off.h"
 #include "io/pcd.h"
 #include "io/ply.h"
 #include "io/table.h"
@@ -15,6 +17,8 @@ namespace {
 constexpr std::array<std::string_view, 1> ply_extensions = {".ply"};
 
 constexpr std::array<std::string_view, 1> las_extensions = {".las"};
+constexpr std::array<std::string_view, 1> obj_extensions = {".obj"};
+constexpr std::array<std::string_view, 1> off_extensions = {".off"};
 
 constexpr std::array<std::string_view, 1> pcd_extensions = {".pcd"};
 
@@ -28,10 +32,12 @@ bool looks_like_none(std::span<const std::byte> /*first_bytes*/) {
     return false;
 }
 
-constexpr std::array<Format, 7> formats = {{
+constexpr std::array<Format, 9> formats = {{
     {"ply", ply_extensions, looks_like_ply, read_ply, write_ply},
     {"las", las_extensions, looks_like_las, read_las, write_las},
     {"pcd", pcd_extensions, looks_like_pcd, read_pcd, write_pcd},
+    {"obj", obj_extensions, looks_like_obj, read_obj, write_obj},
+    {"off", off_extensions, looks_like_off, read_off, write_off},
     // Behind all others, since any row of numbers is a table.
     {"txt", txt_extensions, looks_like_table, read_table, write_txt},
     {"xyz", xyz_extensions, looks_like_none, read_table, write_xyz},

@@ -50,7 +50,7 @@ void Terminal::say(const std::string& words) {
 }
 
 void Terminal::warn(const std::string& words) {
-    say("warning: " + words);
+    say(in_one_line("warning: " + words));
 }
 
 void Terminal::report(std::string_view stage, double fraction) {

@@ -58,7 +58,7 @@ std::size_t insert_entries(std::vector<std::byte>& head, const LasHeader& header
     std::size_t at = load_little<std::uint16_t>(head, las_at::header_size);
     if (description != nullptr) {
         store_little(static_cast<std::uint16_t>(present + entries.size()), head, description->at + 20);
-        at = description->begin + description->size;
+        at = description->begin + present - present % las_descriptor_size; // a reader sees whole entries only
     } else {
         for (const LasRecord& record : header.records)
             if (!record.extended) at = record.begin + record.size;

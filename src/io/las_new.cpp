@@ -27,10 +27,16 @@ double power_of_ten(int exponent) {
 
 // The finest power of ten whose steps count the extent, with half of the numbers left for later edits, and
 // which doubles of that size still resolve; and an offset in the middle that is short in decimal.
-LasAxis axis_for(double lowest, double highest) {
+// Coordinates farther apart than doubles can count are refused.
+LasAxis axis_for(double lowest, double highest, const std::string& shown) {
     constexpr double most_steps = 2e9;
+    constexpr double smallest_span = 1e-290; // what is smaller is one place
+    constexpr double largest_span = 1e290;
     const double span = highest - lowest;
-    if (!(span > 0)) return {0.001, lowest};
+    if (!(span > smallest_span)) return {0.001, lowest};
+    if (!(span < largest_span))
+        throw Error(Trouble::output, shown,
+                    "the points lie too far apart for the coordinates of LAS; save it as .ply");
     const double finest = std::ldexp(std::max(std::abs(lowest), std::abs(highest)), -50);
     int exponent = static_cast<int>(std::floor(std::log10(span / most_steps)));
     while (span / power_of_ten(exponent) > most_steps || power_of_ten(exponent) < finest) ++exponent;
@@ -66,7 +72,7 @@ void choose_axes(NewFile& file) {
             low[axis] = point == 0 ? value : std::min(low[axis], value);
             high[axis] = point == 0 ? value : std::max(high[axis], value);
         }
-        file.axes[axis] = axis_for(low[axis], high[axis]);
+        file.axes[axis] = axis_for(low[axis], high[axis], file.shown);
     }
     if (file.points == 0) return;
     for (std::size_t axis = 0; axis < 3; ++axis) {

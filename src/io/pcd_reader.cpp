@@ -234,12 +234,11 @@ void read_ascii(PcdImage& image, const std::string& shown, std::vector<Attribute
         for (std::size_t f = 0; f < columns.size(); ++f) {
             const PcdField& field = header.fields[f];
             const std::size_t size = size_of(field.type);
-            std::byte* to = columns[f].values.data() + point * field.bytes();
             for (std::uint32_t k = 0; k < field.count; ++k)
                 if (field.is_padding())
                     rows.pass_over(field);
                 else
-                    rows.number(field, to + k * size);
+                    rows.number(field, columns[f].values.data() + point * field.bytes() + k * size);
         }
         rows.end();
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <unordered_set>
 
 namespace knead {
 
@@ -47,11 +48,20 @@ void parse_format(const Words& words, const HeaderLines& lines, bool& seen, PlyH
                "; PLY has ascii, binary_little_endian and binary_big_endian");
 }
 
+// Names go into messages and into other files; in a header whose lines end in lone \r they could even hold a
+// \n.
+std::string parse_name(std::string_view word, const HeaderLines& lines) {
+    const auto is_control = [](unsigned char letter) { return letter < 0x20 || letter == 0x7F; };
+    if (std::any_of(word.begin(), word.end(), is_control))
+        lines.fail("the name " + in_quotes(word) + " has a control character, shown as '?'; rename it");
+    return std::string(word);
+}
+
 void parse_element(const Words& words, const HeaderLines& lines, PlyHeader& header) {
     if (words.size() != 3)
         lines.fail("an element line is 'element NAME COUNT', three words; this one has " +
                    std::to_string(words.size()));
-    PlyElement element{std::string(words[1]), 0, {}, lines.line()};
+    PlyElement element{parse_name(words[1], lines), 0, {}, lines.line()};
     const char* const end = words[2].data() + words[2].size();
     const auto [stopped, trouble] = std::from_chars(words[2].data(), end, element.count);
     if (trouble == std::errc::result_out_of_range)
@@ -59,9 +69,8 @@ void parse_element(const Words& words, const HeaderLines& lines, PlyHeader& head
     if (trouble != std::errc{} || stopped != end)
         lines.fail("the count " + in_quotes(words[2]) +
                    " is not a whole number of at least 0; correct the header");
-    const bool again = std::any_of(header.elements.begin(), header.elements.end(),
-                                   [&](const PlyElement& other) { return other.name == element.name; });
-    if (again && element.name == "vertex")
+    const auto is_vertex = [](const PlyElement& one) { return one.name == "vertex"; };
+    if (is_vertex(element) && std::any_of(header.elements.begin(), header.elements.end(), is_vertex))
         lines.fail("a second element vertex; knead reads one cloud a file");
     header.elements.push_back(std::move(element));
 }
@@ -74,7 +83,10 @@ ScalarType parse_type(std::string_view word, const HeaderLines& lines) {
     return *type;
 }
 
-void parse_property(const Words& words, const HeaderLines& lines, PlyHeader& header) {
+// The names of the element under way, looked up in time that does not grow with them.
+using Names = std::unordered_set<std::string_view>;
+
+void parse_property(const Words& words, const HeaderLines& lines, Names& names, PlyHeader& header) {
     if (header.elements.empty()) lines.fail("a property before any element; an element line must come first");
     const bool is_list = words.size() > 1 && words[1] == "list";
     if (words.size() != (is_list ? 5U : 3U))
@@ -82,7 +94,7 @@ void parse_property(const Words& words, const HeaderLines& lines, PlyHeader& hea
             "a property line is 'property TYPE NAME' or 'property list TYPE TYPE NAME'; this one has " +
             std::to_string(words.size()) + " words");
     PlyProperty property;
-    property.name = words.back();
+    property.name = parse_name(words.back(), lines);
     property.is_list = is_list;
     property.type = parse_type(words[words.size() - 2], lines);
     if (is_list) {
@@ -92,10 +104,9 @@ void parse_property(const Words& words, const HeaderLines& lines, PlyHeader& hea
                        "; it must be a whole number");
     }
     PlyElement& element = header.elements.back();
-    for (const PlyProperty& other : element.properties)
-        if (other.name == property.name)
-            lines.fail("element " + in_quotes(element.name) + " has two properties " +
-                       in_quotes(property.name) + "; rename one of them");
+    if (!names.insert(words.back()).second)
+        lines.fail("element " + in_quotes(element.name) + " has two properties " + in_quotes(property.name) +
+                   "; rename one of them");
     element.properties.push_back(std::move(property));
 }
 
@@ -133,6 +144,7 @@ PlyHeader parse_ply_header(std::span<const std::byte> bytes, const std::string& 
     HeaderLines lines({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, shown);
     PlyHeader header;
     bool format_seen = false;
+    Names names;
     if (lines.next() != Words{"ply"}) lines.fail("the first line of a PLY file is 'ply' alone");
     while (const auto words = lines.next()) {
         if (words->empty()) continue;
@@ -142,8 +154,9 @@ PlyHeader parse_ply_header(std::span<const std::byte> bytes, const std::string& 
             parse_format(*words, lines, format_seen, header);
         } else if (keyword == "element") {
             parse_element(*words, lines, header);
+            names.clear();
         } else if (keyword == "property") {
-            parse_property(*words, lines, header);
+            parse_property(*words, lines, names, header);
         } else if (keyword == "end_header" && words->size() == 1) {
             if (!format_seen) lines.fail("the header has no format line, so its encoding is unknown");
             header.body = lines.at();

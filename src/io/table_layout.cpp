@@ -46,6 +46,17 @@ char separator_of(std::string_view line) {
     return ' ';
 }
 
+// Where a remark begins behind the numbers of a line: never within a word, since "1.#IND" is a number of old
+// Windows libraries.
+std::size_t remark_in(std::string_view line) {
+    for (std::size_t at = 0; at < line.size(); ++at) {
+        const bool begins =
+            at == 0 || std::string_view(" \t\v\f,;\"").find(line[at - 1]) != std::string_view::npos;
+        if (begins && is_remark({line.data() + at, line.data() + line.size()})) return at;
+    }
+    return line.size();
+}
+
 bool is_number(std::string_view word, char separator) {
     std::string text(word);
     if (separator == ';') std::replace(text.begin(), text.end(), ',', '.');
@@ -116,7 +127,7 @@ private:
             if (names_axes(names) && !find_twice(names) && !has_open_quote(line)) remark_ = line;
             return false;
         }
-        const std::string_view row = line.substr(0, std::min(line.find('#'), line.find("//")));
+        const std::string_view row = line.substr(0, remark_in(line));
         const char separator = separator_of(row);
         const Fields fields = split_line(row, separator);
         if (fields.size() > most_table_columns)

@@ -1,6 +1,7 @@
 // Writing sessions: every line reads back to the last bit of every number.
 
 #include "base/error.h"
+#include "edit/same_session.h"
 #include "edit/session.h"
 
 #include <gtest/gtest.h>
@@ -14,90 +15,7 @@
 namespace knead {
 namespace {
 
-// --- Sameness, to the last bit
-
-bool same(double a, double b) {
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-bool same(const Vec3d& a, const Vec3d& b) {
-    return same(a.x(), b.x()) && same(a.y(), b.y()) && same(a.z(), b.z());
-}
-bool same(const Quatd& a, const Quatd& b) {
-    return same(a.w(), b.w()) && same(Vec3d(a.vec()), Vec3d(b.vec()));
-}
-bool same(const HandlePose& a, const HandlePose& b) {
-    return same(a.translate, b.translate) && same(a.rotate, b.rotate) && same(a.scale, b.scale) &&
-           same(a.axes, b.axes);
-}
-bool same(const IndexRange& a, const IndexRange& b) {
-    return a.first == b.first && a.last == b.last;
-}
-bool same(const BoxRegion& a, const BoxRegion& b) {
-    return same(a.lowest, b.lowest) && same(a.highest, b.highest);
-}
-bool same(const SphereRegion& a, const SphereRegion& b) {
-    return same(a.center, b.center) && same(a.radius, b.radius);
-}
-bool same(const HalfspaceRegion& a, const HalfspaceRegion& b) {
-    return same(a.point, b.point) && same(a.normal, b.normal);
-}
-bool same(const WholeRegion& /*a*/, const WholeRegion& /*b*/) {
-    return true;
-}
-
-template<typename Element>
-bool same(const std::vector<Element>& a, const std::vector<Element>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const Element& left, const Element& right) { return same(left, right); });
-}
-bool same(const Region& a, const Region& b) {
-    return a.index() == b.index() &&
-           std::visit(
-               [&b](const auto& left) { return same(left, std::get<std::decay_t<decltype(left)>>(b)); }, a);
-}
-
-bool same(const HandleLine& a, const HandleLine& b) {
-    if (a.name != b.name || a.role != b.role || a.points.index() != b.points.index()) return false;
-    if (const auto* points = std::get_if<std::vector<IndexRange>>(&a.points))
-        return same(*points, std::get<std::vector<IndexRange>>(b.points));
-    return same(std::get<Region>(a.points), std::get<Region>(b.points));
-}
-bool same(const DragLine& a, const DragLine& b) {
-    return a.handle == b.handle && same(a.pivot, b.pivot) && same(a.frames, b.frames);
-}
-bool same(const SettleLine& a, const SettleLine& b) {
-    return a.iterations == b.iterations;
-}
-bool same(const CheckLine& a, const CheckLine& b) {
-    return a.positions == b.positions && same(a.tolerance, b.tolerance);
-}
-bool same(const SetLine& a, const SetLine& b) {
-    return a.change.neighbors == b.change.neighbors && a.change.samples == b.change.samples &&
-           a.change.samples.has_value() == b.change.samples.has_value() &&
-           a.change.iterations == b.change.iterations && a.change.stiffness == b.change.stiffness &&
-           a.change.poisson == b.change.poisson && a.change.weights == b.change.weights &&
-           a.change.strays == b.change.strays;
-}
-bool same(const DeleteLine& a, const DeleteLine& b) {
-    return a.handle == b.handle;
-}
-bool same(const RenameLine& a, const RenameLine& b) {
-    return a.handle == b.handle && a.to == b.to;
-}
-bool same(const CommitLine& /*a*/, const CommitLine& /*b*/) {
-    return true;
-}
-bool same(const UndoLine& /*a*/, const UndoLine& /*b*/) {
-    return true;
-}
-bool same(const RedoLine& /*a*/, const RedoLine& /*b*/) {
-    return true;
-}
-bool same(const SessionAction& a, const SessionAction& b) {
-    return a.index() == b.index() &&
-           std::visit(
-               [&b](const auto& left) { return same(left, std::get<std::decay_t<decltype(left)>>(b)); }, a);
-}
+using test::same;
 
 // --- Random lines
 
@@ -184,6 +102,10 @@ public:
         line.name = name();
         line.role =
             std::array{HandleRole::fixed, HandleRole::moving, HandleRole::region_of_interest}.at(below(3));
+        if (line.role != HandleRole::region_of_interest) {
+            line.free_rotation = coin();
+            if (coin()) line.falloff = std::abs(number());
+        }
         if (coin()) {
             line.points = region();
             return line;

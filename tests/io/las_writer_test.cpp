@@ -240,6 +240,17 @@ TEST(LasWriter, finds_steps_for_clouds_of_any_size_and_place) {
         }
 }
 
+// Found by fuzzing: the search for steps never ended.
+TEST(LasWriter, takes_points_next_to_each_other_for_one_place_and_refuses_points_beyond_all_bounds) {
+    const auto cloud_of = [](const std::string& x) {
+        return read_bytes(std::string(ply_header) + ply_double_xyz + "end_header\n-" + x + " 0 0\n" + x +
+                          " 0 0\n0 0 0\n");
+    };
+    EXPECT_EQ(read_bytes(written(cloud_of("1e-315"), {}, "out.las")).size(), 3U);
+    for (const char* x : {"1e291", "1.5e308"})
+        EXPECT_NE(refusal_to_write(cloud_of(x), {}, "out.las").find("too far apart"), std::string::npos) << x;
+}
+
 TEST(LasWriter, refuses_a_new_file_of_points_that_are_not_finite) {
     const PointCloud cloud = make_cloud(std::vector<float>{0, 0, 0, 1, std::nanf(""), 3});
     EXPECT_NE(refusal_to_write(cloud, {}, "out.las").find("point 1 has a coordinate that is not finite"),

@@ -122,6 +122,9 @@ TEST(PlyReader, refuses_bad_headers_by_file_and_line) {
         {start + "element vertex 1\nproperty float x\nproperty int x\n", "cloud.ply:5: element 'vertex'"},
         {start + "element vertex 1\nproperty list float int x\n", "cloud.ply:4: a list's length"},
         {start + "property float x\n", "cloud.ply:3: a property before any element"},
+        {start + "element vertex 1\nproperty float a\x1B[2J\n",
+         "cloud.ply:4: the name 'a?[2J' has a control"},
+        {"ply\rformat ascii 1.0\relement a\nb 1\r", "cloud.ply:3: the name 'a?b' has a control"},
         {start + "elemnt vertex 1\n", "cloud.ply:3: unknown header line 'elemnt'"},
         {start + "element vertex 1\nproperty float x\n", "cloud.ply:4: the header has no end_header"},
         {start + "end_header\n", "cloud.ply: its header has no element vertex"},
@@ -152,6 +155,8 @@ TEST(PlyReader, refuses_bad_rows_by_file_and_line) {
         EXPECT_NE(refusal(colour + red + " 1 2 3\n").find("which is no uint8"), std::string::npos) << red;
     const std::string list = "ply\nformat ascii 1.0\nelement vertex 1\nproperty list int int l\n" + ascii_xyz;
     EXPECT_NE(refusal(list + "-1 1 2 3\n").find("of the length '-1'"), std::string::npos);
+    EXPECT_NE(refusal(list + "9223372036854775808.0 1 2 3\n").find("of the length '9223372036854775808.0'"),
+              std::string::npos);
     EXPECT_NE(refusal(list + "4000000000000000000 1 2 3\n").find("ends before the property 'l'"),
               std::string::npos);
 }
@@ -186,6 +191,16 @@ TEST(PlyReader, passes_over_an_element_without_properties) {
                          ascii_xyz + "1 2 3\n")
                   .size(),
               1U);
+}
+
+// In time that grows with the file and not with its square, which would be minutes.
+TEST(PlyReader, opens_headers_of_very_many_lines) {
+    constexpr std::size_t many = 200'000;
+    std::string bytes = "ply\nformat ascii 1.0\n";
+    for (std::size_t i = 0; i < many; ++i) bytes += "element e" + std::to_string(i) + " 0\n";
+    bytes += "element vertex 0\n";
+    for (std::size_t i = 0; i < many; ++i) bytes += "property char p" + std::to_string(i) + "\n";
+    EXPECT_EQ(read_bytes(bytes + ascii_xyz).attributes.size(), many + 3);
 }
 
 TEST(PlyReader, names_other_formats_and_says_what_to_do) {

@@ -181,6 +181,8 @@ TEST(Table, KnowsNamedColumnsByTheirNames) {
     EXPECT_EQ(columns_of("\"Points:0\",\"Points:1\",\"Points:2\",\"Normals:0\"\n1,2,3,4\n"), "x y z nx");
     EXPECT_EQ(columns_of("x,y,z,4,nan\n1,2,3,4,5\n"), "x y z 4 nan") << "names may look like numbers";
     EXPECT_EQ(columns_of("x y z r Red\n1 2 3 4 5\n"), "x y z red Red");
+    EXPECT_EQ(columns_of("1.#IND 2 3 4\n"), "x y z column_4") << "no remark begins within a word";
+    EXPECT_EQ(columns_of("1 2 1.#QNAN//4\n"), "x y z");
     EXPECT_EQ(columns_of("# x y z\n1 2 3 4\n"), "x y z column_4") << "a remark that names too few is one";
     const PointCloud deep = read_bytes("x y z r g b\n1 2 3 65535 256 0\n", "a.txt");
     EXPECT_EQ(deep.attributes[3].type, ScalarType::uint16);

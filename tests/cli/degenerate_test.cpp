@@ -70,7 +70,8 @@ protected:
         write_text(folder / "s.knead", R"({"knead":1,"cloud":{"path":"cloud.ply"}})"
                                        "\n" +
                                            lines);
-        std::vector<std::string> arguments{"replay", "s.knead", "--out", "out.ply"};
+        // What opens no device starts at once.
+        std::vector<std::string> arguments{"replay", "s.knead", "--out", "out.ply", "--device", "reference"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run_knead(arguments, folder.path());
     }

@@ -18,7 +18,7 @@ std::vector<Seed> seeds() {
         {"colours", "COFF\n2 0 0\n0 0 0 255 0 10 255\n1 2 3 0 0 1 0\n"},
         {"real colours", "COFF\n2 0 0\n0 0 0 1 0.5 0\n1 2 3 0 0 1\n"},
         {"everything", "STCNOFF\n1 0 0\n0 0 0 0 0 1 255 0 10 255 0.5 0.25 9\n"},
-        {"no keyword", "2 0 0\n0 0 0\n1 2 3\n"},
+        {"bad no keyword", "2 0 0\n0 0 0\n1 2 3\n"},
         {"bad count", "OFF\n3 0 0\n0 0 0\n"},
         {"bad face", "OFF\n1 1 0\n0 0 0\n3 0 1 2\n"},
         {"bad binary", "OFF BINARY\n"},

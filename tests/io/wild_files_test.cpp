@@ -16,12 +16,12 @@ namespace {
 
 // Files that the index calls odd, and that knead refuses in these words: why.
 const std::map<std::string, std::string> hopeless = {
-    {"pdal_sized_dims.ply", "no property z"},               // a point needs one
-    {"magnum_unsupported-face-size.ply", "is cut off"},     // it promises two faces and holds one
-    {"assimp_box_UTF16BE.obj", "UTF-16"},                   // no OBJ program writes it
-    {"assimp_number_formats.obj", "'3.1+e2' is no number"}, // some programs read 3.1 there, others 310
-    {"pcl_stereo_left.pcd", "x, y"},                        // it has colours alone
-    {"meshlab_chameleon4k.pts", "PointShop3D"},             // no table, but a binary file of that program
+    {"pdal_sized_dims.ply", "no property z"},                // a point needs one
+    {"magnum_unsupported-face-size.ply", "is cut off"},      // it promises two faces and holds one
+    {"assimp_box_UTF16BE.obj", "UTF-16"},                    // no OBJ program writes it
+    {"assimp_number_formats.obj", "'3.1+e2' is no number"},  // some programs read 3.1 there, others 310
+    {"pcl_stereo_left.pcd", "x, y"},                         // it has colours alone
+    {"meshlab_chameleon4k.pts", "neither a row of numbers"}, // no table, but a binary file of PointShop3D
 };
 
 // Opens it and saves it unedited in its own format.

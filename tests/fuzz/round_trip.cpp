@@ -8,8 +8,9 @@
 #include "support/scratch_folder.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <optional>
 
 namespace knead::fuzz {
@@ -40,7 +41,8 @@ std::optional<Saved> saved(const Format& format, const PointCloud& cloud, const 
 }
 
 bool same_bits(double a, double b) {
-    return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) ||
+           (std::isnan(a) && std::isnan(b));
 }
 
 double rounded_to(ScalarType type, double value) {

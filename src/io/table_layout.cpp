@@ -13,9 +13,11 @@ namespace {
 
 using Fields = std::vector<std::string_view>; // into the text, without quotes
 
-// Up to most_table_columns + 1 of them; one that is missing between two separators is empty.
-Fields split_line(std::string_view line, char separator) {
+// Up to most_table_columns + 1 of them; one that is missing between two separators is empty. `open_quote`
+// becomes whether the last one has a quote that is not closed.
+Fields split_line(std::string_view line, char separator, bool& open_quote) {
     Fields fields;
+    open_quote = false;
     TextCursor text{line.data(), line.data() + line.size()};
     pass_over_blanks(text);
     while (text.at != text.end && fields.size() <= most_table_columns) {
@@ -30,7 +32,8 @@ Fields split_line(std::string_view line, char separator) {
         const char* end = text.at;
         while (!quoted && end != begin && is_blank(end[-1])) --end;
         fields.emplace_back(begin, static_cast<std::size_t>(end - begin));
-        if (quoted && text.at != text.end) ++text.at;
+        open_quote = quoted && text.at == text.end;
+        if (quoted && !open_quote) ++text.at;
         pass_over_blanks(text);
         if (separator != ' ' && text.at != text.end && *text.at == separator) {
             ++text.at;
@@ -38,6 +41,11 @@ Fields split_line(std::string_view line, char separator) {
         }
     }
     return fields;
+}
+
+Fields split_line(std::string_view line, char separator) {
+    bool ignored = false;
+    return split_line(line, separator, ignored);
 }
 
 char separator_of(std::string_view line) {
@@ -86,7 +94,9 @@ std::optional<std::string_view> find_twice(Fields fields) {
 }
 
 bool has_open_quote(std::string_view line) {
-    return std::count(line.begin(), line.end(), '"') % 2 != 0;
+    bool open_quote = false;
+    (void)split_line(line, separator_of(line), open_quote);
+    return open_quote;
 }
 
 // Looks at one line after the other, up to the first row.
@@ -108,7 +118,10 @@ public:
         // Rows or not, something must say that there are points.
         if (!found && header_.empty() && !layout_.has_count)
             fail("ends before any row of numbers; there are no points in it");
-        if (!found && !header_.empty()) layout_.columns = split_line(header_, separator_of(header_)).size();
+        if (!found && !header_.empty()) { // no row says otherwise
+            layout_.separator = separator_of(header_);
+            layout_.columns = split_line(header_, layout_.separator).size();
+        }
         settle_names();
         if (layout_.separator == ';') settle_decimal_comma();
         return std::move(layout_);

@@ -198,7 +198,10 @@ private:
         const char separator = names_separator(line);
         const Fields names = split_line(line, separator);
         if (names.size() != layout_.columns) {
-            if (header_.empty()) return; // it was a remark after all
+            if (header_.empty()) { // it was a remark after all
+                layout_.words_in_remark = std::max(split_line(line, layout_.separator).size(), names.size());
+                return;
+            }
             at_ = static_cast<std::size_t>(line.data() - text_.data());
             fail("names " + std::to_string(names.size()) + " columns, but the first row has " +
                  std::to_string(layout_.columns) +

@@ -25,6 +25,9 @@ struct TableLayout {
     std::size_t names_end = 0;      // the byte behind the last name
     char names_separator = ' ';     // between them: ',', ';', ' ' or '\t'
     bool has_quoted_names = false;
+    // Of a remark with x, y and z in it that names no columns, since there are not as many; 0: no such
+    // remark.
+    std::size_t words_in_remark = 0;
 
     bool has_count = false;     // a line with the number of points comes first
     std::size_t rows_begin = 0; // the first byte of a count, or of the first row; the file's size if none

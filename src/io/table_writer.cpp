@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "base/require.h"
 #include "io/new_columns.h"
 #include "io/patched_copy.h"
@@ -90,6 +91,12 @@ std::vector<std::string> write_patched(FileInTheMaking& file, const TableImage& 
     patching.posed.resize(cloud.attributes.size(), nullptr);
     for (const PosedColumn& column : columns) patching.posed[column.column] = &column;
     const bool nameless = image.layout.names.empty();
+    if (!patching.added.empty() && nameless &&
+        image.layout.words_in_remark >= image.layout.columns + patching.added.size())
+        throw Error(
+            Trouble::output, shown,
+            "columns cannot be added, since a remark with x, y and z in the file that it came from would "
+            "then be taken for the columns' names; remove that remark, or save as .ply");
     if (!patching.added.empty() && !nameless) add_names(patching);
     if (!columns.empty() || !patching.added.empty()) patch_rows(patching, cloud.size());
     patching.copy.finish();

@@ -152,8 +152,12 @@ void require_unchanged(const Edited& edited, std::size_t column) {
     const Attribute& before = edited.before.attributes[column];
     const Attribute& after = edited.after.attributes[column];
     if (!edited.looseness.guesses_columns) return require_same_column(before, after);
-    for (std::size_t i = 0; i < edited.before.size(); ++i)
-        require(same_bits(value_at(before, i), value_at(after, i)), "a column keeps its values");
+    for (std::size_t i = 0; i < edited.before.size(); ++i) {
+        const double value = value_at(before, i);
+        // Taken for a colour, a column has no -0 any more.
+        require(value == value_at(after, i) || same_bits(value, value_at(after, i)),
+                "a column keeps its values");
+    }
 }
 
 void require_added(const Edited& edited) {

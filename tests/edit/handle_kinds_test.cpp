@@ -85,7 +85,7 @@ TEST(HandleKinds, PegsLetTheSheetSwing) {
     const Quatd swing(Eigen::AngleAxisd(40 * std::numbers::pi / 180, Vec3d::UnitY()));
     const auto swung = [&](const Vec3d& p) -> Vec3d { return pivot + swing * (p - pivot); };
     EXPECT_LT(farthest(desk, every, swung) / desk.diagonal(), 1e-4); // 2 % when the falloff held them level
-    const std::vector<float> normals = desk.normals(); // those of the pegs' own points, too
+    const std::vector<float> normals = desk.normals();               // those of the pegs' own points, too
     for (std::size_t i = 0; i < desk.document().cloud().size(); ++i)
         ASSERT_LT((at(normals, i) - swing * Vec3d::UnitZ()).norm(), 1e-3) << i;
 }

@@ -26,7 +26,13 @@ struct Told {
     ReplayReport report;
     std::vector<std::string> warnings;
 };
-Told told(const Session& session, const ReplayOptions& options = {}) {
+// No machine's devices have a say in it, nor in the warnings.
+ReplayOptions on_the_reference() {
+    ReplayOptions options;
+    options.device = "reference";
+    return options;
+}
+Told told(const Session& session, const ReplayOptions& options = on_the_reference()) {
     SilentProgress progress;
     Told result;
     result.report = replay(session, options, progress,

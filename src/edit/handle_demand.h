@@ -1,7 +1,7 @@
 #pragma once
 // Whether handles ask for more than a shape can give: when they pull the cloud apart, press it together, or
 // tear it where one lies next to another. All of them are met exactly, whatever they ask; it is the cloud
-// between them that pays, evenly, and the user is to know.
+// between them that pays (pulled, evenly; pressed, in folds), and the user is to know.
 
 #include "deform/strain.h"
 #include "edit/handles.h"

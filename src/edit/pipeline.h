@@ -144,6 +144,9 @@ private:
     void prepare_systems();
     void prepare_upsampler();
     std::span<const HandleMotion> all_motions(const std::vector<HandleMotion>& motions);
+    // Calls visit(sample, handle) for every handle of a single point that leaves rotation free.
+    template<typename Visit>
+    void for_lone_pegs(Visit&& visit) const;
 
     const PointCloud& cloud_;
     Workers& workers_;

@@ -101,6 +101,31 @@ TEST(SplatTurns, FollowABentShape) {
     }
 }
 
+// Four pegs of one point each, which only go where half a right angle about y takes them; nothing tells them
+// to turn.
+TEST(SplatTurns, OfAPegAreThoseOfWhatItHolds) {
+    Desk desk(splats(made(Shape::plane, 2000)), {});
+    const PointCloud& cloud = desk.document().cloud();
+    const Quatd swing = about(Vec3d::UnitY(), 45);
+    std::string pegs, drags;
+    for (const Vec3d& corner :
+         {Vec3d(0.1, 0.1, 0), Vec3d(0.1, 0.9, 0), Vec3d(0.9, 0.1, 0), Vec3d(0.9, 0.9, 0)}) {
+        std::size_t nearest = 0;
+        for (std::size_t i = 0; i < cloud.size(); ++i)
+            if ((cloud.file_position(i) - corner).norm() < (cloud.file_position(nearest) - corner).norm())
+                nearest = i;
+        const Vec3d way = swing * cloud.file_position(nearest) - cloud.file_position(nearest);
+        const std::string point = std::to_string(nearest);
+        pegs += R"({"op":"handle","rotation":"free","role":"moving","name":")" + point + R"(","points":[)" +
+                point + "]}\n";
+        drags += drag(R"({"translate":[)" + std::to_string(way.x()) + "," + std::to_string(way.y()) + "," +
+                          std::to_string(way.z()) + "]}",
+                      point);
+    }
+    desk.play(pegs + drags + settle(300));
+    EXPECT_LT(farthest_turn(rotations(desk), swing), 1e-3); // settled so far
+}
+
 TEST(SplatTurns, ThatWereDroppedAreMadeAgainToTheBit) {
     Desk desk(splats());
     std::string lines = ends;

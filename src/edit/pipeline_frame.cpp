@@ -1,0 +1,117 @@
+// What a Pipeline does in every frame, and what is told of the frame that it showed last.
+
+#include "base/require.h"
+#include "deform/rotation.h"
+#include "edit/pipeline.h"
+#include "upsample/point_rotations.h"
+
+namespace knead {
+
+namespace {
+
+// [A | b] of a sample that turned (A = M - I) and moved about its rest position.
+Motion motion_about(const Mat3d& beyond_identity, const Vec3d& offset) {
+    Motion motion;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            motion.map[4 * row + column] = static_cast<float>(beyond_identity(row, column));
+        motion.map[4 * row + 3] = static_cast<float>(offset[row]);
+    }
+    return motion;
+}
+
+Motion motion_of_handle(const HandleMotion& handle) {
+    return motion_about(handle.linear - Mat3d::Identity(), handle.offset);
+}
+
+// The turn of a motion that is rigid.
+Quatd rotation_in(const Motion& motion) {
+    using Map = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
+    const Mat3d turn = Eigen::Map<const Map>(motion.map).leftCols<3>().cast<double>();
+    return nearest_rotation(Mat3d::Identity() + turn, Quatd::Identity());
+}
+
+} // namespace
+
+std::span<const HandleMotion> Pipeline::all_motions(const std::vector<HandleMotion>& motions) {
+    require(motions.size() == labels_.outside, "a motion a handle");
+    handle_motions_.assign(motions.begin(), motions.end());
+    handle_motions_.emplace_back();
+    return handle_motions_;
+}
+
+void Pipeline::follow_handles(const std::vector<HandleMotion>& motions, SampleState& state) {
+    knead::follow_handles(system_, all_motions(motions), state, workers_);
+}
+
+double Pipeline::iterate(const std::vector<HandleMotion>& motions, SampleState& state,
+                         Acceleration& acceleration) {
+    return knead::iterate(system_, all_motions(motions), state, acceleration, workers_);
+}
+
+// A single point that may turn has the place of its handle, and the turn of its surroundings.
+template<typename Visit>
+void Pipeline::for_lone_pegs(Visit&& visit) const {
+    for (Index s = 0; s < samples_.size(); ++s) {
+        const Index handle = system_.rest.handle[s];
+        const bool turns = handle < input_.handles.size() && system_.unknown[s] != no_index;
+        if (turns && input_.handles[handle].points->size() == 1) visit(s, handle);
+    }
+}
+
+void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {
+    const std::size_t samples = samples_.size();
+    workers_.for_each(samples, 256, [&](std::size_t s) {
+        const Index handle = system_.rest.handle[s];
+        const bool given = handle != no_index && system_.unknown[s] == no_index;
+        if (given && handle != labels_.outside) {
+            motions_[s] = motion_of_handle(motions[handle]);
+        } else {
+            // Stretched with its surroundings, a sample takes what is between it and the next ones along;
+            // where every point is a sample there is nothing between.
+            const bool stretches = !every_point_ && system_.unknown[s] != no_index;
+            const Mat3d moved = stretches ? sample_gradient(system_, state, static_cast<Index>(s))
+                                          : turn_of(state.rotation[s]);
+            motions_[s] = motion_about(moved, state.displacement[s] - moved * system_.rest.position[s]);
+        }
+    });
+    for (std::size_t h = 0; h < motions.size(); ++h) motions_[samples + h] = motion_of_handle(motions[h]);
+    for_lone_pegs([&](Index s, Index handle) { motions_[samples + handle] = motions_[s]; });
+    const std::size_t first_carried = motions_.size() - carried_.size();
+    workers_.for_each(carried_.size(), 16, [&](std::size_t part) {
+        motions_[first_carried + part] = carried_motion(carried_, part, motions_);
+    });
+    upsampler_.run(motions_, posed_.positions, posed_.normals);
+}
+
+HandleDemand Pipeline::demand(const SampleState& state) const {
+    const RestShape& rest = input_.rest ? *input_.rest : opened_;
+    const Parting parting = parting_of(*graph_, labels_, order_, rest.positions, posed_.positions);
+    HandleDemand demand{strain_of(system_, state), parting.factor, {}, {}};
+    const auto name_of = [&](Index handle) {
+        return handle < input_.handles.size() ? '"' + input_.handles[handle].name + '"'
+                                              : std::string("what lies outside the region");
+    };
+    if (parting.one != no_index) demand.one = name_of(parting.one), demand.other = name_of(parting.other);
+    return demand;
+}
+
+std::vector<float> Pipeline::rotations(const std::vector<HandleMotion>& motions,
+                                       const SampleState& state) const {
+    require(motions.size() == labels_.outside && state.rotation.size() == samples_.size(),
+            "a motion a handle, and a turn a sample");
+    std::vector<Quatd> turns(motions_.size(), Quatd::Identity());
+    for (std::size_t s = 0; s < samples_.size(); ++s) {
+        const Index handle = system_.rest.handle[s];
+        const bool given = handle != no_index && system_.unknown[s] == no_index;
+        turns[s] = given && handle != labels_.outside ? motions[handle].rotation : state.rotation[s];
+    }
+    for (std::size_t h = 0; h < motions.size(); ++h) turns[samples_.size() + h] = motions[h].rotation;
+    for_lone_pegs([&](Index s, Index handle) { turns[samples_.size() + handle] = turns[s]; });
+    for (std::size_t carried = turns.size() - carried_.size(); carried < turns.size(); ++carried)
+        turns[carried] = rotation_in(motions_[carried]);
+    const std::span<const float> before = input_.rest ? input_.rest->rotations : std::span<const float>{};
+    return point_rotations(row_of_point_, rows_, turns, before, workers_);
+}
+
+} // namespace knead

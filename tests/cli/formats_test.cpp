@@ -38,7 +38,8 @@ TEST_F(Formats, AnUneditedCloudComesBackAsTheIdenticalFile) {
         const std::string file = std::string("bar") + extension;
         ASSERT_EQ(run({"make", "bar", "--points", "600", "--out", file}).code, 0);
         session(file, ends);
-        const Outcome outcome = run({"replay", "s.knead", "--out", "out" + std::string(extension), "--json"});
+        const Outcome outcome = run({"replay", "s.knead", "--out", "out" + std::string(extension), "--json",
+                                     "--device", "reference"});
         ASSERT_EQ(outcome.code, 0) << outcome.err;
         EXPECT_EQ(json::parse(outcome.out)["warnings"], json::array());
         EXPECT_EQ(read_text(folder / ("out" + std::string(extension))), read_text(folder / file));
@@ -49,7 +50,8 @@ TEST_F(Formats, OutConvertsByItsExtensionAndWarnsOfWhatIsLost) {
     ASSERT_EQ(run({"make", "bar", "--points", "600", "--out", "bar.ply"}).code, 0);
     session("bar.ply", ends + lift);
     ASSERT_EQ(run({"replay", "s.knead", "--out", "bent.ply"}).code, 0);
-    const Outcome outcome = run({"replay", "s.knead", "--out", "bent.las", "--json"});
+    const Outcome outcome =
+        run({"replay", "s.knead", "--out", "bent.las", "--json", "--device", "reference"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const json warnings = json::parse(outcome.out)["warnings"];
     ASSERT_EQ(warnings.size(), 1U) << warnings;

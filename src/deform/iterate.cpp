@@ -147,6 +147,7 @@ void find_free_turns(SampleSystem& system, const SampleState& state) {
 // What handles with a falloff add to the right-hand sides. Around one that leaves rotation free the surface
 // goes with the anchor, and turns about it as the handle's own samples do.
 void add_pulls(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state) {
+    if (system.rest.pulled.empty()) return;
     const std::size_t rows = system.moving_rows;
     find_free_turns(system, state);
     for (const SoftHold& hold : system.rest.pulled) {

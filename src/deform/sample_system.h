@@ -93,8 +93,9 @@ struct SampleSystem {
     std::vector<double> columns;  // right-hand sides and solutions
 };
 
-// Prepares both systems: one ordering, two factorisations. Samples whose component holds no handle are left
-// out and stay at rest. On a bad outcome the system must not be iterated.
+// Prepares both systems: one ordering, and a factorisation of each; a third (`increments`) where a handle
+// with a falloff pulls or one leaves rotation free. Samples whose component holds no handle are left out and
+// stay at rest. On a bad outcome the system must not be iterated.
 FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& workers);
 
 // Another Poisson's ratio; neither system changes.

@@ -30,9 +30,10 @@ struct HandleDemand {
     std::string one, other; // the names of its handles
 };
 
-// What the user should hear about it; empty as long as the shape can follow: the cloud is nowhere pulled to
-// more than 2.5 times its length, nor pressed to less than a third of it. (In the sessions
-// of data/regression that ask for nothing impossible, links stay within 0.6 … 1.7 times theirs.)
+// What the user should hear about it; empty as long as the shape can follow: no more than one link of a
+// hundred is pulled to more than 2.5 times its length, or pressed to less than a third of it, and no two
+// handles that touch part by more than that. (In the sessions of data/regression that ask for nothing
+// impossible, links stay within 0.6 … 1.7 times theirs.)
 std::string words_about_demand(const HandleDemand& demand);
 
 } // namespace knead

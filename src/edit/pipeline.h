@@ -7,6 +7,7 @@
 //     samples                   → base samples and their flood
 //     handle set                → labels, handle samples (which flood only what they reach), sample graph
 //     weights, strays           → influences; what carries the parts without a handle (edit/carried_parts.h)
+//     rest shape                → the weights of the sample graph's links
 //     rest shape, stiffness     → both systems, ordered and factorised
 //     poses                     → iterations, then upsampling
 //

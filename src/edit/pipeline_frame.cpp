@@ -49,13 +49,15 @@ double Pipeline::iterate(const std::vector<HandleMotion>& motions, SampleState& 
     return knead::iterate(system_, all_motions(motions), state, acceleration, workers_);
 }
 
-// A single point that may turn has the place of its handle, and the turn of its surroundings.
+// A single point that may turn has the place of its handle, and the turn of its surroundings. (An outlier
+// that hangs on it is labelled as it is, and is no peg.)
 template<typename Visit>
 void Pipeline::for_lone_pegs(Visit&& visit) const {
     for (Index s = 0; s < samples_.size(); ++s) {
         const Index handle = system_.rest.handle[s];
-        const bool turns = handle < input_.handles.size() && system_.unknown[s] != no_index;
-        if (turns && input_.handles[handle].points->size() == 1) visit(s, handle);
+        if (handle >= input_.handles.size() || system_.unknown[s] == no_index) continue;
+        const bool hangs = !hanging_.empty() && hanging_[samples_[s]] != 0;
+        if (!hangs && input_.handles[handle].points->size() == 1) visit(s, handle);
     }
 }
 

@@ -30,7 +30,8 @@ inline std::optional<Index> find_link(const Graph& graph, std::size_t v, Index u
     return graph.first[v] + static_cast<Index>(found - row.begin());
 }
 
-// For every link the place of its opposite: result[link from v to u] is the link from u to v.
+// For every link of a symmetric graph the place of its opposite: result[link from v to u] is the link from u
+// to v.
 inline std::vector<Index> reverse_links(const Graph& graph) {
     std::vector<Index> next = graph.first; // rows are ascending, so their opposites come in this order
     std::vector<Index> opposite(graph.neighbor.size());

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 namespace knead {
 
@@ -53,12 +52,6 @@ DeformationTask bar_task(const PointCloud& bar, const Chosen& is_fixed, const Ch
             task.handle.push_back(i);
     }
     return task;
-}
-
-HandlePose shifted(const Vec3d& way) {
-    HandlePose pose;
-    pose.translate = way;
-    return pose;
 }
 
 } // namespace

@@ -1,8 +1,6 @@
 #include "bench/page_joints.h"
 
-#include "bench/scan_samples.h"
 #include "bench/text_table.h"
-#include "io/cloud_file.h"
 
 #include <algorithm>
 #include <numbers>
@@ -97,16 +95,12 @@ PageRow jointed_row(PageStudio& studio, const JointedPose& pose, const std::stri
     return row;
 }
 
-void add_scan_rows(PageStudio& studio, std::span<const JointedPose> poses, const std::string& suffix,
-                   bool plain_first, PageSection& section) {
-    for (const ScanOfThePaper& scan : scans_of_the_paper()) {
-        const auto pose = std::ranges::find(poses, std::string(scan.name), &JointedPose::name);
-        if (const auto path = find_data_file(studio.scans, scan.file))
-            section.rows.push_back(
-                jointed_row(studio, *pose, suffix, read_cloud(*path, studio.progress), *path, plain_first));
-        else
-            section.missing.push_back(missing_words(studio.scans, scan.file) + ", so it is not posed here.");
-    }
+void add_posed_scans(PageStudio& studio, std::span<const JointedPose> poses, const std::string& suffix,
+                     bool plain_first, PageSection& section) {
+    add_scan_rows(studio, section, [&](const std::string& name, PointCloud cloud, const auto& file) {
+        return jointed_row(studio, *std::ranges::find(poses, name, &JointedPose::name), suffix,
+                           std::move(cloud), file, plain_first);
+    });
 }
 
 } // namespace knead

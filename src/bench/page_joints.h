@@ -3,7 +3,6 @@
 
 #include "bench/page_studio.h"
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,7 +40,7 @@ PageRow jointed_row(PageStudio& studio, const JointedPose& pose, const std::stri
                     const std::filesystem::path& cloud_file, bool plain_first);
 
 // The poses of those scans of the paper that there are, in its order; what is missing is said in the section.
-void add_scan_rows(PageStudio& studio, std::span<const JointedPose> poses, const std::string& suffix,
-                   bool plain_first, PageSection& section);
+void add_posed_scans(PageStudio& studio, std::span<const JointedPose> poses, const std::string& suffix,
+                     bool plain_first, PageSection& section);
 
 } // namespace knead

@@ -84,7 +84,7 @@ PageSection large_section(PageStudio& studio) {
                                        {}, true));
     section.rows.push_back(jointed_row(studio, creature_pose(), "large", clean_creature(studio), {}, true));
     const JointedPose poses[] = {bunny_pose(), armadillo_pose(), dragon_pose()};
-    add_scan_rows(studio, poses, "large", true, section);
+    add_posed_scans(studio, poses, "large", true, section);
     return section;
 }
 

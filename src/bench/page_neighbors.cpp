@@ -4,9 +4,8 @@
 #include "bench/deviation.h"
 #include "bench/made_cloud.h"
 #include "bench/page_studio.h"
-#include "bench/scan_samples.h"
+#include "bench/posing.h"
 #include "bench/text_table.h"
-#include "io/cloud_file.h"
 
 #include <functional>
 #include <numbers>
@@ -57,18 +56,6 @@ DeformationTask task_of(const Close& close, PointCloud cloud) {
     return task;
 }
 
-HandlePose pushed(const Vec3d& way) {
-    HandlePose pose;
-    pose.translate = way;
-    return pose;
-}
-
-HandlePose turned(double degrees, const Vec3d& axis) {
-    HandlePose pose;
-    pose.rotate = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis);
-    return pose;
-}
-
 // One strand of the knot's crossing at 60°, lifted off the other; the crossings at 180° and 300° stay.
 Close close_knot() {
     const Vec3d upper = knot_spine(std::numbers::pi / 6);
@@ -81,7 +68,7 @@ Close close_knot() {
             at_other_crossing,
             [upper](const Vec3d& p) { return p.z() > 0 && (p - upper).norm() < 0.7; },
             Vec3d::Zero(),
-            pushed({0, 0, 1.2}),
+            shifted({0, 0, 1.2}),
             {20, 25, UpAxis::z, usual_size, {}}};
 }
 
@@ -192,13 +179,9 @@ PageSection neighbors_section(PageStudio& studio) {
     section.rows.push_back(
         row_of(studio, close_knot(), made_cloud(Shape::knot, 40'000, studio.workers, studio.progress), {}));
     const Close closes[] = {close_bunny(), close_armadillo(), close_dragon()};
-    for (const ScanOfThePaper& scan : scans_of_the_paper()) {
-        const auto close = std::ranges::find(closes, std::string(scan.name), &Close::name);
-        if (const auto path = find_data_file(studio.scans, scan.file))
-            section.rows.push_back(row_of(studio, *close, read_cloud(*path, studio.progress), *path));
-        else
-            section.missing.push_back(missing_words(studio.scans, scan.file) + ", so it is not shown here.");
-    }
+    add_scan_rows(studio, section, [&](const std::string& name, PointCloud cloud, const auto& file) {
+        return row_of(studio, *std::ranges::find(closes, name, &Close::name), std::move(cloud), file);
+    });
     return section;
 }
 

@@ -2,9 +2,7 @@
 
 #include "bench/page_studio.h"
 #include "bench/posing.h"
-#include "bench/scan_samples.h"
 #include "bench/text_table.h"
-#include "io/cloud_file.h"
 
 #include <algorithm>
 
@@ -107,7 +105,7 @@ PageRow row_of(PageStudio& studio, const Look& look, PointCloud cloud,
     const PageLine mark{here, here, true, 2 * dot};
     shape.lines = {&mark, 1};
     shape.values = influence;
-    shape.largest_value = std::max(1e-6F, *std::ranges::max_element(influence));
+    shape.largest_value = 1;
     PagePicture influenced = draw_scene(studio, scene, "influence", shape);
     influenced.caption = "What the marked sample moves: its weight at every point.";
     return {look.name, {rest, graph, influenced, after}};
@@ -131,13 +129,9 @@ PageSection pipeline_section(PageStudio& studio) {
     const Look looks[] = {{"bunny", Vec3d(-0.02, 0.1, 0.06), {-20, 15, UpAxis::y, usual_size, {}}},
                           {"armadillo", Vec3d(5, 15, 20), {20, 5, UpAxis::y, usual_size, {}}},
                           {"dragon", Vec3d(-0.01, 0.13, 0.03), {15, 10, UpAxis::y, usual_size, {}}}};
-    for (const ScanOfThePaper& scan : scans_of_the_paper()) {
-        const auto look = std::ranges::find(looks, std::string(scan.name), &Look::name);
-        if (const auto path = find_data_file(studio.scans, scan.file))
-            section.rows.push_back(row_of(studio, *look, read_cloud(*path, studio.progress), *path));
-        else
-            section.missing.push_back(missing_words(studio.scans, scan.file) + ", so it is not shown here.");
-    }
+    add_scan_rows(studio, section, [&](const std::string& name, PointCloud cloud, const auto& file) {
+        return row_of(studio, *std::ranges::find(looks, name, &Look::name), std::move(cloud), file);
+    });
     return section;
 }
 

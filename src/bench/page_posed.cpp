@@ -66,7 +66,7 @@ PageSection posed_section(PageStudio& studio) {
                         {}};
     section.rows.push_back(jointed_row(studio, creature_pose(), "posed", clean_creature(studio), {}, false));
     const JointedPose poses[] = {bunny_pose(), armadillo_pose(), dragon_pose()};
-    add_scan_rows(studio, poses, "posed", false, section);
+    add_posed_scans(studio, poses, "posed", false, section);
     return section;
 }
 

@@ -3,6 +3,7 @@
 #include "base/whole_file.h"
 #include "bench/automatic_handles.h"
 #include "bench/posing.h"
+#include "bench/scan_samples.h"
 #include "bench/text_table.h"
 #include "io/cloud_file.h"
 #include "shapes/shapes.h"
@@ -39,6 +40,17 @@ PointCloud clean_creature(PageStudio& studio) {
     options.points = 50'000;
     options.outliers = 0;
     return make_shape(Shape::creature, options, studio.workers, studio.progress);
+}
+
+void add_scan_rows(
+    PageStudio& studio, PageSection& section,
+    const std::function<PageRow(const std::string& name, PointCloud cloud, const fs::path& file)>& draw) {
+    for (const ScanOfThePaper& scan : scans_of_the_paper()) {
+        if (const auto path = find_data_file(studio.scans, scan.file))
+            section.rows.push_back(draw(scan.name, read_cloud(*path, studio.progress), *path));
+        else
+            section.missing.push_back(missing_words(studio.scans, scan.file) + ", so it is not shown here.");
+    }
 }
 
 void write_session(PageStudio& studio, const PageScene& scene) {

@@ -8,6 +8,7 @@
 #include "edit/document.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,6 +44,12 @@ std::vector<SessionAction> acts_of(const DeformationTask& task);
 
 // The creature as a scanner without strays would see it, 50,000 points.
 PointCloud clean_creature(PageStudio& studio);
+
+// A row of each scan of the paper that is here, drawn by `draw`, which takes the scan's name, its cloud and
+// its file; of the others the section says that they are missing.
+void add_scan_rows(PageStudio& studio, PageSection& section,
+                   const std::function<PageRow(const std::string& name, PointCloud cloud,
+                                               const std::filesystem::path& file)>& draw);
 
 // Writes the scene's session, NAME.knead, and its cloud where that came from no file.
 void write_session(PageStudio& studio, const PageScene& scene);

@@ -4,9 +4,7 @@
 #include "bench/made_cloud.h"
 #include "bench/page_studio.h"
 #include "bench/posing.h"
-#include "bench/scan_samples.h"
 #include "bench/text_table.h"
-#include "io/cloud_file.h"
 
 #include <cmath>
 
@@ -94,14 +92,10 @@ PageSection weights_section(PageStudio& studio) {
                bending_task("bar-bent", made_cloud(Shape::bar, 20'000, studio.workers, studio.progress),
                             bend_degrees),
                {}, {20, 15, UpAxis::z, usual_size, {}}));
-    for (const ScanOfThePaper& scan : scans_of_the_paper()) {
-        if (const auto path = find_data_file(studio.scans, scan.file))
-            section.rows.push_back(
-                row_of(studio, bending_task(scan.name, read_cloud(*path, studio.progress), bend_degrees),
-                       *path, {15, 10, UpAxis::y, usual_size, {}}));
-        else
-            section.missing.push_back(missing_words(studio.scans, scan.file) + ", so it is not bent here.");
-    }
+    add_scan_rows(studio, section, [&](const std::string& name, PointCloud cloud, const auto& file) {
+        return row_of(studio, bending_task(name, std::move(cloud), bend_degrees), file,
+                      {15, 10, UpAxis::y, usual_size, {}});
+    });
     return section;
 }
 

@@ -2,6 +2,8 @@
 
 #include "bench/automatic_handles.h"
 
+#include <numbers>
+
 namespace knead {
 
 std::unique_ptr<Document> open_task(const DeformationTask& task, const Settings& settings, Workers& workers,
@@ -16,6 +18,18 @@ Settings with_samples(const std::optional<std::uint64_t>& samples) {
     Settings settings;
     settings.samples = samples;
     return settings;
+}
+
+HandlePose shifted(const Vec3d& way) {
+    HandlePose pose;
+    pose.translate = way;
+    return pose;
+}
+
+HandlePose turned(double degrees, const Vec3d& axis) {
+    HandlePose pose;
+    pose.rotate = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis);
+    return pose;
 }
 
 DragLine whole_motion(const DeformationTask& task) {

@@ -18,6 +18,10 @@ std::unique_ptr<Document> open_task(const DeformationTask& task, const Settings&
 // Settings with so many samples (nothing: every point), all else at its default.
 Settings with_samples(const std::optional<std::uint64_t>& samples);
 
+// A handle's pose that does nothing else.
+HandlePose shifted(const Vec3d& way);
+HandlePose turned(double degrees, const Vec3d& axis); // `axis`: of length 1
+
 // The task's own drag: its whole motion in one frame.
 DragLine whole_motion(const DeformationTask& task);
 

@@ -1,5 +1,7 @@
 #include "bench/report.h"
 
+#include "bench/machine.h"
+
 namespace knead {
 
 std::string asked_text(const std::optional<std::uint64_t>& samples) {
@@ -12,6 +14,18 @@ std::string percent_text(double fraction) {
 
 std::string verdict_text(bool holds) {
     return holds ? "pass" : "FAIL";
+}
+
+std::string machine_text(const Machine& machine) {
+    return machine.processor + ", " + std::to_string(machine.cores) + " cores, load " +
+           digits_text(machine.load, 1) + "; knead " + machine.version + " (" + machine.commit + "), " +
+           machine.compiler + ", " + machine.build;
+}
+
+ReportJson machine_json(const Machine& machine) {
+    return {{"processor", machine.processor}, {"cores", machine.cores}, {"load", machine.load},
+            {"compiler", machine.compiler},   {"build", machine.build}, {"version", machine.version},
+            {"commit", machine.commit}};
 }
 
 ReportJson json_of(const Deviation& deviation) {

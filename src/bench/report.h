@@ -20,6 +20,10 @@ std::string asked_text(const std::optional<std::uint64_t>& samples); // "1,000",
 std::string percent_text(double fraction);                           // two digits, without the sign
 std::string verdict_text(bool holds);                                // "pass", "FAIL"
 
+struct Machine;
+std::string machine_text(const Machine& machine); // in one line
+ReportJson machine_json(const Machine& machine);  // an object, to which more may be added
+
 ReportJson json_of(const Deviation& deviation);                     // {"rms", "largest"}
 ReportJson asked_json(const std::optional<std::uint64_t>& samples); // a number, or "all"
 

@@ -1,5 +1,6 @@
 // Table 1 as text and as JSON.
 
+#include "bench/report.h"
 #include "bench/table1.h"
 #include "bench/text_table.h"
 
@@ -139,13 +140,10 @@ Json json_of(const Table1Result& result) {
 } // namespace
 
 std::string table1_text(const Table1& table) {
-    const Machine& machine = table.machine;
-    TextTable lines{{machine.processor + ", " + std::to_string(machine.cores) + " cores, load " +
-                     digits_text(machine.load, 1) + "; memory copy " +
-                     digits_text(1e-9 * table.copy_bytes_per_second, 1) + " GB/s"},
-                    {"knead " + machine.version + " (" + machine.commit + "), " + machine.compiler + ", " +
-                     machine.build + "; " + std::to_string(table.threads) +
-                     (table.threads == 1 ? " thread" : " threads") + " and " + table.device},
+    TextTable lines{{machine_text(table.machine)},
+                    {std::to_string(table.threads) + (table.threads == 1 ? " thread" : " threads") + " and " +
+                     table.device + "; memory copy " + digits_text(1e-9 * table.copy_bytes_per_second, 1) +
+                     " GB/s"},
                     {"Medians of " + std::to_string(table.repeats) +
                      " set-ups, each from nothing, and of 30 frames of 3 iterations; the paper: 2.4 GHz, "
                      "GeForce 8800 GTX"},
@@ -162,20 +160,13 @@ std::string table1_text(const Table1& table) {
 }
 
 std::string table1_json(const Table1& table) {
-    const Machine& machine = table.machine;
-    Json json{{"processor", machine.processor},
-              {"cores", machine.cores},
-              {"load", machine.load},
-              {"compiler", machine.compiler},
-              {"build", machine.build},
-              {"version", machine.version},
-              {"commit", machine.commit},
-              {"threads", table.threads},
-              {"device", table.device},
-              {"repeats", table.repeats},
-              {"copy_gigabytes_per_second", 1e-9 * table.copy_bytes_per_second},
-              {"warnings", table.warnings},
-              {"rows", Json::array()}};
+    Json json = machine_json(table.machine);
+    json["threads"] = table.threads;
+    json["device"] = table.device;
+    json["repeats"] = table.repeats;
+    json["copy_gigabytes_per_second"] = 1e-9 * table.copy_bytes_per_second;
+    json["warnings"] = table.warnings;
+    json["rows"] = Json::array();
     for (const Table1Result& result : table.results) json["rows"].push_back(json_of(result));
     return json.dump(2);
 }

@@ -1,5 +1,7 @@
-// knead bench: the paper's Table 1, and how well the window follows the hand, measured on this machine.
+// knead bench: the paper's Table 1, how fast files are loaded and saved, and how well the window follows the
+// hand, measured on this machine.
 
+#include "bench/file_speed.h"
 #include "bench/table1.h"
 #include "cli/commands.h"
 
@@ -17,9 +19,11 @@ namespace knead {
 
 namespace {
 
+constexpr std::size_t points_of_files = 1'000'000;
+
 struct BenchArguments {
     std::vector<std::string> rows;
-    std::string scans, device, window;
+    std::string scans, device, window, files;
     std::size_t repeats = 5;
     unsigned threads = 0;
     bool json = false;
@@ -44,8 +48,17 @@ int run_window_bench(const BenchArguments& /*arguments*/, Terminal& /*terminal*/
 }
 #endif
 
+int run_files_bench(const BenchArguments& arguments, Terminal& terminal) {
+    Workers workers(arguments.threads);
+    const FileSpeed speed =
+        measure_files(arguments.files, points_of_files, arguments.repeats, workers, terminal);
+    terminal.out << (arguments.json ? file_speed_json(speed) + "\n" : file_speed_text(speed));
+    return 0;
+}
+
 int run_bench(const BenchArguments& arguments, Terminal& terminal) {
     if (!arguments.window.empty()) return run_window_bench(arguments, terminal);
+    if (!arguments.files.empty()) return run_files_bench(arguments, terminal);
     const std::vector<Table1Row> rows = rows_named(arguments.rows);
     const Table1Options options{arguments.repeats, arguments.threads, arguments.device,
                                 scan_folders(arguments.scans)};
@@ -60,8 +73,8 @@ int run_bench(const BenchArguments& arguments, Terminal& terminal) {
 void add_bench(CLI::App& app, Job& job) {
     const auto arguments = std::make_shared<BenchArguments>();
     CLI::App* command = app.add_subcommand("bench", "Measure the paper's Table 1 on this machine");
-    command->add_option("ROW", arguments->rows,
-                        "Rows by model or model/samples: dragon, bunny/1000 (default: all)");
+    CLI::Option* rows = command->add_option(
+        "ROW", arguments->rows, "Rows by model or model/samples: dragon, bunny/1000 (default: all)");
     command->add_option("--repeat", arguments->repeats, "How often each cloud is set up (default: 5)")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1000}));
     add_device_options(*command, arguments->device, arguments->threads);
@@ -69,10 +82,19 @@ void add_bench(CLI::App& app, Job& job) {
         ->add_option("--scans", arguments->scans,
                      "The folder of the scans (default: KNEAD_SCANS, then ../shared/scans)")
         ->check(CLI::ExistingDirectory);
-    command->add_option(
+    CLI::Option* window = command->add_option(
         "--window", arguments->window,
         "Instead: open this cloud in the window, drag a handle of it for some seconds, and tell "
         "how old the pose on the screen is");
+    command
+        ->add_option(
+            "--files", arguments->files,
+            "Instead: write a million points in every format into this folder, and tell how fast they are "
+            "loaded and saved beside a copy of the same bytes; nothing stays there")
+        ->check(CLI::ExistingDirectory)
+        ->excludes(rows)
+        ->excludes(window);
+    window->excludes(rows);
     command->add_flag("--json", arguments->json, "Print one JSON object");
     command->callback([arguments, &job] {
         job = [arguments](Terminal& terminal) { return run_bench(*arguments, terminal); };

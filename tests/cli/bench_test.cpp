@@ -46,6 +46,8 @@ TEST(Bench, RefusesAScanThatCannotBeRead) {
 TEST(Bench, RefusesWrongUsage) {
     const std::vector<std::vector<std::string>> wrong = {
         {"bench", "teapot"},
+        {"bench", "--files", ".", "bunny"},
+        {"bench", "--files", ".", "--window", "cloud.ply"},
         {"bench", "--repeat", "0", "bunny"},
         {"bench", "--threads", "0", "bunny"},
         {"bench", "--device", "no such device", "bunny"},

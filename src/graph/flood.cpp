@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
-#include <optional>
+#include <numeric>
 
 namespace knead {
 
@@ -14,14 +15,13 @@ namespace {
 
 constexpr std::uint32_t ring = 64; // levels that can wait at a time: one more than the longest link
 constexpr double levels_a_median_link = 4;
-constexpr std::size_t far_ahead = 16;
-constexpr Index vertices_a_share =
-    256; // neighbours in the order of the vertices are taken by the same worker
+constexpr Index vertices_a_tile = 4096; // their rows and links stay in a core's own cache
 
-// A sample that reaches a vertex.
+// A sample on its way, `distance` levels from where it started when it reaches the vertex.
 struct Arrival {
     Index vertex;
     Index sample;
+    std::uint32_t distance;
 };
 
 // A row of K places: NearestSamples, or as narrow as is needed.
@@ -41,37 +41,48 @@ Places empty_row() {
     return row;
 }
 
-// Whether a sample that arrives at a level would be among the K first.
+// Where the sample stands in the row; its size where it does not.
 template<typename Places>
-bool has_room(const Places& row, Index sample, std::uint32_t level) {
-    if (row.distance.back() < level || (row.distance.back() == level && row.sample.back() < sample))
-        return false;
-    bool there = false;
-    for (const Index held : row.sample) there |= held == sample;
-    return !there;
+std::size_t place_of(const Places& row, Index sample) {
+    std::size_t place = row.sample.size();
+    for (std::size_t k = 0; k < row.sample.size(); ++k)
+        if (row.sample[k] == sample) place = k;
+    return place;
 }
 
-// Puts it there; the last one goes.
 template<typename Places>
-void insert(Places& row, Index sample, std::uint32_t level) {
-    std::size_t at = row.sample.size() - 1;
-    for (; at > 0; --at) {
-        if (row.distance[at - 1] < level || (row.distance[at - 1] == level && row.sample[at - 1] < sample))
-            break;
+bool is_before(const Places& row, std::size_t place, Index sample, std::uint32_t distance) {
+    return row.distance[place] < distance || (row.distance[place] == distance && row.sample[place] < sample);
+}
+
+// Whether putting the sample there would change the row.
+template<typename Places>
+bool has_room(const Places& row, Index sample, std::uint32_t distance) {
+    if (is_before(row, row.sample.size() - 1, sample, distance)) return false;
+    const std::size_t place = place_of(row, sample);
+    return place == row.sample.size() || distance < row.distance[place];
+}
+
+// Puts it there, in place of itself farther away, or of the last one.
+template<typename Places>
+void insert(Places& row, Index sample, std::uint32_t distance) {
+    std::size_t at = std::min(place_of(row, sample), row.sample.size() - 1);
+    for (; at > 0 && !is_before(row, at - 1, sample, distance); --at) {
         row.sample[at] = row.sample[at - 1];
         row.distance[at] = row.distance[at - 1];
     }
     row.sample[at] = sample;
-    row.distance[at] = level;
+    row.distance[at] = distance;
 }
 
-// One flood. A level has two steps, each over many arrivals at once: those that wait for the level are put
-// into the rows of their vertices, and what was gained is sent on along the links, to arrive as many levels
-// later as they are long.
+// One flood. Vertices are numbered so that neighbours have near numbers (PointOrder), and a tile is so many
+// of them in a row. In a round every tile that something arrives at is flooded by one worker, nearest first,
+// as if there were no other; what leaves it arrives elsewhere in the next round.
 //
-// A row holds the first K by (distance, sample) of all that arrived, and levels come in ascending order, so
-// it does not matter in which order the arrivals of a level are put in: the result depends on chance as
-// little as on the workers.
+// So a sample may reach a vertex by a way round before it does by the shortest one, which then takes its
+// place. Distances in a row never grow, and one that is too long cannot push out for good what belongs there:
+// the K that stand before it are no farther than they seem. What remains in the end is the first K by
+// (distance, sample) of all ways, whatever the tiles and the order in which workers took them.
 template<typename Places>
 class Flood {
 public:
@@ -90,100 +101,100 @@ public:
     void run(std::span<const Index> starts, Index first, bool keep_old, Progress& progress) {
         if (keep_old) kept_.assign(graph_.size(), 0);
         {
-            Gathered<Arrival>::Block block(waiting_[0]);
+            Gathered<Arrival>::Block block(leaving_);
             for (std::size_t i = 0; i < starts.size(); ++i)
-                block.push({starts[i], first + static_cast<Index>(i)});
+                block.push({starts[i], first + static_cast<Index>(i), 0});
         }
-        std::uint32_t idle = 0;
-        for (std::uint32_t level = 0; idle < ring; ++level) {
-            Gathered<Arrival>& waiting = waiting_[level % ring];
-            idle = waiting.items().empty() ? idle + 1 : 0;
-            if (idle > 0) continue;
-            if (level % 8 == 0) progress.step("measuring along the surface", 1 - 1 / (1 + 0.01 * level));
-            put_in(waiting.items(), level, keep_old);
-            waiting.clear();
-            send_on(level);
+        for (int round = 0; !leaving_.items().empty(); ++round) {
+            progress.step("measuring along the surface", 1 - 1 / (1 + 0.1 * round));
+            sort_by_tile();
+            leaving_.clear();
+            std::atomic<std::size_t> next = 0;
+            workers_.for_each(std::min<std::size_t>(workers_.threads(), tiles_.size()), 1, [&](std::size_t) {
+                Gathered<Arrival>::Block leaving(leaving_);
+                typename Gathered<OldRow>::Block old(old_rows_);
+                Waiting waiting;
+                for (std::size_t t = next++; t < tiles_.size(); t = next++)
+                    flood_tile(tiles_[t], waiting, leaving, keep_old ? &old : nullptr);
+            });
         }
     }
 
     std::span<const OldRow> old_rows() const { return old_rows_.items(); }
 
 private:
-    // Every worker goes through all arrivals and takes those at vertices of its own share, so no row needs a
-    // lock.
-    void put_in(std::span<const Arrival> arrivals, std::uint32_t level, bool keep_old) {
-        gained_.clear();
-        const Index shares = arrivals.size() < 2048 ? 1 : workers_.threads();
-        workers_.for_each(shares, 1, [&](std::size_t share) {
-            typename Gathered<Arrival>::Block gained(gained_);
-            typename Gathered<OldRow>::Block old(old_rows_);
-            const auto is_own = [&](Index v) { return (v / vertices_a_share) % shares == share; };
-            for (std::size_t i = 0; i < arrivals.size(); ++i) {
-                if (i + far_ahead < arrivals.size() && is_own(arrivals[i + far_ahead].vertex))
-                    prefetch(arrivals[i + far_ahead].vertex);
-                const auto [v, sample] = arrivals[i];
-                if (!is_own(v) || !has_room(rows_[v], sample, level)) continue;
-                if (keep_old && !kept_[v]) {
-                    kept_[v] = 1;
-                    old.push({v, rows_[v]});
-                }
-                insert(rows_[v], sample, level);
-                gained.push(arrivals[i]);
-            }
-        });
-    }
-
-    // Rows change only in put_in(), so here they are read without locks.
-    void send_on(std::uint32_t level) {
-        const std::span<const Arrival> gained = gained_.items();
-        workers_.for_chunks(gained.size(), 1024, [&](std::size_t begin, std::size_t end) {
-            Blocks blocks;
-            std::array<Departure, 256> departures;
-            std::size_t count = 0;
-            const auto depart = [&] {
-                for (std::size_t d = 0; d < count; ++d) put_in_line(departures[d], blocks);
-                count = 0;
-            };
-            for (std::size_t i = begin; i < end; ++i) {
-                if (i + far_ahead < end)
-                    __builtin_prefetch(&graph_.neighbor[graph_.first[gained[i + far_ahead].vertex]]);
-                const Index v = gained[i].vertex;
-                for (Index link = graph_.first[v]; link < graph_.first[v + 1]; ++link) {
-                    prefetch(graph_.neighbor[link]);
-                    departures[count++] = {{graph_.neighbor[link], gained[i].sample}, level + lengths_[link]};
-                    if (count == departures.size()) depart();
-                }
-            }
-            depart();
-        });
-    }
-
-    // On its way: arrives when.
-    struct Departure {
-        Arrival arrival;
-        std::uint32_t when;
+    // What arrives at a tile.
+    struct Tile {
+        Index first_vertex;
+        std::span<Arrival> arriving;
     };
-    using Blocks = std::array<std::optional<typename Gathered<Arrival>::Block>, ring>;
+    // What is on its way inside a tile, by the level at which it goes on.
+    using Waiting = std::array<std::vector<Arrival>, ring>;
 
-    void put_in_line(const Departure& departure, Blocks& blocks) {
-        const auto& [arrival, when] = departure;
-        if (!has_room(rows_[arrival.vertex], arrival.sample, when)) return;
-        auto& block = blocks[when % ring];
-        if (!block) block.emplace(waiting_[when % ring]);
-        block->push(arrival);
+    // Makes `tiles_` of what left tiles in the round before.
+    void sort_by_tile() {
+        const std::span<const Arrival> left = leaving_.items();
+        std::vector<std::size_t> begin(graph_.size() / vertices_a_tile + 2, 0);
+        for (const Arrival& arrival : left) ++begin[arrival.vertex / vertices_a_tile + 1];
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        tiles_.clear();
+        arriving_.resize(left.size());
+        for (std::size_t t = 0; t + 1 < begin.size(); ++t)
+            if (begin[t] < begin[t + 1])
+                tiles_.push_back({static_cast<Index>(t * vertices_a_tile),
+                                  std::span(arriving_).subspan(begin[t], begin[t + 1] - begin[t])});
+        for (const Arrival& arrival : left) arriving_[begin[arrival.vertex / vertices_a_tile]++] = arrival;
     }
 
-    // Fronts run all over the cloud, so the rows they meet are rarely in the cache: they are asked for some
-    // steps ahead.
-    void prefetch(Index v) const { __builtin_prefetch(&rows_[v]); }
+    void flood_tile(const Tile& tile, Waiting& waiting, Gathered<Arrival>::Block& leaving,
+                    Gathered<OldRow>::Block* old) {
+        const Index end = std::min(tile.first_vertex + vertices_a_tile, static_cast<Index>(graph_.size()));
+        std::ranges::sort(tile.arriving, {}, &Arrival::distance);
+        std::size_t arrived = 0, waits = 0;
+        std::uint32_t level = 0;
+        const auto take_in = [&](const Arrival& arrival) {
+            if (!has_room(rows_[arrival.vertex], arrival.sample, arrival.distance)) return;
+            if (old) keep(arrival.vertex, *old);
+            insert(rows_[arrival.vertex], arrival.sample, arrival.distance);
+            waiting[arrival.distance % ring].push_back(arrival);
+            ++waits;
+        };
+        while (waits > 0 || arrived < tile.arriving.size()) {
+            if (waits == 0) level = tile.arriving[arrived].distance;
+            for (; arrived < tile.arriving.size() && tile.arriving[arrived].distance == level; ++arrived)
+                take_in(tile.arriving[arrived]);
+            std::vector<Arrival>& going = waiting[level % ring];
+            waits -= going.size();
+            for (const auto& [v, sample, distance] : going) {
+                const std::size_t place = place_of(rows_[v], sample);
+                if (place == rows_[v].sample.size() || rows_[v].distance[place] != distance) continue;
+                for (Index link = graph_.first[v]; link < graph_.first[v + 1]; ++link) {
+                    const Arrival next{graph_.neighbor[link], sample, distance + lengths_[link]};
+                    if (next.vertex >= tile.first_vertex && next.vertex < end)
+                        take_in(next);
+                    else
+                        leaving.push(next);
+                }
+            }
+            going.clear();
+            ++level;
+        }
+    }
+
+    void keep(Index v, Gathered<OldRow>::Block& old) {
+        if (kept_[v]) return;
+        kept_[v] = 1;
+        old.push({v, rows_[v]});
+    }
 
     std::vector<Places>& rows_;
     const Graph& graph_;
     std::span<const std::uint8_t> lengths_;
     Workers& workers_;
     std::vector<std::uint8_t> kept_; // of each vertex, whether its old row was kept; empty if none are
-    std::array<Gathered<Arrival>, ring> waiting_; // for each of the next levels
-    Gathered<Arrival> gained_;                    // at the level at hand
+    Gathered<Arrival> leaving_;      // in this round, for the next one
+    std::vector<Arrival> arriving_;  // by tile
+    std::vector<Tile> tiles_;
     Gathered<OldRow> old_rows_;
 };
 

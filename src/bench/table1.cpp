@@ -1,6 +1,7 @@
 #include "bench/table1.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/stopwatch.h"
 #include "bench/automatic_handles.h"
 #include "bench/made_cloud.h"
@@ -64,8 +65,12 @@ void measure_set_up(const PointCloud& cloud, const PipelineInput& input, std::si
     std::vector<double> order, neighbors, sampling, geodesic, set_up, factorize;
     for (std::size_t r = 0; r <= repeats; ++r) {
         pipeline.reset();
+        if (r == 0) forget_peak_memory();
+        const std::uint64_t before = resident_memory();
         pipeline = std::make_unique<Pipeline>(cloud, workers, probe);
         pipeline->prepare(input, progress);
+        if (r == 0)
+            figures.memory = peak_memory() - before; // what comes later finds freed memory still resident
         if (r == 0) continue;
         const StageSeconds& seconds = pipeline->seconds();
         order.push_back(seconds.order);

@@ -67,6 +67,8 @@ struct RowFigures {
     Summary solve;    // an iteration: local step, assembly, both solves
     Summary upsample; // a frame: the samples' motions made and all points moved
     UpsampleFigures upsampling;
+    std::uint64_t memory =
+        0; // bytes that the set-up held at most, beyond the cloud; 0 where that is not known
 };
 
 // Sets the cloud up afresh `repeats` times, then bends it by 30° in as many frames with automatic_handles().

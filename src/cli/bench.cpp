@@ -1,7 +1,9 @@
 // knead bench: the paper's Table 1, how fast files are loaded and saved, and how well the window follows the
 // hand, measured on this machine.
 
+#include "base/whole_file.h"
 #include "bench/file_speed.h"
+#include "bench/growth.h"
 #include "bench/table1.h"
 #include "cli/commands.h"
 
@@ -23,7 +25,8 @@ constexpr std::size_t points_of_files = 1'000'000;
 
 struct BenchArguments {
     std::vector<std::string> rows;
-    std::string scans, device, window, files;
+    std::string scans, device, window, files, picture;
+    std::optional<std::size_t> growth; // up to so many points
     std::size_t repeats = 5;
     unsigned threads = 0;
     bool json = false;
@@ -56,13 +59,29 @@ int run_files_bench(const BenchArguments& arguments, Terminal& terminal) {
     return 0;
 }
 
+Table1Options table1_options(const BenchArguments& arguments) {
+    return {arguments.repeats, arguments.threads, arguments.device, scan_folders(arguments.scans)};
+}
+
+int run_growth_bench(const BenchArguments& arguments, Terminal& terminal) {
+    std::optional<FileInTheMaking> picture; // begun first, so that a folder that is not there is told at once
+    if (!arguments.picture.empty()) picture.emplace(arguments.picture);
+    const Growth growth = measure_growth(*arguments.growth, table1_options(arguments), terminal);
+    for (const std::string& words : growth.warnings) terminal.warn(words);
+    if (picture) {
+        picture->write(growth_picture(growth));
+        picture->commit();
+    }
+    terminal.out << (arguments.json ? growth_json(growth) + "\n" : growth_text(growth));
+    return 0;
+}
+
 int run_bench(const BenchArguments& arguments, Terminal& terminal) {
     if (!arguments.window.empty()) return run_window_bench(arguments, terminal);
     if (!arguments.files.empty()) return run_files_bench(arguments, terminal);
+    if (arguments.growth) return run_growth_bench(arguments, terminal);
     const std::vector<Table1Row> rows = rows_named(arguments.rows);
-    const Table1Options options{arguments.repeats, arguments.threads, arguments.device,
-                                scan_folders(arguments.scans)};
-    const Table1 table = measure_table1(rows, options, terminal);
+    const Table1 table = measure_table1(rows, table1_options(arguments), terminal);
     for (const std::string& words : table.warnings) terminal.warn(words);
     terminal.out << (arguments.json ? table1_json(table) + "\n" : table1_text(table));
     return 0;
@@ -86,15 +105,27 @@ void add_bench(CLI::App& app, Job& job) {
         "--window", arguments->window,
         "Instead: open this cloud in the window, drag a handle of it for some seconds, and tell "
         "how old the pose on the screen is");
-    command
-        ->add_option(
-            "--files", arguments->files,
-            "Instead: write a million points in every format into this folder, and tell how fast they are "
-            "loaded and saved beside a copy of the same bytes; nothing stays there")
-        ->check(CLI::ExistingDirectory)
-        ->excludes(rows)
-        ->excludes(window);
+    CLI::Option* files =
+        command
+            ->add_option("--files", arguments->files,
+                         "Instead: write a million points in every format into this folder, and tell how "
+                         "fast they are "
+                         "loaded and saved beside a copy of the same bytes; nothing stays there")
+            ->check(CLI::ExistingDirectory)
+            ->excludes(rows)
+            ->excludes(window);
     window->excludes(rows);
+    CLI::Option* growth =
+        command
+            ->add_option("--growth", arguments->growth,
+                         "Instead: how the stages grow with the points of a plane, from 10,000 up to so many "
+                         "(10000000), and with the samples, from 100 to 100,000")
+            ->check(CLI::Range(std::size_t{10'000}, std::size_t{1'000'000'000}))
+            ->excludes(rows)
+            ->excludes(window)
+            ->excludes(files);
+    command->add_option("--picture", arguments->picture, "With --growth: draw it into this file (SVG)")
+        ->needs(growth);
     command->add_flag("--json", arguments->json, "Print one JSON object");
     command->callback([arguments, &job] {
         job = [arguments](Terminal& terminal) { return run_bench(*arguments, terminal); };

@@ -1,6 +1,7 @@
 #include "edit/replay.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/stopwatch.h"
 #include "base/temporary_folder.h"
 #include "base/whole_file.h"
@@ -10,8 +11,6 @@
 
 #include <algorithm>
 #include <cstdio>
-
-#include <sys/resource.h>
 
 namespace knead {
 
@@ -28,12 +27,6 @@ double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::ranges::nth_element(values, middle);
     return *middle;
-}
-
-std::uint64_t peak_memory() {
-    struct rusage usage {};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 // What a `set` line changes where these overrides win. A key that the line does not have stays away: a line

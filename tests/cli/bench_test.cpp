@@ -47,6 +47,9 @@ TEST(Bench, RefusesWrongUsage) {
     const std::vector<std::vector<std::string>> wrong = {
         {"bench", "teapot"},
         {"bench", "--files", ".", "bunny"},
+        {"bench", "--growth", "10000", "bunny"},
+        {"bench", "--growth", "9999"},
+        {"bench", "--picture", "growth.svg"},
         {"bench", "--files", ".", "--window", "cloud.ply"},
         {"bench", "--repeat", "0", "bunny"},
         {"bench", "--threads", "0", "bunny"},

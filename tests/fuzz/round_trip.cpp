@@ -48,7 +48,7 @@ bool same_bits(double a, double b) {
 double rounded_to(ScalarType type, double value) {
     if (type == ScalarType::float64) return value;
     if (type == ScalarType::float32) return static_cast<double>(static_cast<float>(value));
-    return std::nearbyint(value);
+    return std::nearbyint(value) + 0.0; // whole numbers know no -0
 }
 
 void require_same_column(const Attribute& before, const Attribute& after) {

@@ -1,0 +1,79 @@
+// The growth of the stages as text and as JSON.
+
+#include "bench/growth.h"
+#include "bench/report.h"
+
+namespace knead {
+
+namespace {
+
+void add_rows(std::span<const RowFigures> rows, std::size_t RowFigures::*size, TextTable& table) {
+    for (const RowFigures& row : rows) {
+        std::vector<std::string> line{count_text(row.points), count_text(row.samples)};
+        for (const Stage& stage : growth_stages()) line.push_back(duration_text((row.*stage.seconds).median));
+        line.push_back(
+            row.memory == 0
+                ? unknown_text
+                : digits_text(static_cast<double>(row.memory) / static_cast<double>(row.points), 0));
+        table.push_back(line);
+    }
+    std::vector<std::string> exponents{"exponent", ""};
+    for (const Stage& stage : growth_stages()) {
+        const std::optional<double> exponent = fitted_exponent(rows, size, stage);
+        exponents.push_back(exponent ? digits_text(*exponent, 2) : unknown_text);
+    }
+    table.push_back(exponents);
+}
+
+ReportJson json_of(std::span<const RowFigures> rows, std::size_t RowFigures::*size) {
+    ReportJson json{{"rows", ReportJson::array()}, {"exponents", ReportJson::object()}};
+    for (const RowFigures& row : rows) {
+        ReportJson seconds;
+        for (const Stage& stage : growth_stages()) {
+            const Summary& summary = row.*stage.seconds;
+            seconds[stage.name] = {
+                {"median", summary.median}, {"min", summary.lowest}, {"max", summary.highest}};
+        }
+        json["rows"].push_back({{"points", row.points},
+                                {"samples", row.samples},
+                                {"seconds", seconds},
+                                {"memory_bytes", row.memory}});
+    }
+    for (const Stage& stage : growth_stages()) {
+        const std::optional<double> exponent = fitted_exponent(rows, size, stage);
+        json["exponents"][stage.name] = exponent ? ReportJson(*exponent) : ReportJson();
+    }
+    return json;
+}
+
+} // namespace
+
+std::string growth_text(const Growth& growth) {
+    std::vector<std::string> heading{"points", "samples"};
+    for (const Stage& stage : growth_stages()) heading.emplace_back(stage.name);
+    heading.emplace_back("bytes a point");
+    TextTable table{
+        {machine_text(growth.machine)},
+        {std::to_string(growth.threads) + (growth.threads == 1 ? " thread" : " threads") + " and " +
+         growth.device},
+        {"Bytes a point: what the set-up held at most, beyond the cloud. Exponent: of the power law that "
+         "fits best."},
+        {""},
+        heading};
+    add_rows(growth.by_points, &RowFigures::points, table);
+    table.push_back({""});
+    add_rows(growth.by_samples, &RowFigures::samples, table);
+    return format_table(table);
+}
+
+std::string growth_json(const Growth& growth) {
+    ReportJson json = machine_json(growth.machine);
+    json["threads"] = growth.threads;
+    json["device"] = growth.device;
+    json["warnings"] = growth.warnings;
+    json["by_points"] = json_of(growth.by_points, &RowFigures::points);
+    json["by_samples"] = json_of(growth.by_samples, &RowFigures::samples);
+    return json.dump(2);
+}
+
+} // namespace knead

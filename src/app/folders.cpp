@@ -2,6 +2,7 @@
 
 #include "app/file_browser.h"
 
+#include "base/lower_case.h"
 #include "io/cloud_file.h"
 
 #include <algorithm>
@@ -12,14 +13,8 @@ namespace knead {
 
 namespace {
 
-std::string in_lower_case(std::string text) {
-    for (char& letter : text)
-        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-    return text;
-}
-
 std::string extension_of(const std::filesystem::path& file) {
-    return in_lower_case(file.extension().string());
+    return lower_case(file.extension().string());
 }
 
 bool is_cloud(const std::filesystem::path& file) {
@@ -31,7 +26,7 @@ bool is_session(const std::filesystem::path& file) {
 
 bool by_name(const FolderEntry& a, const FolderEntry& b) {
     if (a.is_folder != b.is_folder) return a.is_folder;
-    const std::string first = in_lower_case(a.name), second = in_lower_case(b.name);
+    const std::string first = lower_case(a.name), second = lower_case(b.name);
     return first != second ? first < second : a.name < b.name;
 }
 

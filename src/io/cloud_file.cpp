@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -15,17 +14,6 @@
 namespace knead {
 
 namespace {
-
-// None of what cannot be read.
-std::vector<std::byte> first_bytes_of(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) return {};
-    std::vector<char> text(first_bytes_size);
-    std::ifstream file(path, std::ios::binary);
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    const auto bytes = std::as_bytes(std::span(text).first(static_cast<std::size_t>(file.gcount())));
-    return {bytes.begin(), bytes.end()};
-}
 
 // --- What the user should hear -----------------------------------------------------------------------------
 
@@ -78,13 +66,13 @@ const Format& format_to_write(const std::filesystem::path& path) {
 } // namespace
 
 PointCloud read_cloud(const std::filesystem::path& path, Progress& progress) {
-    const auto first_bytes = first_bytes_of(path);
+    const std::string first_bytes = first_bytes_of_file(path, first_bytes_size);
     // What has no first bytes is left to the reader of whole files, which knows why.
     if (first_bytes.empty()) {
         (void)read_whole_file(path, progress);
         throw Error(Trouble::input, path.string(), "is empty; it holds no cloud");
     }
-    const Format& format = format_to_read(path, first_bytes);
+    const Format& format = format_to_read(path, std::as_bytes(std::span(first_bytes)));
     PointCloud cloud = format.read(read_whole_file(path, progress), path.string(), progress);
     add_remarks(cloud);
     return cloud;
@@ -107,7 +95,8 @@ std::vector<std::string> write_cloud(const std::filesystem::path& path, const Po
             left_out.emplace_back(
                 "the view-dependent colours (f_rest_0 …) do not turn with the splats, since "
                 "they are not the 9, 24 or 45 columns that knead knows how to turn");
-    for (std::string& words : left_out) words = path.filename().string() + ": " + words;
+    const std::string begin = path.filename().string() + ": ";
+    for (std::string& words : left_out) words.insert(0, begin);
     return left_out;
 }
 

@@ -1,11 +1,12 @@
 #include "io/format.h"
+
+#include "base/lower_case.h"
 #include "io/las.h"
 #include "io/obj.h"
 #include "io/off.h"
 #include "io/pcd.h"
 #include "io/ply.h"
 #include "io/table.h"
-#include "io/text_numbers.h"
 
 #include <algorithm>
 #include <array>

@@ -18,10 +18,6 @@ constexpr std::size_t largest_16_bits = std::numeric_limits<std::uint16_t>::max(
                 "columns cannot be added, since " + reason + "; save it as .ply, or without them");
 }
 
-void put_text(std::vector<std::byte>& bytes, std::size_t at, std::string_view text, std::size_t size) {
-    std::memcpy(bytes.data() + at, text.data(), std::min(text.size(), size));
-}
-
 // Bytes at the end of a point that no entry describes come before the added ones, and so do their entries.
 std::vector<std::byte> undescribed_bytes(std::size_t count) {
     std::vector<std::byte> entries;
@@ -81,16 +77,16 @@ void move_place(std::vector<std::byte>& head, std::size_t at, const LasHeader& h
 std::vector<std::byte> las_descriptor(std::string_view name, ScalarType type) {
     std::vector<std::byte> entry(las_descriptor_size);
     entry[2] = static_cast<std::byte>(las_type_code(type));
-    put_text(entry, 4, name, 32);
+    store_text(name.substr(0, 32), entry, 4);
     return entry;
 }
 
 std::vector<std::byte> las_extra_bytes_record(std::size_t size) {
     std::vector<std::byte> record(las_record_header);
-    put_text(record, 2, "LASF_Spec", 16);
+    store_text("LASF_Spec", record, 2);
     store_little<std::uint16_t>(4, record, 18);
     store_little(static_cast<std::uint16_t>(size), record, 20);
-    put_text(record, 22, "Extra bytes", 32);
+    store_text("Extra bytes", record, 22);
     return record;
 }
 

@@ -94,10 +94,6 @@ void count_returns(NewFile& file) {
     file.by_return[0] = file.points; // one return each, where the cloud says nothing of them
 }
 
-void put_text(std::span<std::byte> bytes, std::size_t at, std::string_view text) {
-    std::memcpy(bytes.data() + at, text.data(), text.size());
-}
-
 void put_counts(const NewFile& file, std::span<std::byte> head) {
     const bool legacy = file.plan.point_format <= 5; // the others leave the old places empty
     if (legacy) {
@@ -116,13 +112,13 @@ std::vector<std::byte> head_of(const NewFile& file) {
     const LasPlan& plan = file.plan;
     const std::size_t header_size = plan.minor == 4 ? las_header_size_1_4 : las_header_size_1_2;
     std::vector<std::byte> head(header_size);
-    put_text(head, 0, "LASF");
+    store_text("LASF", head, 0);
     // Points of the formats from 6 on ask for the bit that coordinate systems are told as WKT.
     if (plan.point_format >= 6) store_little<std::uint16_t>(16, head, las_at::global_encoding);
     store_little<std::uint8_t>(1, head, las_at::version_major);
     store_little(static_cast<std::uint8_t>(plan.minor), head, las_at::version_minor);
-    put_text(head, las_at::system, "OTHER");
-    put_text(head, las_at::software, "knead");
+    store_text("OTHER", head, las_at::system);
+    store_text("knead", head, las_at::software);
     store_little(static_cast<std::uint16_t>(header_size), head, las_at::header_size);
     store_little(static_cast<std::uint8_t>(plan.point_format), head, las_at::point_format);
     store_little(static_cast<std::uint16_t>(plan.point_length), head, las_at::point_length);

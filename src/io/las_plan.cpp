@@ -1,21 +1,15 @@
 #include "io/las_plan.h"
 
+#include "base/lower_case.h"
 #include "io/text_numbers.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 
 namespace knead {
 
 namespace {
-
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return text;
-}
 
 bool is_colour(std::string_view name) {
     return name == "red" || name == "green" || name == "blue";

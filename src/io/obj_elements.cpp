@@ -45,7 +45,8 @@ struct SoFar {
 
 class ElementReader {
 public:
-    ElementReader(const ObjImage& image, const std::string& shown) : image_(image), shown_(shown) {
+    ElementReader(const ObjImage& image, const std::string& shown)
+        : image_(image), source_{image.bytes, shown} {
         if (image.counts.normals == 0) return;
         owners_.point_of_normal.assign(image.counts.normals, no_index);
         owners_.normal_of_point.assign(image.counts.points, no_index);
@@ -108,15 +109,10 @@ private:
         return value > 0 ? static_cast<std::size_t>(value) - 1 : so_far - static_cast<std::size_t>(-value);
     }
 
-    [[noreturn]] void fail(const std::string& words) const {
-        const auto at =
-            static_cast<std::size_t>(word_.data() - reinterpret_cast<const char*>(image_.bytes.data()));
-        throw Error(Trouble::input, shown_ + ":" + std::to_string(line_of(image_.bytes, at)),
-                    in_quotes(word_) + " " + words);
-    }
+    [[noreturn]] void fail(const std::string& words) const { source_.fail(word_, words); }
 
     const ObjImage& image_;
-    const std::string& shown_;
+    StatementSource source_;
     Owners owners_;
     std::size_t corners_with_normals_ = 0;
     std::string_view word_; // for messages

@@ -46,23 +46,23 @@ private:
 // Takes in the statements that hold numbers of points.
 class VertexReader {
 public:
-    VertexReader(std::span<const std::byte> bytes, const std::string& shown) : bytes_(bytes), shown_(shown) {}
+    VertexReader(std::span<const std::byte> bytes, const std::string& shown) : source_{bytes, shown} {}
 
     void vertex(TextStatements& statements) {
         const std::size_t point = coordinates_.points();
-        if (point >= no_index - 1) fail(statements.keyword(), "is one vertex more than knead takes");
+        if (point >= no_index - 1) source_.fail(statements.keyword(), "is one vertex more than knead takes");
         std::array<float, 4> more{};
         std::size_t numbers = 0;
         while (const auto word = statements.word()) {
             if (numbers < 3)
-                coordinates_.add(numbers, parsed<double>(*word, ScalarType::float64), *word);
+                coordinates_.add(numbers, source_.number(*word), *word);
             else if (numbers < 7)
-                more[numbers - 3] = parsed<float>(*word, ScalarType::float32);
+                more[numbers - 3] = source_.float_number(*word);
             ++numbers;
         }
         if (numbers < 3)
-            fail(statements.keyword(),
-                 "is a vertex of " + std::to_string(numbers) + " numbers; a vertex has x, y and z");
+            source_.fail(statements.keyword(),
+                         "is a vertex of " + std::to_string(numbers) + " numbers; a vertex has x, y and z");
         if (numbers == 4 || numbers == 7) weight_.set(point, more[0]);
         if (numbers == 6 || numbers == 7)
             for (std::size_t channel = 0; channel < 3; ++channel)
@@ -73,12 +73,12 @@ public:
     void normal(TextStatements& statements) {
         std::size_t numbers = 0;
         while (const auto word = statements.word()) {
-            if (numbers < 3) normals_.push_back(parsed<float>(*word, ScalarType::float32));
+            if (numbers < 3) normals_.push_back(source_.float_number(*word));
             ++numbers;
         }
         if (numbers != 3)
-            fail(statements.keyword(),
-                 "is a normal of " + std::to_string(numbers) + " numbers; a normal has x, y and z");
+            source_.fail(statements.keyword(),
+                         "is a normal of " + std::to_string(numbers) + " numbers; a normal has x, y and z");
     }
 
     void finish(const ObjImage& image, PointCloud& cloud) {
@@ -108,23 +108,7 @@ private:
         }
     }
 
-    template<typename Real>
-    Real parsed(std::string_view word, ScalarType type) const {
-        TextCursor text{word.data(), word.data() + word.size()};
-        Real value{};
-        if (!parse_scalar(text, type, reinterpret_cast<std::byte*>(&value)) || text.at != text.end)
-            fail(word, "is no number; correct it");
-        return value;
-    }
-
-    [[noreturn]] void fail(std::string_view word, const std::string& words) const {
-        const auto at = static_cast<std::size_t>(word.data() - reinterpret_cast<const char*>(bytes_.data()));
-        throw Error(Trouble::input, shown_ + ":" + std::to_string(line_of(bytes_, at)),
-                    in_quotes(word) + " " + words);
-    }
-
-    std::span<const std::byte> bytes_;
-    const std::string& shown_;
+    StatementSource source_;
     TextCoordinates coordinates_;
     OptionalColumn weight_{"weight"};
     std::array<OptionalColumn, 3> colour_ = {OptionalColumn{"red"}, OptionalColumn{"green"},

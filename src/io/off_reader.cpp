@@ -46,7 +46,8 @@ std::optional<Keyword> parse_keyword(std::string_view word) {
 class OffReader {
 public:
     OffReader(OffImage& image, const std::string& shown, Progress& progress)
-        : image_(image), shown_(shown), progress_(progress), rows_(image.bytes) {}
+        : image_(image), shown_(shown), source_{image.bytes, shown}, progress_(progress), rows_(image.bytes) {
+    }
 
     void read_header() {
         if (!rows_.next()) refuse("holds no counts of vertices and faces");
@@ -173,9 +174,9 @@ private:
                                           std::to_string(number) + " numbers; it needs " +
                                           std::to_string(3 + columns_.size()) + " on one line");
             if (number < 3)
-                coordinates_.add(number, parsed<double>(*word, ScalarType::float64), *word);
+                coordinates_.add(number, source_.number(*word), *word);
             else
-                columns_[number - 3].values.push_back(parsed<float>(*word, ScalarType::float32));
+                columns_[number - 3].values.push_back(source_.float_number(*word));
         }
         if (word) ++odd_;
     }
@@ -200,15 +201,6 @@ private:
         }
     }
 
-    template<typename Real>
-    Real parsed(std::string_view word, ScalarType type) const {
-        TextCursor text{word.data(), word.data() + word.size()};
-        Real value{};
-        if (!parse_scalar(text, type, reinterpret_cast<std::byte*>(&value)) || text.at != text.end)
-            fail(word, "is no number; correct it");
-        return value;
-    }
-
     std::size_t count(std::string_view word) const {
         std::size_t value = 0;
         const auto [end, trouble] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -220,14 +212,12 @@ private:
     [[noreturn]] void refuse(const std::string& words) const { throw Error(Trouble::input, shown_, words); }
 
     [[noreturn]] void fail(std::string_view word, const std::string& words) const {
-        const auto at =
-            static_cast<std::size_t>(word.data() - reinterpret_cast<const char*>(image_.bytes.data()));
-        throw Error(Trouble::input, shown_ + ":" + std::to_string(line_of(image_.bytes, at)),
-                    in_quotes(word) + " " + words);
+        source_.fail(word, words);
     }
 
     OffImage& image_;
     const std::string& shown_;
+    StatementSource source_;
     Progress& progress_;
     TextStatements rows_;
     Keyword keyword_;

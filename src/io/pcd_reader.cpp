@@ -2,7 +2,7 @@
 #include "io/lzf.h"
 #include "io/pcd.h"
 #include "io/scalar_bytes.h"
-#include "io/text_numbers.h"
+#include "io/text_rows.h"
 
 #include <algorithm>
 #include <bit>
@@ -165,80 +165,22 @@ void read_compressed(PcdImage& image, const std::string& shown, std::vector<Attr
     image.body_end = static_cast<std::size_t>(stream.data() + stream.size() - image.bytes.data());
 }
 
-// The rows of a text: the cursor, and the words for what is wrong with them.
-class Rows {
-public:
-    Rows(const PcdImage& image, const std::string& shown) : image_(image), shown_(shown) {
-        const char* const text = reinterpret_cast<const char*>(image.bytes.data());
-        text_ = {text + image.header.body, text + image.bytes.size()};
-    }
-
-    void begin(std::uint64_t point) {
-        point_ = point;
-        if (!find_row(text_))
-            fail("is missing: the file ends before it, though the header promises " +
-                 std::to_string(image_.header.points) +
-                 " points; the file is cut off or its header lies, get it again from its source");
-    }
-
-    void number(const PcdField& field, std::byte* to) {
-        to_word(field);
-        if (!parse_scalar(text_, field.type, to))
-            fail("has " + word() + " for the field " + in_quotes(field.name) + ", which is no " +
-                 std::string(name_of(field.type)) + "; correct the value or the field's type");
-    }
-
-    void pass_over(const PcdField& field) {
-        to_word(field);
-        text_.at = word_end(text_);
-    }
-
-    void end() {
-        if (find_word(text_))
-            fail("has more numbers than the header has fields, from " + word() +
-                 " on; correct the line or the header");
-    }
-
-    std::size_t at() const {
-        return static_cast<std::size_t>(text_.at - reinterpret_cast<const char*>(image_.bytes.data()));
-    }
-
-private:
-    void to_word(const PcdField& field) {
-        if (!find_word(text_))
-            fail("ends before the field " + in_quotes(field.name) +
-                 "; a point is one line with a number for each field");
-    }
-
-    std::string word() const { return in_quotes({text_.at, word_end(text_)}); }
-
-    [[noreturn]] void fail(const std::string& words) const {
-        const std::size_t line = line_of(image_.bytes, std::min(at(), image_.bytes.size() - 1));
-        throw Error(Trouble::input, shown_ + ":" + std::to_string(line),
-                    "point " + std::to_string(point_) + " " + words);
-    }
-
-    const PcdImage& image_;
-    const std::string& shown_;
-    TextCursor text_;
-    std::uint64_t point_ = 0;
-};
-
 void read_ascii(PcdImage& image, const std::string& shown, std::vector<Attribute>& columns,
                 Progress& progress) {
     const PcdHeader& header = image.header;
-    Rows rows(image, shown);
+    TextRows rows(image.bytes, header.body, shown, {"point", "points", "field", "fields"});
     for (std::uint64_t point = 0; point < header.points; ++point) {
         report(progress, point, header);
-        rows.begin(point);
+        rows.begin(point, header.points);
         for (std::size_t f = 0; f < columns.size(); ++f) {
             const PcdField& field = header.fields[f];
             const std::size_t size = size_of(field.type);
             for (std::uint32_t k = 0; k < field.count; ++k)
                 if (field.is_padding())
-                    rows.pass_over(field);
+                    rows.pass_over(field.name);
                 else
-                    rows.number(field, columns[f].values.data() + point * field.bytes() + k * size);
+                    rows.number(field.name, field.type,
+                                columns[f].values.data() + point * field.bytes() + k * size);
         }
         rows.end();
     }

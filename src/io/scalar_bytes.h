@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstring>
 #include <span>
+#include <string_view>
 
 namespace knead {
 
@@ -32,6 +33,11 @@ template<typename T>
 void store_little(T value, std::span<std::byte> bytes, std::size_t at) {
     copy_scalar(reinterpret_cast<const std::byte*>(&value), sizeof value,
                 std::endian::native == std::endian::big, bytes.data() + at);
+}
+
+// Copies a text to a place in a file's bytes, which must have room for it.
+inline void store_text(std::string_view text, std::span<std::byte> bytes, std::size_t at) {
+    std::memcpy(bytes.data() + at, text.data(), text.size());
 }
 
 // Copies one scalar of `size` bytes out of each of `rows` records, `stride` bytes apart, into a column.

@@ -1,6 +1,7 @@
 #include "io/table_layout.h"
 
 #include "base/error.h"
+#include "base/lower_case.h"
 #include "io/table_rows.h"
 #include "io/text_numbers.h"
 
@@ -68,10 +69,8 @@ std::size_t remark_in(std::string_view line) {
 bool is_number(std::string_view word, char separator) {
     std::string text(word);
     if (separator == ';') std::replace(text.begin(), text.end(), ',', '.');
-    TextCursor cursor{text.data(), text.data() + text.size()};
     std::array<std::byte, 8> ignored{};
-    return !text.empty() && parse_scalar(cursor, ScalarType::float64, ignored.data()) &&
-           cursor.at == cursor.end;
+    return parse_word(text, ScalarType::float64, ignored.data());
 }
 
 bool is_count(const Fields& fields) {
@@ -223,10 +222,7 @@ private:
         layout_.decimal_comma = first != std::string_view::npos && text_[first] == ',';
     }
 
-    [[noreturn]] void fail(const std::string& words) const {
-        const std::size_t line = bytes_.empty() ? 1 : line_of(bytes_, std::min(at_, bytes_.size() - 1));
-        throw Error(Trouble::input, shown_ + ":" + std::to_string(line), words);
-    }
+    [[noreturn]] void fail(const std::string& words) const { fail_at(bytes_, at_, shown_, words); }
 
     std::span<const std::byte> bytes_;
     std::string_view text_;
@@ -243,7 +239,7 @@ std::optional<std::size_t> axis_of(std::string_view name) {
     constexpr std::array<std::array<std::string_view, 2>, 3> names = {
         {{"x", "points:0"}, {"y", "points:1"}, {"z", "points:2"}}};
     if (name.empty() || name.size() > names[0][1].size()) return std::nullopt;
-    const std::string lower = lower_case(name);
+    const std::string lower = lower_case(std::string(name));
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (std::find(names[axis].begin(), names[axis].end(), lower) != names[axis].end()) return axis;
     return std::nullopt;

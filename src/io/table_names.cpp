@@ -1,6 +1,6 @@
 #include "io/table_names.h"
 
-#include "io/text_numbers.h"
+#include "base/lower_case.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ constexpr std::array<Spelling, 8> spellings = {{
 std::string standard_name(std::string_view name) {
     constexpr std::array<std::string_view, 3> axes = {"x", "y", "z"};
     if (const auto axis = axis_of(name)) return std::string(axes[*axis]);
-    const std::string lower = lower_case(name);
+    const std::string lower = lower_case(std::string(name));
     for (const Spelling& spelling : spellings)
         if (std::find(spelling.others.begin(), spelling.others.end(), lower) != spelling.others.end())
             return std::string(spelling.standard);

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "base/lower_case.h"
 #include "base/types.h"
 #include "io/table.h"
 #include "io/table_names.h"
@@ -84,8 +85,7 @@ private:
             std::replace(swapped_.begin(), swapped_.end(), ',', '.');
             word = swapped_;
         }
-        TextCursor text{word.data(), word.data() + word.size()};
-        return parse_scalar(text, ScalarType::float64, to) && text.at == text.end;
+        return parse_word(word, ScalarType::float64, to);
     }
 
     std::string column_name(std::size_t c) const {
@@ -108,8 +108,7 @@ private:
     }
 
     [[noreturn]] void fail(const std::string& words) const {
-        const std::size_t line = line_of(image_.bytes, std::min(rows_.at(), image_.bytes.size() - 1));
-        throw Error(Trouble::input, shown_ + ":" + std::to_string(line), words);
+        fail_at(image_.bytes, rows_.at(), shown_, words);
     }
 
     const TableImage& image_;

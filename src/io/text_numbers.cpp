@@ -1,11 +1,11 @@
 #include "io/text_numbers.h"
 
+#include "base/error.h"
 #include "base/require.h"
 
 #include <fast_float/fast_float.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -98,6 +98,11 @@ bool parse_scalar(TextCursor& text, ScalarType type, std::byte* to) {
     return false;
 }
 
+bool parse_word(std::string_view word, ScalarType type, std::byte* to) {
+    TextCursor text{word.data(), word.data() + word.size()};
+    return parse_scalar(text, type, to) && text.at == text.end;
+}
+
 std::size_t print_scalar(double value, ScalarType type, std::span<char> to) {
     const auto print = [to](auto typed) {
         const auto [end, trouble] = std::to_chars(to.data(), to.data() + to.size(), typed);
@@ -119,18 +124,17 @@ std::size_t line_of(std::span<const std::byte> bytes, std::size_t at) {
     return line;
 }
 
+void fail_at(std::span<const std::byte> bytes, std::size_t at, const std::string& shown,
+             const std::string& words) {
+    const std::size_t line = bytes.empty() ? 1 : line_of(bytes, std::min(at, bytes.size() - 1));
+    throw Error(Trouble::input, shown + ":" + std::to_string(line), words);
+}
+
 std::string in_quotes(std::string_view text) {
     constexpr std::size_t longest = 40;
     std::string shown = "'";
     for (const char letter : text.substr(0, longest)) shown += letter >= ' ' && letter <= '~' ? letter : '?';
     return shown + (text.size() > longest ? "…'" : "'");
-}
-
-std::string lower_case(std::string_view text) {
-    std::string lower(text);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return lower;
 }
 
 } // namespace knead

@@ -17,6 +17,9 @@ namespace knead {
 // out of range becomes the nearest that there is.
 bool parse_scalar(TextCursor& text, ScalarType type, std::byte* to);
 
+// The same for a word with nothing behind it; false where not all of it is the number.
+bool parse_word(std::string_view word, ScalarType type, std::byte* to);
+
 // Prints the shortest text that reads back as this value of this type, into 64 characters at least; how many
 // it took.
 std::size_t print_scalar(double value, ScalarType type, std::span<char> to);
@@ -24,10 +27,12 @@ std::size_t print_scalar(double value, ScalarType type, std::span<char> to);
 // The line that holds the byte `at`, from 1; `at` is within the file. Lines end in \n, \r\n or a lone \r.
 std::size_t line_of(std::span<const std::byte> bytes, std::size_t at);
 
+// Throws Error (input) for the line that holds the byte `at`, or for the last one where that is the end of
+// the file: "scan.xyz:12: words". `shown` names the file.
+[[noreturn]] void fail_at(std::span<const std::byte> bytes, std::size_t at, const std::string& shown,
+                          const std::string& words);
+
 // Text of a file for a message: printable, in quotes, and not too long.
 std::string in_quotes(std::string_view text);
-
-// Text in lower case, as far as its letters are those of ASCII.
-std::string lower_case(std::string_view text);
 
 } // namespace knead

@@ -1,5 +1,7 @@
 #include "io/text_statements.h"
 
+#include "io/text_numbers.h"
+
 namespace knead {
 
 TextStatements::TextStatements(std::span<const std::byte> bytes)
@@ -44,6 +46,25 @@ bool TextStatements::next() {
         }
     }
     return false;
+}
+
+double StatementSource::number(std::string_view word) const {
+    double value = 0;
+    if (!parse_word(word, ScalarType::float64, reinterpret_cast<std::byte*>(&value)))
+        fail(word, "is no number; correct it");
+    return value;
+}
+
+float StatementSource::float_number(std::string_view word) const {
+    float value = 0;
+    if (!parse_word(word, ScalarType::float32, reinterpret_cast<std::byte*>(&value)))
+        fail(word, "is no number; correct it");
+    return value;
+}
+
+void StatementSource::fail(std::string_view word, const std::string& words) const {
+    const auto at = static_cast<std::size_t>(word.data() - reinterpret_cast<const char*>(bytes.data()));
+    fail_at(bytes, at, shown, in_quotes(word) + " " + words);
 }
 
 } // namespace knead

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace knead {
@@ -39,6 +40,19 @@ private:
     TextCursor text_;
     std::string_view keyword_;
     bool begun_ = false; // whether there is a statement, of which a rest may be left
+};
+
+// A text that statements come from, for what its words say. Both must outlive it.
+struct StatementSource {
+    std::span<const std::byte> bytes;
+    const std::string& shown; // the file's name, for errors
+
+    // The number that a word of the text is. Throws as fail() where it is none.
+    double number(std::string_view word) const;
+    float float_number(std::string_view word) const;
+
+    // Throws Error (input) for the word's line, with the word in front of these: "'five' is no number".
+    [[noreturn]] void fail(std::string_view word, const std::string& words) const;
 };
 
 } // namespace knead

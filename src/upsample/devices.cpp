@@ -3,21 +3,16 @@
 #include "upsample/devices.h"
 
 #include "base/error.h"
+#include "base/lower_case.h"
 #include "upsample/opencl_devices.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <utility>
 
 namespace knead {
 
 namespace {
-
-std::string in_lower_case(std::string text) {
-    for (char& letter : text) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-    return text;
-}
 
 bool is_number(const std::string& text) {
     return !text.empty() &&
@@ -41,10 +36,10 @@ std::size_t device_numbered(const std::string& request, const std::vector<Device
 }
 
 std::size_t device_called(const std::string& request, const std::vector<DeviceDescription>& devices) {
-    const std::string wanted = in_lower_case(request);
+    const std::string wanted = lower_case(request);
     std::vector<std::size_t> fitting;
     for (std::size_t i = 0; i < devices.size(); ++i)
-        if (in_lower_case(devices[i].name).find(wanted) != std::string::npos) fitting.push_back(i);
+        if (lower_case(devices[i].name).find(wanted) != std::string::npos) fitting.push_back(i);
     if (fitting.empty()) refuse(request, "no device has this in its name", devices);
     if (fitting.size() > 1) refuse(request, "several devices have this in their names", devices);
     return fitting.front();
@@ -80,7 +75,7 @@ std::vector<DeviceDescription> list_devices() {
 }
 
 UpsamplerChoice make_upsampler(const std::string& request, Workers& workers, unsigned threads) {
-    const std::string wanted = in_lower_case(request);
+    const std::string wanted = lower_case(request);
     if (wanted == "reference") return {make_reference_upsampler(workers), {}};
     const std::vector<DeviceDescription> devices = list_devices();
     if (wanted.empty() || wanted == "auto") {

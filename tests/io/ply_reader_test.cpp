@@ -142,7 +142,7 @@ TEST(PlyReader, refuses_bad_rows_by_file_and_line) {
     const std::map<std::string, std::string> words = {
         {"1.0 2.0 3.0\n4.0 5.0\n", "cloud.ply:9: vertex row 1 ends before the property 'z'"},
         {"1 2 3 4\n4 5 6\n",
-         "cloud.ply:8: vertex row 0 has more values than the header has properties, from '4'"},
+         "cloud.ply:8: vertex row 0 has more numbers than the header has properties, from '4'"},
         {"1.0 2.0 3.0\n", "cloud.ply:8: vertex row 1 is missing"},
         {"1 2 3\n4 five 6\n",
          "cloud.ply:9: vertex row 1 has 'five' for the property 'y', which is no float32"},

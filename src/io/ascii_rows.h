@@ -1,6 +1,8 @@
 #pragma once
-// Words and rows of text, as ascii PLY has them: one row a line, empty lines between rows passed over.
+// Words and rows of text, for the readers and writers of all formats that have some: blanks part words, a row
+// is a line, and empty lines between rows are passed over. Lines end in \n, \r or both.
 
+#include <cstddef>
 #include <string_view>
 
 namespace knead {
@@ -35,6 +37,11 @@ inline const char* word_end(const TextCursor& text) {
     const char* at = text.at;
     while (at != text.end && !is_blank(*at) && !is_line_end(*at)) ++at;
     return at;
+}
+
+// The word that begins at text.at.
+inline std::string_view word_at(const TextCursor& text) {
+    return {text.at, static_cast<std::size_t>(word_end(text) - text.at)};
 }
 
 } // namespace knead

@@ -86,7 +86,10 @@ void refuse_bad_target(const std::filesystem::path& path) {
 std::vector<std::string> write_cloud(const std::filesystem::path& path, const PointCloud& cloud,
                                      const PosedShape& shape, Progress& progress) {
     const Format& format = format_to_write(path);
-    std::vector<std::string> left_out = format.write(path, cloud, shape, progress);
+    FileInTheMaking file(path);
+    std::vector<std::string> left_out = format.write(file, cloud, shape, path.string(), progress);
+    progress.stop_if_cancelled();
+    file.commit();
     if (cloud.image && cloud.image->format() != format.name)
         for (const std::string& what : cloud.image->besides_points())
             left_out.push_back("what only the file's own format keeps is left out: " + what);

@@ -2,6 +2,7 @@
 // What a file format is to the rest of this room. Each format has files of its own; formats.cpp holds the
 // table.
 
+#include "base/whole_file.h"
 #include "io/cloud_file.h"
 
 #include <cstddef>
@@ -26,9 +27,11 @@ struct Format {
     // (input) that names the file, the place in it and the cure.
     PointCloud (*read)(std::vector<std::byte> bytes, const std::string& shown, Progress& progress);
 
-    // See write_cloud(). A cloud whose image is of this format is patched, any other written as a new file.
-    std::vector<std::string> (*write)(const std::filesystem::path& path, const PointCloud& cloud,
-                                      const PosedShape& shape, Progress& progress);
+    // Writes all of a file that the caller has begun and will commit, and returns what write_cloud() does,
+    // but for the target's name in front. A cloud whose image is of this format is patched, any other written
+    // as a new file. `shown` names the target in errors.
+    std::vector<std::string> (*write)(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                      const std::string& shown, Progress& progress);
 };
 
 constexpr std::size_t first_bytes_size = 4096;

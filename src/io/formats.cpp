@@ -33,6 +33,13 @@ bool looks_like_none(std::span<const std::byte> /*first_bytes*/) {
     return false;
 }
 
+template<TableKind kind>
+std::vector<std::string> write_table_as(FileInTheMaking& file, const PointCloud& cloud,
+                                        const PosedShape& shape, const std::string& shown,
+                                        Progress& progress) {
+    return write_table(kind, file, cloud, shape, shown, progress);
+}
+
 constexpr std::array<Format, 9> formats = {{
     {"ply", ply_extensions, looks_like_ply, read_ply, write_ply},
     {"las", las_extensions, looks_like_las, read_las, write_las},
@@ -40,10 +47,10 @@ constexpr std::array<Format, 9> formats = {{
     {"obj", obj_extensions, looks_like_obj, read_obj, write_obj},
     {"off", off_extensions, looks_like_off, read_off, write_off},
     // Behind all others, since any row of numbers is a table.
-    {"txt", txt_extensions, looks_like_table, read_table, write_txt},
-    {"xyz", xyz_extensions, looks_like_none, read_table, write_xyz},
-    {"csv", csv_extensions, looks_like_none, read_table, write_csv},
-    {"pts", pts_extensions, looks_like_none, read_table, write_pts},
+    {"txt", txt_extensions, looks_like_table, read_table, write_table_as<TableKind::txt>},
+    {"xyz", xyz_extensions, looks_like_none, read_table, write_table_as<TableKind::xyz>},
+    {"csv", csv_extensions, looks_like_none, read_table, write_table_as<TableKind::csv>},
+    {"pts", pts_extensions, looks_like_none, read_table, write_table_as<TableKind::pts>},
 }};
 
 } // namespace

@@ -35,12 +35,12 @@ bool looks_like_las(std::span<const std::byte> first_bytes);
 // an offset there, and float64 columns here. `shown` names the file in errors.
 PointCloud read_las(std::vector<std::byte> bytes, const std::string& shown, Progress& progress);
 
-// See write_cloud(). In a file that was LAS already, a coordinate is the whole number next to the posed
+// See Format::write. In a file that was LAS already, a coordinate is the whole number next to the posed
 // value; the header's scale and offset of an axis change only if the pose leaves the range of its whole
 // numbers, which the returned sentences say; its bounds change only on axes on which a point moved. A new
 // file is LAS 1.2, or 1.4 where the attributes ask for it.
-std::vector<std::string> write_las(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress);
+std::vector<std::string> write_las(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                   const std::string& shown, Progress& progress);
 
 // The part of it that makes a new file of a cloud that came from no LAS file.
 std::vector<std::string> write_new_las(FileInTheMaking& file, const PointCloud& cloud,

@@ -182,11 +182,9 @@ std::string words_about_steps(const NewFile& file) {
 std::vector<std::string> write_new_las(FileInTheMaking& file, const PointCloud& cloud,
                                        const PosedShape& shape, const std::string& shown,
                                        Progress& progress) {
-    const std::vector<PosedColumn> posed = posed_columns(cloud, shape);
-    const std::vector<AddedColumn> added = with_free_names(cloud, shape.added);
+    const ColumnsToWrite all = columns_to_write(cloud, shape);
     std::vector<std::string> heard;
-    NewFile made{
-        plan_las(cloud, new_columns(cloud, posed, added), heard), {}, {}, {}, {}, cloud.size(), shown};
+    NewFile made{plan_las(cloud, all.columns, heard), {}, {}, {}, {}, cloud.size(), shown};
     choose_axes(made);
     count_returns(made);
     if (made.points > 0) heard.push_back(words_about_steps(made));

@@ -145,10 +145,9 @@ void patch_normal(const Patching& patching, const PosedColumn& column, std::size
         value = is_whole(dimension.type) ? rounded_to(dimension.type, number) : std::optional(number);
         if (!value) return; // a normal does not leave its file's range by a turn; what does was none
     }
-    std::array<std::byte, 8> native{};
-    store_scalar(*value, dimension.type, native.data());
-    copy_scalar(native.data(), size_of(dimension.type), std::endian::native == std::endian::big,
-                row.data() + dimension.at);
+    const StoredScalar scalar =
+        stored_scalar(*value, dimension.type, std::endian::native == std::endian::big);
+    std::ranges::copy(scalar.span(), row.data() + dimension.at);
 }
 
 void patch_row(const Patching& patching, std::size_t point, std::span<std::byte> row) {
@@ -215,16 +214,11 @@ std::vector<std::string> write_patched(FileInTheMaking& file, const LasImage& im
 
 } // namespace
 
-std::vector<std::string> write_las(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress) {
-    FileInTheMaking file(path);
+std::vector<std::string> write_las(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                   const std::string& shown, Progress& progress) {
     const auto* image = dynamic_cast<const LasImage*>(cloud.image.get());
-    std::vector<std::string> heard = image != nullptr
-                                         ? write_patched(file, *image, cloud, shape, path.string(), progress)
-                                         : write_new_las(file, cloud, shape, path.string(), progress);
-    progress.stop_if_cancelled();
-    file.commit();
-    return heard;
+    return image != nullptr ? write_patched(file, *image, cloud, shape, shown, progress)
+                            : write_new_las(file, cloud, shape, shown, progress);
 }
 
 } // namespace knead

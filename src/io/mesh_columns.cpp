@@ -14,12 +14,6 @@ ThreeColumns chosen(const std::vector<NewColumn>& columns, const std::array<std:
     return {columns[places[0]], columns[places[1]], columns[places[2]]};
 }
 
-void append_number(std::string& line, double value, ScalarType type) {
-    std::array<char, 64> buffer{};
-    const std::size_t length = print_scalar(value, type, buffer);
-    (line += ' ').append(buffer.data(), length);
-}
-
 std::vector<std::string> words_about(const std::vector<std::string>& names, const std::string& format) {
     if (names.empty()) return {};
     std::string words = names.size() == 1 ? "the column " : "the columns ";
@@ -42,8 +36,7 @@ bool MeshColumns::colours_are_bytes() const {
                           *colours, [](const NewColumn& column) { return column.type == ScalarType::uint8; });
 }
 
-MeshColumns mesh_columns(const PointCloud& cloud, const std::vector<PosedColumn>& posed) {
-    const std::vector<NewColumn> all = new_columns(cloud, posed, {});
+MeshColumns mesh_columns(const PointCloud& cloud, const std::vector<NewColumn>& all) {
     MeshColumns columns;
     columns.coordinates = chosen(all, cloud.coordinate_columns);
     if (const auto normals = find_normals(cloud)) columns.normals = chosen(all, *normals);
@@ -55,14 +48,16 @@ MeshColumns mesh_columns(const PointCloud& cloud, const std::vector<PosedColumn>
 }
 
 void append_values(std::string& line, const ThreeColumns& columns, std::size_t i, const std::string& shown) {
-    for (const NewColumn& column : columns) append_number(line, new_value(column, i, shown), column.type);
+    std::array<char, 64> buffer{};
+    for (const NewColumn& column : columns)
+        (line += ' ').append(buffer.data(), print_new_value(column, i, shown, buffer));
 }
 
 void append_fractions(std::string& line, const ThreeColumns& columns, double brightest, std::size_t i,
                       const std::string& shown) {
     for (const NewColumn& column : columns) {
         const std::size_t begin = line.size();
-        append_number(line, new_value(column, i, shown) / brightest, ScalarType::float32);
+        append_number(line += ' ', new_value(column, i, shown) / brightest, ScalarType::float32);
         // Some programs take numbers without a point for bytes.
         if (line.find_first_of(".en", begin) == std::string::npos) line += ".0";
     }

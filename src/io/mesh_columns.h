@@ -12,7 +12,7 @@ namespace knead {
 
 using ThreeColumns = std::array<NewColumn, 3>;
 
-// They point into the cloud and into `posed`.
+// They point into what the columns that they were chosen from do.
 struct MeshColumns {
     ThreeColumns coordinates;
     std::optional<ThreeColumns> normals; // where find_normals() finds them
@@ -22,8 +22,8 @@ struct MeshColumns {
     bool colours_are_bytes() const; // all three of type uint8
 };
 
-// `posed` is posed_columns(cloud, shape).
-MeshColumns mesh_columns(const PointCloud& cloud, const std::vector<PosedColumn>& posed);
+// `all` is columns_to_write(cloud, shape).columns.
+MeshColumns mesh_columns(const PointCloud& cloud, const std::vector<NewColumn>& all);
 
 // Appends the values of point i, a blank before each, in the shortest text that reads back as their type; or,
 // over `brightest`, as fractions from 0 to 1. `shown` names the target in errors.

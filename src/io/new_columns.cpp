@@ -20,15 +20,16 @@ std::vector<AddedColumn> with_free_names(const PointCloud& cloud, std::vector<Ad
     return added;
 }
 
-std::vector<NewColumn> new_columns(const PointCloud& cloud, const std::vector<PosedColumn>& posed,
-                                   const std::vector<AddedColumn>& added) {
-    std::vector<NewColumn> columns;
+ColumnsToWrite columns_to_write(const PointCloud& cloud, const PosedShape& shape) {
+    ColumnsToWrite all;
+    all.posed = posed_columns(cloud, shape);
+    all.added = with_free_names(cloud, shape.added);
     for (const Attribute& attribute : cloud.attributes)
-        columns.push_back({attribute.name, attribute.type, &attribute, nullptr, nullptr});
-    for (const PosedColumn& column : posed) columns[column.column].posed = &column;
-    for (const AddedColumn& column : added)
-        columns.push_back({column.name, ScalarType::float32, nullptr, nullptr, column.values.data()});
-    return columns;
+        all.columns.push_back({attribute.name, attribute.type, &attribute, nullptr, nullptr});
+    for (const PosedColumn& column : all.posed) all.columns[column.column].posed = &column;
+    for (const AddedColumn& column : all.added)
+        all.columns.push_back({column.name, ScalarType::float32, nullptr, nullptr, column.values.data()});
+    return all;
 }
 
 void name_standard_columns(std::vector<NewColumn>& columns, const PointCloud& cloud,
@@ -97,6 +98,19 @@ double new_value(const NewColumn& column, std::size_t i, const std::string& show
     if (column.posed != nullptr)
         if (const auto value = posed_value(*column.posed, i, shown)) return *value;
     return value_at(*column.attribute, i);
+}
+
+std::size_t print_new_value(const NewColumn& column, std::size_t i, const std::string& shown,
+                            std::span<char> to, std::uint64_t place) {
+    if (column.attribute == nullptr)
+        return print_scalar(static_cast<double>(column.added[i]), ScalarType::float32, to);
+    if (column.posed != nullptr)
+        if (const auto value = posed_value(*column.posed, i, shown))
+            return print_scalar(*value, column.posed->rest == nullptr ? ScalarType::float32 : column.type,
+                                to);
+    const Attribute& own = *column.attribute;
+    const std::size_t at = own.is_list() ? own.first[i] + place : i;
+    return print_stored(own.values.data() + at * size_of(own.type), own.type, to);
 }
 
 } // namespace knead

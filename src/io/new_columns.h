@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,9 +28,20 @@ struct NewColumn {
     bool is_list() const { return attribute != nullptr && attribute->is_list(); }
 };
 
-// All columns to write, in the order of the cloud, added ones last. `posed` is posed_columns(cloud, shape).
-std::vector<NewColumn> new_columns(const PointCloud& cloud, const std::vector<PosedColumn>& posed,
-                                   const std::vector<AddedColumn>& added);
+// All columns that a new file may hold, in the order of the cloud, added ones last, under names that the
+// cloud does not have. To be moved, not copied, since `columns` points into the others.
+struct ColumnsToWrite {
+    std::vector<PosedColumn> posed;
+    std::vector<AddedColumn> added;
+    std::vector<NewColumn> columns;
+
+    ColumnsToWrite() = default;
+    ColumnsToWrite(ColumnsToWrite&&) = default;
+    ColumnsToWrite& operator=(ColumnsToWrite&&) = default;
+};
+
+// They point into the cloud and the shape, too.
+ColumnsToWrite columns_to_write(const PointCloud& cloud, const PosedShape& shape);
 
 // Calls the coordinates x, y and z, and the normals, where there are some, by the format's own names.
 void name_standard_columns(std::vector<NewColumn>& columns, const PointCloud& cloud,
@@ -53,5 +65,11 @@ std::array<std::byte, 8> new_scalar(const NewColumn& column, std::size_t i, cons
 
 // The same as double, exact as value_at() is.
 double new_value(const NewColumn& column, std::size_t i, const std::string& shown);
+
+// Prints the value of point i, or the one at a place in its list, into 64 characters at least: the shortest
+// text that reads back as the value, whatever its type; what a pose turned is computed as floats and has no
+// more digits than they. How many characters it took.
+std::size_t print_new_value(const NewColumn& column, std::size_t i, const std::string& shown,
+                            std::span<char> to, std::uint64_t place = 0);
 
 } // namespace knead

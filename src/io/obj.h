@@ -15,6 +15,7 @@
 //     f l p            numbers are checked: a point, a texture coordinate or a normal that is not in the file
 //                      is an error
 
+#include "base/whole_file.h"
 #include "cloud/point_cloud.h"
 #include "io/cloud_file.h"
 
@@ -54,9 +55,9 @@ bool looks_like_obj(std::span<const std::byte> first_bytes);
 // (input) for a file without vertices, a number that is none, and an element that names what is not there.
 PointCloud read_obj(std::vector<std::byte> bytes, const std::string& shown, Progress& progress);
 
-// See write_cloud(). A new file has a `v` a point, with its colour where the cloud has colours, and then the
+// See Format::write. A new file has a `v` a point, with its colour where the cloud has colours, and then the
 // normals, where it has them.
-std::vector<std::string> write_obj(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress);
+std::vector<std::string> write_obj(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                   const std::string& shown, Progress& progress);
 
 } // namespace knead

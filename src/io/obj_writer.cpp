@@ -1,9 +1,7 @@
 #include "base/require.h"
-#include "base/whole_file.h"
 #include "io/mesh_columns.h"
 #include "io/obj.h"
 #include "io/patched_copy.h"
-#include "io/text_numbers.h"
 #include "io/text_statements.h"
 
 #include <array>
@@ -24,17 +22,10 @@ struct Patching {
 // The words of the statement that stand for x, y and z of this point.
 void patch_words(Patching& patching, TextStatements& statements,
                  const std::array<const PosedColumn*, 3>& columns, std::size_t point) {
-    const char* const begin = reinterpret_cast<const char*>(patching.image.bytes.data());
     for (const PosedColumn* column : columns) {
         const auto word = statements.word();
         require(word.has_value(), "statements are as they were read");
-        if (column == nullptr) continue;
-        const auto value = posed_value(*column, point, patching.shown);
-        if (!value) continue;
-        std::array<char, 64> buffer{};
-        const std::size_t length = print_scalar(*value, column->attribute->type, buffer);
-        patching.copy.replace(static_cast<std::size_t>(word->data() - begin), word->size(),
-                              std::as_bytes(std::span(buffer).first(length)));
+        if (column != nullptr) patch_word(patching.copy, *word, *column, point, patching.shown);
     }
 }
 
@@ -92,22 +83,16 @@ void write_new(FileInTheMaking& file, const MeshColumns& columns, std::size_t po
 
 } // namespace
 
-std::vector<std::string> write_obj(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress) {
-    FileInTheMaking file(path);
-    std::vector<std::string> left_out;
+std::vector<std::string> write_obj(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                   const std::string& shown, Progress& progress) {
     if (const auto* image = dynamic_cast<const ObjImage*>(cloud.image.get())) {
-        write_patched(file, *image, cloud, shape, path.string(), progress);
-        left_out = words_about_added(shape, "OBJ");
-    } else {
-        const auto posed = posed_columns(cloud, shape);
-        const MeshColumns columns = mesh_columns(cloud, posed);
-        write_new(file, columns, cloud.size(), path.string(), progress);
-        left_out = words_about_left_out(cloud, columns, shape, "OBJ");
+        write_patched(file, *image, cloud, shape, shown, progress);
+        return words_about_added(shape, "OBJ");
     }
-    progress.stop_if_cancelled();
-    file.commit();
-    return left_out;
+    const ColumnsToWrite all = columns_to_write(cloud, shape);
+    const MeshColumns columns = mesh_columns(cloud, all.columns);
+    write_new(file, columns, cloud.size(), shown, progress);
+    return words_about_left_out(cloud, columns, shape, "OBJ");
 }
 
 } // namespace knead

@@ -8,6 +8,7 @@
 // understood. A vertex is a line, and a face, too. Binary OFF, and vertices of other than three coordinates
 // (4OFF, nOFF), are refused, and so are files without the keyword, which nothing tells from tables.
 
+#include "base/whole_file.h"
 #include "cloud/point_cloud.h"
 #include "io/cloud_file.h"
 
@@ -38,9 +39,9 @@ bool looks_like_off(std::span<const std::byte> first_bytes);
 // there.
 PointCloud read_off(std::vector<std::byte> bytes, const std::string& shown, Progress& progress);
 
-// See write_cloud(). A new file has normals and colours (bytes as bytes, others as fractions) where the cloud
+// See Format::write. A new file has normals and colours (bytes as bytes, others as fractions) where the cloud
 // has them, and no faces.
-std::vector<std::string> write_off(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress);
+std::vector<std::string> write_off(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                   const std::string& shown, Progress& progress);
 
 } // namespace knead

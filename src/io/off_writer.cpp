@@ -1,13 +1,10 @@
 #include "base/require.h"
-#include "base/whole_file.h"
 #include "io/mesh_columns.h"
 #include "io/off.h"
 #include "io/patched_copy.h"
-#include "io/text_numbers.h"
 #include "io/text_statements.h"
 
-#include <algorithm>
-#include <array>
+#include <optional>
 
 namespace knead {
 
@@ -19,7 +16,6 @@ void write_patched(FileInTheMaking& file, const OffImage& image, const PointClou
     BlockWriter out(file, image.bytes.size(), progress);
     PatchedCopy copy(image.bytes, out);
     const auto columns = posed_columns(cloud, shape);
-    const char* const begin = reinterpret_cast<const char*>(image.bytes.data());
     TextStatements rows(std::span(image.bytes).subspan(image.rows_begin));
     for (std::size_t point = 0; !columns.empty() && point < image.points; ++point) {
         require(rows.next(), "rows lie where they were read");
@@ -28,12 +24,7 @@ void write_patched(FileInTheMaking& file, const OffImage& image, const PointClou
         for (const PosedColumn& column : columns) {
             for (; place < column.column; ++place) word = rows.word();
             require(word.has_value(), "rows are as they were read");
-            const auto value = posed_value(column, point, shown);
-            if (!value) continue;
-            std::array<char, 64> buffer{};
-            const std::size_t length = print_scalar(*value, column.attribute->type, buffer);
-            copy.replace(static_cast<std::size_t>(word->data() - begin), word->size(),
-                         std::as_bytes(std::span(buffer).first(length)));
+            patch_word(copy, *word, column, point, shown);
         }
     }
     copy.finish();
@@ -69,22 +60,16 @@ void write_new(FileInTheMaking& file, const MeshColumns& columns, std::size_t po
 
 } // namespace
 
-std::vector<std::string> write_off(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress) {
-    FileInTheMaking file(path);
-    std::vector<std::string> left_out;
+std::vector<std::string> write_off(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                   const std::string& shown, Progress& progress) {
     if (const auto* image = dynamic_cast<const OffImage*>(cloud.image.get())) {
-        write_patched(file, *image, cloud, shape, path.string(), progress);
-        left_out = words_about_added(shape, "OFF");
-    } else {
-        const auto posed = posed_columns(cloud, shape);
-        const MeshColumns columns = mesh_columns(cloud, posed);
-        write_new(file, columns, cloud.size(), path.string(), progress);
-        left_out = words_about_left_out(cloud, columns, shape, "OFF");
+        write_patched(file, *image, cloud, shape, shown, progress);
+        return words_about_added(shape, "OFF");
     }
-    progress.stop_if_cancelled();
-    file.commit();
-    return left_out;
+    const ColumnsToWrite all = columns_to_write(cloud, shape);
+    const MeshColumns columns = mesh_columns(cloud, all.columns);
+    write_new(file, columns, cloud.size(), shown, progress);
+    return words_about_left_out(cloud, columns, shape, "OFF");
 }
 
 } // namespace knead

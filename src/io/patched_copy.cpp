@@ -1,6 +1,11 @@
 #include "io/patched_copy.h"
 
+#include "io/scalar_bytes.h"
+#include "io/text_numbers.h"
+
 #include <algorithm>
+#include <array>
+#include <bit>
 
 namespace knead {
 
@@ -22,6 +27,18 @@ void BlockWriter::append(std::span<const std::byte> bytes) {
     buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
 }
 
+void BlockWriter::append_little(const std::byte* from, std::size_t count, std::size_t size) {
+    if constexpr (std::endian::native == std::endian::little) {
+        append({from, count * size});
+    } else {
+        std::array<std::byte, 8> turned{};
+        for (; count > 0; --count, from += size) {
+            copy_scalar(from, size, true, turned.data());
+            append(std::span(turned).first(size));
+        }
+    }
+}
+
 void BlockWriter::finish() {
     flush();
     progress_.step("writing", 1);
@@ -36,6 +53,23 @@ void BlockWriter::put(std::span<const std::byte> bytes) {
     file_.write(bytes);
     written_ += bytes.size();
     progress_.step("writing", std::min(1.0, static_cast<double>(written_) / total_));
+}
+
+void patch_word(PatchedCopy& copy, std::string_view word, const PosedColumn& column, std::size_t i,
+                const std::string& shown) {
+    const auto value = posed_value(column, i, shown);
+    if (!value) return;
+    std::array<char, 64> buffer{};
+    const std::size_t length = print_scalar(*value, column.attribute->type, buffer);
+    copy.replace(copy.place_of(word), word.size(), std::string_view(buffer.data(), length));
+}
+
+void patch_scalar(PatchedCopy& copy, std::size_t at, bool swap, const PosedColumn& column, std::size_t i,
+                  const std::string& shown) {
+    const auto value = posed_value(column, i, shown);
+    if (!value) return;
+    const StoredScalar scalar = stored_scalar(*value, column.attribute->type, swap);
+    copy.replace(at, scalar.size, scalar.span());
 }
 
 } // namespace knead

@@ -4,9 +4,11 @@
 
 #include "base/progress.h"
 #include "base/whole_file.h"
+#include "io/posed_values.h"
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +22,9 @@ public:
 
     void append(std::span<const std::byte> bytes);
     void append(std::string_view text) { append(std::as_bytes(std::span(text))); }
+
+    // So many scalars of `size` bytes, in native byte order there and little endian in the file.
+    void append_little(const std::byte* from, std::size_t count, std::size_t size);
 
     void finish(); // to be called once, last
 
@@ -47,6 +52,15 @@ public:
         copied_ = at + size;
     }
 
+    void replace(std::size_t at, std::size_t size, std::string_view by) {
+        replace(at, size, std::as_bytes(std::span(by)));
+    }
+
+    // Where a word of the source, told by a view of it, begins among its bytes.
+    std::size_t place_of(std::string_view word) const {
+        return static_cast<std::size_t>(word.data() - reinterpret_cast<const char*>(source_.data()));
+    }
+
     void finish() { out_.append(source_.subspan(copied_)); } // the rest; the writer is to be finished, too
 
 private:
@@ -54,5 +68,13 @@ private:
     BlockWriter& out_;
     std::size_t copied_ = 0;
 };
+
+// Puts the value of point i in a pose, where that is another, in the place of a word of the source, or of a
+// scalar at the byte `at`, which is there in the order of bytes that `swap` tells. `shown` names the target
+// in errors.
+void patch_word(PatchedCopy& copy, std::string_view word, const PosedColumn& column, std::size_t i,
+                const std::string& shown);
+void patch_scalar(PatchedCopy& copy, std::size_t at, bool swap, const PosedColumn& column, std::size_t i,
+                  const std::string& shown);
 
 } // namespace knead

@@ -52,9 +52,9 @@ bool looks_like_pcd(std::span<const std::byte> first_bytes);
 // The cloud in a file's bytes, which it keeps as its image. `shown` names the file in errors.
 PointCloud read_pcd(std::vector<std::byte> bytes, const std::string& shown, Progress& progress);
 
-// See write_cloud(). A binary_compressed file in which anything changes is compressed anew.
-std::vector<std::string> write_pcd(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress);
+// See Format::write. A binary_compressed file in which anything changes is compressed anew.
+std::vector<std::string> write_pcd(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                   const std::string& shown, Progress& progress);
 
 // The part of it that makes a new file of a cloud that came from no PCD file: binary, unorganised. Returns
 // what it could not hold.

@@ -1,20 +1,16 @@
 #include "io/new_columns.h"
 #include "io/patched_copy.h"
 #include "io/pcd.h"
-#include "io/scalar_bytes.h"
 #include "io/text_numbers.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <limits>
 #include <optional>
 
 namespace knead {
 
 namespace {
-
-constexpr bool swapped = std::endian::native == std::endian::big; // PCD is little endian
 
 // A field of the new file: one column, or the colours in one number.
 struct NewField {
@@ -102,12 +98,6 @@ std::string new_header(std::size_t points, const std::vector<NewField>& fields) 
            number + "\nDATA binary\n";
 }
 
-void append_scalar(BlockWriter& out, const std::byte* native, std::size_t size) {
-    std::array<std::byte, 8> stored{};
-    copy_scalar(native, size, swapped, stored.data());
-    out.append(std::span(stored).first(size));
-}
-
 void append_field(BlockWriter& out, const NewField& field, std::size_t point, const std::string& shown) {
     if (field.column == nullptr) {
         for (const NewColumn* part : field.colors) {
@@ -116,11 +106,9 @@ void append_field(BlockWriter& out, const NewField& field, std::size_t point, co
         }
     } else if (field.column->is_list()) {
         const Attribute& list = *field.column->attribute;
-        const std::byte* from = list.values.data() + list.first[point] * field.size;
-        for (std::uint64_t k = 0; k < field.count; ++k, from += field.size)
-            append_scalar(out, from, field.size);
+        out.append_little(list.values.data() + list.first[point] * field.size, field.count, field.size);
     } else {
-        append_scalar(out, new_scalar(*field.column, point, shown).data(), field.size);
+        out.append_little(new_scalar(*field.column, point, shown).data(), 1, field.size);
     }
 }
 
@@ -129,9 +117,8 @@ void append_field(BlockWriter& out, const NewField& field, std::size_t point, co
 std::vector<std::string> write_new_pcd(FileInTheMaking& file, const PointCloud& cloud,
                                        const PosedShape& shape, const std::string& shown,
                                        Progress& progress) {
-    const std::vector<PosedColumn> posed = posed_columns(cloud, shape);
-    const std::vector<AddedColumn> added = with_free_names(cloud, shape.added);
-    std::vector<NewColumn> columns = new_columns(cloud, posed, added);
+    ColumnsToWrite all = columns_to_write(cloud, shape);
+    std::vector<NewColumn>& columns = all.columns;
     name_standard_columns(columns, cloud, {"normal_x", "normal_y", "normal_z"});
     for (NewColumn& column : columns)
         if (column.name == "_") column.name.clear(); // padding, in PCD

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "io/lzf.h"
+#include "io/named_coordinates.h"
 #include "io/pcd.h"
 #include "io/scalar_bytes.h"
 #include "io/text_rows.h"
@@ -281,10 +282,7 @@ PointCloud read_pcd(std::vector<std::byte> bytes, const std::string& shown, Prog
         read_compressed(*image, shown, columns, progress);
     adopt(std::move(columns), *image, cloud);
     remark_on_rest(*image, cloud);
-    constexpr std::array<std::string_view, 3> axes = {"x", "y", "z"};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        cloud.coordinate_columns[axis] = find_attribute(cloud, axes[axis]).value();
-    set_positions_from_columns(cloud);
+    set_positions_from_named_columns(cloud);
     cloud.image = std::move(image);
     return cloud;
 }

@@ -49,24 +49,8 @@ std::vector<PosedField> posed_fields(const PcdImage& image, const std::vector<Po
     return posed;
 }
 
-// A scalar as it lies in the file.
-struct Stored {
-    std::array<std::byte, 8> bytes{};
-    std::size_t size = 0;
-
-    std::span<const std::byte> span() const { return std::span(bytes).first(size); }
-};
-
-Stored stored(double value, ScalarType type) {
-    std::array<std::byte, 8> native{};
-    Stored scalar{{}, size_of(type)};
-    store_scalar(value, type, native.data());
-    copy_scalar(native.data(), scalar.size, swapped, scalar.bytes.data());
-    return scalar;
-}
-
-Stored stored_added(const AddedColumn& column, std::size_t point) {
-    return stored(static_cast<double>(column.values[point]), ScalarType::float32);
+StoredScalar stored_added(const AddedColumn& column, std::size_t point) {
+    return stored_scalar(static_cast<double>(column.values[point]), ScalarType::float32, swapped);
 }
 
 // Names the added columns in the lines that have a word for each field. Lines that the header does without
@@ -83,7 +67,7 @@ void add_fields(const Patching& patching, PatchedCopy& copy) {
         insertions.emplace_back(*end, std::move(text));
     }
     std::sort(insertions.begin(), insertions.end());
-    for (const auto& [at, text] : insertions) copy.replace(at, 0, std::as_bytes(std::span(text)));
+    for (const auto& [at, text] : insertions) copy.replace(at, 0, text);
 }
 
 void patch_binary(const Patching& patching, PatchedCopy& copy) {
@@ -91,10 +75,7 @@ void patch_binary(const Patching& patching, PatchedCopy& copy) {
     std::size_t at = header.body;
     for (std::size_t point = 0; point < header.points; ++point, at += header.bytes_a_point) {
         for (const PosedField& posed : patching.posed)
-            if (const auto value = posed_value(*posed.column, point, patching.shown)) {
-                const Stored scalar = stored(*value, header.fields[posed.field].type);
-                copy.replace(at + posed.offset, scalar.size, scalar.span());
-            }
+            patch_scalar(copy, at + posed.offset, swapped, *posed.column, point, patching.shown);
         for (const AddedColumn& column : patching.added)
             copy.replace(at + header.bytes_a_point, 0, stored_added(column, point).span());
     }
@@ -104,55 +85,59 @@ void patch_ascii(const Patching& patching, PatchedCopy& copy) {
     const PcdHeader& header = patching.image.header;
     const char* const begin = reinterpret_cast<const char*>(patching.image.bytes.data());
     TextCursor text{begin + header.body, begin + patching.image.body_end};
-    const auto here = [&] { return static_cast<std::size_t>(text.at - begin); };
-    std::array<char, 64> buffer{};
     for (std::size_t point = 0; point < header.points; ++point) {
         require(find_row(text), "points lie where they were read");
         auto posed = patching.posed.begin();
         for (std::size_t word = 0; word < header.words_a_point; ++word) {
             require(find_word(text), "points lie where they were read");
-            const char* const end = word_end(text);
             if (posed != patching.posed.end() && posed->word == word) {
-                if (const auto value = posed_value(*posed->column, point, patching.shown)) {
-                    const std::size_t length = print_scalar(*value, header.fields[posed->field].type, buffer);
-                    copy.replace(here(), static_cast<std::size_t>(end - text.at),
-                                 std::as_bytes(std::span(buffer).first(length)));
-                }
+                patch_word(copy, word_at(text), *posed->column, point, patching.shown);
                 ++posed;
             }
-            text.at = end;
+            text.at = word_end(text);
         }
+        std::string words;
         for (const AddedColumn& column : patching.added) {
-            buffer[0] = ' ';
-            const std::size_t length = print_scalar(static_cast<double>(column.values[point]),
-                                                    ScalarType::float32, std::span(buffer).subspan(1));
-            copy.replace(here(), 0, std::as_bytes(std::span(buffer).first(1 + length)));
+            words += ' ';
+            append_number(words, static_cast<double>(column.values[point]), ScalarType::float32);
         }
+        copy.replace(copy.place_of({text.at, 0}), 0, words);
     }
 }
 
 // --- binary_compressed -------------------------------------------------------------------------------------
 
-// Puts the posed numbers into an unpacked body; whether any differs.
-bool patch_unpacked(const Patching& patching, std::vector<std::byte>& body) {
+// Puts the posed numbers of a point into an unpacked body; whether any differs.
+bool patch_point(const Patching& patching, std::size_t point, std::span<std::byte> body) {
     const PcdHeader& header = patching.image.header;
     bool changed = false;
     for (const PosedField& posed : patching.posed) {
+        const auto value = posed_value(*posed.column, point, patching.shown);
+        if (!value) continue;
         // The numbers of this field follow all those of the fields before it.
-        std::byte* to = body.data() + posed.offset * header.points;
-        const ScalarType type = header.fields[posed.field].type;
-        for (std::size_t point = 0; point < header.points; ++point, to += size_of(type))
-            if (const auto value = posed_value(*posed.column, point, patching.shown)) {
-                const Stored scalar = stored(*value, type);
-                std::copy_n(scalar.bytes.begin(), scalar.size, to);
-                changed = true;
-            }
+        const StoredScalar scalar = stored_scalar(*value, header.fields[posed.field].type, swapped);
+        const std::size_t at = posed.offset * header.points + point * scalar.size;
+        std::ranges::copy(scalar.span(), body.data() + at);
+        changed = true;
+    }
+    return changed;
+}
+
+// Puts the posed numbers and the added ones into an unpacked body; whether it differs. It goes point by
+// point, since a splat's columns are turned together.
+bool patch_unpacked(const Patching& patching, std::vector<std::byte>& body, Progress& progress) {
+    constexpr std::size_t points_between_reports = std::size_t{1} << 16;
+    const std::size_t points = patching.image.header.points;
+    bool changed = false;
+    for (std::size_t point = 0; !patching.posed.empty() && point < points; ++point) {
+        if (point % points_between_reports == 0)
+            progress.step("patching", static_cast<double>(point) / static_cast<double>(points));
+        changed = patch_point(patching, point, body) || changed;
     }
     for (const AddedColumn& column : patching.added)
-        for (std::size_t point = 0; point < header.points; ++point) {
-            const Stored scalar = stored_added(column, point);
-            body.insert(body.end(), scalar.bytes.begin(),
-                        scalar.bytes.begin() + static_cast<std::ptrdiff_t>(scalar.size));
+        for (std::size_t point = 0; point < points; ++point) {
+            const StoredScalar scalar = stored_added(column, point);
+            body.insert(body.end(), scalar.span().begin(), scalar.span().end());
         }
     return changed || !patching.added.empty();
 }
@@ -160,7 +145,7 @@ bool patch_unpacked(const Patching& patching, std::vector<std::byte>& body) {
 void patch_compressed(const Patching& patching, PatchedCopy& copy, Progress& progress) {
     const PcdImage& image = patching.image;
     std::vector<std::byte> body = unpack_pcd_body(image.bytes, image.header, patching.shown);
-    if (!patch_unpacked(patching, body)) return;
+    if (!patch_unpacked(patching, body, progress)) return;
     progress.step("packing", 0);
     const std::vector<std::byte> packed = pack_lzf(body);
     if (std::max(packed.size(), body.size()) > std::numeric_limits<std::uint32_t>::max())
@@ -169,8 +154,8 @@ void patch_compressed(const Patching& patching, PatchedCopy& copy, Progress& pro
                     "them as .ply or .las");
     std::vector<std::byte> lengths;
     for (const std::size_t length : {packed.size(), body.size()}) {
-        const Stored scalar = stored(static_cast<double>(length), ScalarType::uint32);
-        lengths.insert(lengths.end(), scalar.bytes.begin(), scalar.bytes.begin() + 4);
+        const StoredScalar scalar = stored_scalar(static_cast<double>(length), ScalarType::uint32, swapped);
+        lengths.insert(lengths.end(), scalar.span().begin(), scalar.span().end());
     }
     copy.replace(image.header.body, 0, lengths);
     copy.replace(image.header.body, image.body_end - image.header.body, packed);
@@ -198,17 +183,12 @@ void write_patched(FileInTheMaking& file, const PcdImage& image, const PointClou
 
 } // namespace
 
-std::vector<std::string> write_pcd(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress) {
-    FileInTheMaking file(path);
-    std::vector<std::string> left_out;
-    if (const auto* image = dynamic_cast<const PcdImage*>(cloud.image.get()))
-        write_patched(file, *image, cloud, shape, path.string(), progress);
-    else
-        left_out = write_new_pcd(file, cloud, shape, path.string(), progress);
-    progress.stop_if_cancelled();
-    file.commit();
-    return left_out;
+std::vector<std::string> write_pcd(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                   const std::string& shown, Progress& progress) {
+    const auto* image = dynamic_cast<const PcdImage*>(cloud.image.get());
+    if (image == nullptr) return write_new_pcd(file, cloud, shape, shown, progress);
+    write_patched(file, *image, cloud, shape, shown, progress);
+    return {};
 }
 
 } // namespace knead

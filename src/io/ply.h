@@ -35,9 +35,9 @@ bool looks_like_ply(std::span<const std::byte> first_bytes);
 // The cloud in a file's bytes, which it keeps as its image. `shown` names the file in errors.
 PointCloud read_ply(std::vector<std::byte> bytes, const std::string& shown, Progress& progress);
 
-// See write_cloud().
-std::vector<std::string> write_ply(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress);
+// See Format::write.
+std::vector<std::string> write_ply(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                   const std::string& shown, Progress& progress);
 
 // The part of it that makes a new file of a cloud that came from no PLY file: binary_little_endian. Returns
 // what it could not hold.

@@ -1,12 +1,10 @@
+#include "base/error.h"
 #include "io/new_columns.h"
 #include "io/patched_copy.h"
 #include "io/ply.h"
 #include "io/scalar_bytes.h"
 
-#include "base/error.h"
-
 #include <array>
-#include <bit>
 
 namespace knead {
 
@@ -28,19 +26,6 @@ std::string new_header(std::size_t points, const std::vector<NewColumn>& columns
     return header + "end_header\n";
 }
 
-// Appends `count` native scalars as little endian.
-void append_scalars(BlockWriter& out, const std::byte* from, std::size_t count, std::size_t size) {
-    if constexpr (std::endian::native == std::endian::little) {
-        out.append({from, count * size});
-    } else {
-        std::array<std::byte, 8> turned{};
-        for (; count > 0; --count, from += size) {
-            copy_scalar(from, size, true, turned.data());
-            out.append(std::span(turned).first(size));
-        }
-    }
-}
-
 void append_list(BlockWriter& out, const NewColumn& column, std::size_t point, const std::string& shown) {
     const Attribute& list = *column.attribute;
     const std::uint64_t length = list.first[point + 1] - list.first[point];
@@ -51,14 +36,14 @@ void append_list(BlockWriter& out, const NewColumn& column, std::size_t point, c
         throw Error(Trouble::output, shown,
                     "the list " + list.name + " of point " + std::to_string(point) + " has " +
                         std::to_string(length) + " values, more than its length's type can count");
-    append_scalars(out, count.data(), 1, size_of(list.count_type));
+    out.append_little(count.data(), 1, size_of(list.count_type));
     const std::size_t size = size_of(list.type);
     if (list.type == column.type)
-        return append_scalars(out, list.values.data() + list.first[point] * size, length, size);
+        return out.append_little(list.values.data() + list.first[point] * size, length, size);
     std::array<std::byte, 8> scalar{};
     for (std::uint64_t k = list.first[point]; k < list.first[point + 1]; ++k) {
         store_scalar(value_at(list, k), column.type, scalar.data());
-        append_scalars(out, scalar.data(), 1, size_of(column.type));
+        out.append_little(scalar.data(), 1, size_of(column.type));
     }
 }
 
@@ -78,7 +63,7 @@ void append_scalar(BlockWriter& out, const NewColumn& column, std::size_t point,
         store_scalar(new_value(column, point, shown), column.type, scalar.data());
     else
         scalar = new_scalar(column, point, shown);
-    append_scalars(out, scalar.data(), 1, size_of(column.type));
+    out.append_little(scalar.data(), 1, size_of(column.type));
 }
 
 } // namespace
@@ -86,9 +71,8 @@ void append_scalar(BlockWriter& out, const NewColumn& column, std::size_t point,
 std::vector<std::string> write_new_ply(FileInTheMaking& file, const PointCloud& cloud,
                                        const PosedShape& shape, const std::string& shown,
                                        Progress& progress) {
-    const std::vector<PosedColumn> posed = posed_columns(cloud, shape);
-    const std::vector<AddedColumn> added = with_free_names(cloud, shape.added);
-    std::vector<NewColumn> columns = new_columns(cloud, posed, added);
+    ColumnsToWrite all = columns_to_write(cloud, shape);
+    std::vector<NewColumn>& columns = all.columns;
     name_standard_columns(columns, cloud, {"nx", "ny", "nz"});
     constexpr std::size_t no_limit = 1000;
     std::vector<std::string> left_out = make_names_legal(columns, is_word_letter, no_limit);

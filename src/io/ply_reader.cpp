@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "io/named_coordinates.h"
 #include "io/ply.h"
 #include "io/ply_rows.h"
 #include "io/text_numbers.h"
@@ -114,10 +115,7 @@ PointCloud read_ply(std::vector<std::byte> bytes, const std::string& shown, Prog
     image->vertex_element = find_vertices(image->header, shown);
     PointCloud cloud;
     read_body(*image, shown, cloud, progress);
-    constexpr std::array<std::string_view, 3> axes = {"x", "y", "z"};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        cloud.coordinate_columns[axis] = find_attribute(cloud, axes[axis]).value();
-    set_positions_from_columns(cloud);
+    set_positions_from_named_columns(cloud);
     cloud.image = std::move(image);
     return cloud;
 }

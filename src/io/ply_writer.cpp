@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "base/require.h"
 #include "io/new_columns.h"
 #include "io/patched_copy.h"
@@ -51,27 +52,15 @@ void add_properties(Patching& patching) {
     std::string lines;
     for (const AddedColumn& column : patching.added)
         lines += "property float " + column.name + place.line_end;
-    patching.copy.replace(place.at, 0, std::as_bytes(std::span(lines)));
+    patching.copy.replace(place.at, 0, lines);
 }
 
 void add_binary_values(Patching& patching, std::size_t point, std::size_t at, bool swap) {
     for (const AddedColumn& column : patching.added) {
-        std::array<std::byte, 4> stored{};
-        copy_scalar(reinterpret_cast<const std::byte*>(&column.values[point]), 4, swap, stored.data());
-        patching.copy.replace(at, 0, stored);
+        const StoredScalar scalar =
+            stored_scalar(static_cast<double>(column.values[point]), ScalarType::float32, swap);
+        patching.copy.replace(at, 0, scalar.span());
     }
-}
-
-void patch_binary(Patching& patching, const PosedColumn& column, std::size_t point, std::size_t at,
-                  bool swap) {
-    const auto value = posed_value(column, point, patching.shown);
-    if (!value) return;
-    const std::size_t size = size_of(column.attribute->type);
-    std::array<std::byte, 8> native{};
-    std::array<std::byte, 8> stored{};
-    store_scalar(*value, column.attribute->type, native.data());
-    copy_scalar(native.data(), size, swap, stored.data());
-    patching.copy.replace(at, size, std::span(stored).first(size));
 }
 
 void patch_binary_rows(Patching& patching) {
@@ -88,7 +77,7 @@ void patch_binary_rows(Patching& patching) {
                 continue;
             }
             if (const PosedColumn* column = patching.posed[p])
-                patch_binary(patching, *column, point, at, swap);
+                patch_scalar(patching.copy, at, swap, *column, point, patching.shown);
             at += size_of(property.type);
         }
         add_binary_values(patching, point, at, swap);
@@ -96,27 +85,13 @@ void patch_binary_rows(Patching& patching) {
     require(at == patching.image.rows_end, "rows lie where they were read");
 }
 
-void patch_word(Patching& patching, const PosedColumn& column, std::size_t point, const TextCursor& text) {
-    const auto value = posed_value(column, point, patching.shown);
-    if (!value) return;
-    std::array<char, 64> buffer{};
-    const std::size_t length = print_scalar(*value, column.attribute->type, buffer);
-    const char* const begin = reinterpret_cast<const char*>(patching.image.bytes.data());
-    patching.copy.replace(static_cast<std::size_t>(text.at - begin),
-                          static_cast<std::size_t>(word_end(text) - text.at),
-                          std::as_bytes(std::span(buffer).first(length)));
-}
-
 void add_words(Patching& patching, std::size_t point, const TextCursor& text) {
     std::string words;
     for (const AddedColumn& column : patching.added) {
-        std::array<char, 64> buffer{};
-        const std::size_t length =
-            print_scalar(static_cast<double>(column.values[point]), ScalarType::float32, buffer);
-        (words += ' ').append(buffer.data(), length);
+        words += ' ';
+        append_number(words, static_cast<double>(column.values[point]), ScalarType::float32);
     }
-    const char* const begin = reinterpret_cast<const char*>(patching.image.bytes.data());
-    patching.copy.replace(static_cast<std::size_t>(text.at - begin), 0, std::as_bytes(std::span(words)));
+    patching.copy.replace(patching.copy.place_of({text.at, 0}), 0, words);
 }
 
 void patch_ascii_rows(Patching& patching, const PointCloud& cloud) {
@@ -138,7 +113,8 @@ void patch_ascii_rows(Patching& patching, const PointCloud& cloud) {
                                     " has no word for its last list in the file that it came from");
                 }
                 require(found, "rows lie where they were read");
-                if (const PosedColumn* column = patching.posed[p]) patch_word(patching, *column, point, text);
+                if (const PosedColumn* column = patching.posed[p])
+                    patch_word(patching.copy, word_at(text), *column, point, patching.shown);
                 text.at = word_end(text);
             }
         }
@@ -169,17 +145,12 @@ void write_patched(FileInTheMaking& file, const PlyImage& image, const PointClou
 
 } // namespace
 
-std::vector<std::string> write_ply(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress) {
-    FileInTheMaking file(path);
-    std::vector<std::string> left_out;
-    if (const auto* image = dynamic_cast<const PlyImage*>(cloud.image.get()))
-        write_patched(file, *image, cloud, shape, path.string(), progress);
-    else
-        left_out = write_new_ply(file, cloud, shape, path.string(), progress);
-    progress.stop_if_cancelled();
-    file.commit();
-    return left_out;
+std::vector<std::string> write_ply(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                   const std::string& shown, Progress& progress) {
+    const auto* image = dynamic_cast<const PlyImage*>(cloud.image.get());
+    if (image == nullptr) return write_new_ply(file, cloud, shape, shown, progress);
+    write_patched(file, *image, cloud, shape, shown, progress);
+    return {};
 }
 
 } // namespace knead

@@ -104,4 +104,21 @@ inline void store_scalar(double value, ScalarType type, std::byte* to) {
     }
 }
 
+// A scalar as it lies in a file.
+struct StoredScalar {
+    std::array<std::byte, 8> bytes{};
+    std::size_t size = 0;
+
+    std::span<const std::byte> span() const { return std::span(bytes).first(size); }
+};
+
+// A value that the type holds exactly; `swap` says that files have the other byte order.
+inline StoredScalar stored_scalar(double value, ScalarType type, bool swap) {
+    std::array<std::byte, 8> native{};
+    StoredScalar stored{{}, size_of(type)};
+    store_scalar(value, type, native.data());
+    copy_scalar(native.data(), stored.size, swap, stored.bytes.data());
+    return stored;
+}
+
 } // namespace knead

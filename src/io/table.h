@@ -49,16 +49,10 @@ struct TableImage final : SourceImage {
 // extension the kind.
 PointCloud read_table(std::vector<std::byte> bytes, const std::string& shown, Progress& progress);
 
-// See write_cloud(). A table of the same kind is patched: only numbers that changed get another text, the
+// See Format::write. A table of the same kind is patched: only numbers that changed get another text, the
 // shortest that reads back as the number. Of another kind, or from elsewhere, it is written anew.
-std::vector<std::string> write_xyz(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress);
-std::vector<std::string> write_txt(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress);
-std::vector<std::string> write_csv(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress);
-std::vector<std::string> write_pts(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress);
+std::vector<std::string> write_table(TableKind kind, FileInTheMaking& file, const PointCloud& cloud,
+                                     const PosedShape& shape, const std::string& shown, Progress& progress);
 
 // The part of them that makes a new file. Returns what it could not hold.
 std::vector<std::string> write_new_table(FileInTheMaking& file, TableKind kind, const PointCloud& cloud,

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cstring>
 #include <optional>
 
 namespace knead {
@@ -93,34 +91,13 @@ std::string first_line(const std::vector<NewNumber>& numbers, TableKind kind, st
     return line + '\n';
 }
 
-std::size_t print_number(const NewNumber& number, std::size_t point, const std::string& shown,
-                         std::span<char> to) {
-    const NewColumn& column = *number.column;
-    if (column.is_list())
-        return print_scalar(value_at(*column.attribute, column.attribute->first[point] + number.place),
-                            column.type, to);
-    if (is_whole(column.type) && size_of(column.type) == 8) { // more digits than a double has
-        const auto bytes = new_scalar(column, point, shown);
-        const auto print = [&](auto whole) {
-            std::memcpy(&whole, bytes.data(), sizeof whole);
-            return static_cast<std::size_t>(std::to_chars(to.data(), to.data() + to.size(), whole).ptr -
-                                            to.data());
-        };
-        return column.type == ScalarType::int64 ? print(std::int64_t{}) : print(std::uint64_t{});
-    }
-    const bool is_normal = column.posed != nullptr && column.posed->rest == nullptr;
-    // Normals are computed as floats; more digits would be noise.
-    return print_scalar(new_value(column, point, shown), is_normal ? ScalarType::float32 : column.type, to);
-}
-
 } // namespace
 
 std::vector<std::string> write_new_table(FileInTheMaking& file, TableKind kind, const PointCloud& cloud,
                                          const PosedShape& shape, const std::string& shown,
                                          Progress& progress) {
-    const std::vector<PosedColumn> posed = posed_columns(cloud, shape);
-    const std::vector<AddedColumn> added = with_free_names(cloud, shape.added);
-    std::vector<NewColumn> columns = new_columns(cloud, posed, added);
+    ColumnsToWrite all = columns_to_write(cloud, shape);
+    std::vector<NewColumn>& columns = all.columns;
     name_standard_columns(columns, cloud, {"nx", "ny", "nz"});
     constexpr std::size_t no_limit = 1000;
     std::vector<std::string> left_out = make_names_legal(columns, is_name_letter, no_limit);
@@ -134,7 +111,7 @@ std::vector<std::string> write_new_table(FileInTheMaking& file, TableKind kind, 
         line.clear();
         for (const NewNumber& number : numbers) {
             if (&number != numbers.data()) line += kind == TableKind::csv ? ',' : ' ';
-            line.append(buffer.data(), print_number(number, point, shown, buffer));
+            line.append(buffer.data(), print_new_value(*number.column, point, shown, buffer, number.place));
         }
         out.append(line += '\n');
     }

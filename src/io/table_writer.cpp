@@ -42,7 +42,7 @@ void patch_number(Patching& patching, const PosedColumn& column, std::size_t poi
     // Normals are computed as floats; more digits would be noise.
     const ScalarType type = column.rest == nullptr ? ScalarType::float32 : ScalarType::float64;
     const std::string_view text = print(*value, type, patching.image.layout, buffer);
-    patching.copy.replace(rows.at(), rows.number().size(), std::as_bytes(std::span(text)));
+    patching.copy.replace(rows.at(), rows.number().size(), text);
 }
 
 void add_numbers(Patching& patching, std::size_t point, const TableRows& rows) {
@@ -53,7 +53,7 @@ void add_numbers(Patching& patching, std::size_t point, const TableRows& rows) {
         text += print(static_cast<double>(column.values[point]), ScalarType::float32, patching.image.layout,
                       buffer);
     }
-    patching.copy.replace(rows.at(), 0, std::as_bytes(std::span(text)));
+    patching.copy.replace(rows.at(), 0, text);
 }
 
 void add_names(Patching& patching) {
@@ -64,7 +64,7 @@ void add_names(Patching& patching) {
         text += layout.names_separator;
         text.append(quote).append(column.name).append(quote);
     }
-    patching.copy.replace(layout.names_end, 0, std::as_bytes(std::span(text)));
+    patching.copy.replace(layout.names_end, 0, text);
 }
 
 void patch_rows(Patching& patching, std::size_t points) {
@@ -105,39 +105,14 @@ std::vector<std::string> write_patched(FileInTheMaking& file, const TableImage& 
     return {"the added columns stand behind the others without their names, since the file names no columns"};
 }
 
-std::vector<std::string> write_table(TableKind kind, const std::filesystem::path& path,
-                                     const PointCloud& cloud, const PosedShape& shape, Progress& progress) {
-    FileInTheMaking file(path);
-    const auto* image = dynamic_cast<const TableImage*>(cloud.image.get());
-    std::vector<std::string> left_out =
-        image != nullptr && image->kind == kind
-            ? write_patched(file, *image, cloud, shape, path.string(), progress)
-            : write_new_table(file, kind, cloud, shape, path.string(), progress);
-    progress.stop_if_cancelled();
-    file.commit();
-    return left_out;
-}
-
 } // namespace
 
-std::vector<std::string> write_xyz(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress) {
-    return write_table(TableKind::xyz, path, cloud, shape, progress);
-}
-
-std::vector<std::string> write_txt(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress) {
-    return write_table(TableKind::txt, path, cloud, shape, progress);
-}
-
-std::vector<std::string> write_csv(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress) {
-    return write_table(TableKind::csv, path, cloud, shape, progress);
-}
-
-std::vector<std::string> write_pts(const std::filesystem::path& path, const PointCloud& cloud,
-                                   const PosedShape& shape, Progress& progress) {
-    return write_table(TableKind::pts, path, cloud, shape, progress);
+std::vector<std::string> write_table(TableKind kind, FileInTheMaking& file, const PointCloud& cloud,
+                                     const PosedShape& shape, const std::string& shown, Progress& progress) {
+    const auto* image = dynamic_cast<const TableImage*>(cloud.image.get());
+    return image != nullptr && image->kind == kind
+               ? write_patched(file, *image, cloud, shape, shown, progress)
+               : write_new_table(file, kind, cloud, shape, shown, progress);
 }
 
 } // namespace knead

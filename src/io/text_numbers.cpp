@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
+#include "io/scalar_bytes.h"
 
 #include <fast_float/fast_float.h>
 
@@ -104,15 +105,30 @@ bool parse_word(std::string_view word, ScalarType type, std::byte* to) {
 }
 
 std::size_t print_scalar(double value, ScalarType type, std::span<char> to) {
+    std::array<std::byte, 8> stored{};
+    store_scalar(value, type, stored.data());
+    return print_stored(stored.data(), type, to);
+}
+
+std::size_t print_stored(const std::byte* from, ScalarType type, std::span<char> to) {
     const auto print = [to](auto typed) {
         const auto [end, trouble] = std::to_chars(to.data(), to.data() + to.size(), typed);
         require(trouble == std::errc{}, "a number fits its buffer");
         return static_cast<std::size_t>(end - to.data());
     };
-    if (type == ScalarType::float64) return print(value);
-    if (type == ScalarType::float32) return print(static_cast<float>(value));
-    if (type == ScalarType::uint64) return print(static_cast<std::uint64_t>(value));
-    return print(static_cast<std::int64_t>(value));
+    const auto load = [from](auto typed) {
+        std::memcpy(&typed, from, sizeof typed);
+        return typed;
+    };
+    if (type == ScalarType::float64) return print(load(double{}));
+    if (type == ScalarType::float32) return print(load(float{}));
+    if (type == ScalarType::uint64) return print(load(std::uint64_t{}));
+    return print(load_integer(from, type, false));
+}
+
+void append_number(std::string& text, double value, ScalarType type) {
+    std::array<char, 64> buffer{};
+    text.append(buffer.data(), print_scalar(value, type, buffer));
 }
 
 std::size_t line_of(std::span<const std::byte> bytes, std::size_t at) {

@@ -24,6 +24,12 @@ bool parse_word(std::string_view word, ScalarType type, std::byte* to);
 // it took.
 std::size_t print_scalar(double value, ScalarType type, std::span<char> to);
 
+// The same of a scalar as it lies in memory, which needs no double: exact for integers of 8 bytes, too.
+std::size_t print_stored(const std::byte* from, ScalarType type, std::span<char> to);
+
+// Appends what print_scalar() prints.
+void append_number(std::string& text, double value, ScalarType type);
+
 // The line that holds the byte `at`, from 1; `at` is within the file. Lines end in \n, \r\n or a lone \r.
 std::size_t line_of(std::span<const std::byte> bytes, std::size_t at);
 

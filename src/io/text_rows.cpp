@@ -63,7 +63,7 @@ void TextRows::to_word(const std::string& column) {
 }
 
 std::string TextRows::word() const {
-    return in_quotes({text_.at, static_cast<std::size_t>(word_end(text_) - text_.at)});
+    return in_quotes(word_at(text_));
 }
 
 void TextRows::fail(const std::string& words) const {

@@ -29,7 +29,7 @@ std::optional<Saved> saved(const Format& format, const PointCloud& cloud, const 
     SilentProgress progress;
     std::vector<std::string> heard;
     try {
-        heard = format.write(file, cloud, shape, progress);
+        heard = write_cloud(file, cloud, shape, progress);
     } catch (const Error& error) {
         require(error.trouble() == Trouble::output, "what cannot be saved is an error of output");
         require_showable(error.what(), file.string());

@@ -16,16 +16,13 @@ ThreeColumns chosen(const std::vector<NewColumn>& columns, const std::array<std:
 
 std::vector<std::string> words_about(const std::vector<std::string>& names, const std::string& format) {
     if (names.empty()) return {};
-    std::string words = names.size() == 1 ? "the column " : "the columns ";
-    for (std::size_t n = 0; n < names.size(); ++n)
-        words += (n == 0 ? "" : n + 1 == names.size() ? " and " : ", ") + names[n];
-    return {words + (names.size() == 1 ? " is" : " are") + " left out, since " + format +
-            " has no place for " + (names.size() == 1 ? "it" : "them")};
+    return {columns_are(names) + " left out, since " + format + " has no place for " +
+            (names.size() == 1 ? "it" : "them")};
 }
 
 std::vector<std::string> names_of_added(const PosedShape& shape) {
     std::vector<std::string> names;
-    for (const AddedColumn& column : shape.added) names.push_back(in_quotes(column.name));
+    for (const AddedColumn& column : shape.added) names.push_back(column.name);
     return names;
 }
 
@@ -73,7 +70,7 @@ std::vector<std::string> words_about_left_out(const PointCloud& cloud, const Mes
         const bool written = is_one_of(columns.coordinates, attribute) ||
                              (columns.normals && is_one_of(*columns.normals, attribute)) ||
                              (columns.colours && is_one_of(*columns.colours, attribute));
-        if (!written) names.push_back(in_quotes(attribute.name));
+        if (!written) names.push_back(attribute.name);
     }
     std::ranges::copy(names_of_added(shape), std::back_inserter(names));
     return words_about(names, format);

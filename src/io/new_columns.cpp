@@ -42,6 +42,17 @@ void name_standard_columns(std::vector<NewColumn>& columns, const PointCloud& cl
     }
 }
 
+std::string columns_are(const std::vector<std::string>& names) {
+    constexpr std::size_t longest = 600; // bytes, about; what is more is counted
+    if (names.size() == 1) return "the column " + in_quotes(names[0]) + " is";
+    std::string words = "the columns " + in_quotes(names[0]);
+    std::size_t shown = 1;
+    for (; shown + 1 < names.size() && words.size() < longest; ++shown)
+        words += ", " + in_quotes(names[shown]);
+    const std::size_t more = names.size() - shown;
+    return words + " and " + (more == 1 ? in_quotes(names.back()) : std::to_string(more) + " more") + " are";
+}
+
 bool is_word_letter(char letter) {
     return static_cast<unsigned char>(letter) > ' ' && letter != '\x7F';
 }

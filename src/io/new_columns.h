@@ -53,6 +53,9 @@ void name_standard_columns(std::vector<NewColumn>& columns, const PointCloud& cl
 std::vector<std::string> make_names_legal(std::vector<NewColumn>& columns, bool (*is_legal)(char letter),
                                           std::size_t longest);
 
+// Columns as the subject of a sentence: "the columns 'a', 'b' and 12 more are". At least one.
+std::string columns_are(const std::vector<std::string>& names);
+
 // Whether a letter may stand in a name that is one word of a text.
 bool is_word_letter(char letter);
 

@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "base/require.h"
 #include "io/mesh_columns.h"
 #include "io/obj.h"
@@ -89,6 +90,9 @@ std::vector<std::string> write_obj(FileInTheMaking& file, const PointCloud& clou
         write_patched(file, *image, cloud, shape, shown, progress);
         return words_about_added(shape, "OBJ");
     }
+    if (cloud.size() == 0)
+        throw Error(Trouble::output, shown,
+                    "the cloud has no points, and OBJ no way to say so; save it as .ply");
     const ColumnsToWrite all = columns_to_write(cloud, shape);
     const MeshColumns columns = mesh_columns(cloud, all.columns);
     write_new(file, columns, cloud.size(), shown, progress);

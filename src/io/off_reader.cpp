@@ -78,6 +78,7 @@ public:
 
     PointCloud read_vertices() {
         PointCloud cloud;
+        if (image_.points == 0) find_layout(); // columns of nothing, as the keyword has them
         for (std::size_t point = 0; point < image_.points; ++point) {
             report(point, image_.points, "parsing");
             begin_row("vertex", point, image_.points);

@@ -12,8 +12,6 @@ namespace knead {
 
 namespace {
 
-constexpr std::size_t most_fields = 10'000;
-
 struct TypeCode {
     ScalarType type;
     std::string_view letter;
@@ -66,9 +64,9 @@ void keep_field_line(Words words, const HeaderLines& lines, std::optional<Words>
     if (to) lines.fail("a second " + keyword + " line; keep only one");
     words.erase(words.begin());
     if (words.empty()) lines.fail("a " + keyword + " line has a word for each field; this one has none");
-    if (words.size() > most_fields)
+    if (words.size() > most_pcd_fields)
         lines.fail("the " + keyword + " line has " + std::to_string(words.size()) +
-                   " words; knead takes up to " + std::to_string(most_fields) + " fields");
+                   " words; knead takes up to " + std::to_string(most_pcd_fields) + " fields");
     to = std::move(words);
 }
 

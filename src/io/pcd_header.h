@@ -15,6 +15,9 @@
 
 namespace knead {
 
+// More fields are refused, so that no line can make a file's memory grow out of proportion.
+constexpr std::size_t most_pcd_fields = 10'000;
+
 enum class PcdEncoding { ascii, binary, binary_compressed };
 
 std::string_view name_of(PcdEncoding encoding); // as the DATA line has it

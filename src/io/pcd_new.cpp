@@ -45,30 +45,44 @@ std::optional<NewField> packed_colors(const std::vector<NewColumn>& columns) {
     return field;
 }
 
+// How many numbers of a point a field of this column has; nothing where that is not one number for all
+// points.
+std::optional<std::uint64_t> count_of(const NewColumn& column) {
+    if (!column.is_list() || column.attribute->first.size() < 2) return 1; // of no points, any is right
+    const auto length = common_length(*column.attribute);
+    const bool fits = length && *length > 0 && *length <= std::numeric_limits<std::uint32_t>::max();
+    return fits ? length : std::nullopt;
+}
+
 std::vector<NewField> new_fields(const std::vector<NewColumn>& columns, std::vector<std::string>& left_out) {
     std::vector<NewField> fields;
+    std::vector<std::string> too_many;
     const std::optional<NewField> colors = packed_colors(columns);
+    const auto is_axis = [](const NewColumn& c) { return c.name == "x" || c.name == "y" || c.name == "z"; };
+    std::size_t room = most_pcd_fields - 3 - (colors ? 1 : 0); // besides x, y, z and colours in one
     for (const NewColumn& column : columns) {
         if (colors &&
             std::find(colors->colors.begin(), colors->colors.end(), &column) != colors->colors.end()) {
             if (&column == colors->colors[2]) fields.push_back(*colors);
             continue;
         }
-        NewField field{column.name, pcd_letter_of(column.type), size_of(column.type), 1, &column, {}};
-        if (column.is_list()) {
-            // Of no points, any length is right.
-            const std::uint64_t length =
-                column.attribute->first.size() < 2 ? 1 : common_length(*column.attribute).value_or(0);
-            if (length == 0 || length > std::numeric_limits<std::uint32_t>::max()) {
-                left_out.push_back(
-                    "the lists " + in_quotes(column.name) +
-                    " are left out, since PCD asks for lists that are equally long and not empty");
-                continue;
-            }
-            field.count = length;
+        const auto count = count_of(column);
+        if (!count) {
+            left_out.push_back("the lists " + in_quotes(column.name) +
+                               " are left out, since PCD asks for lists that are equally long and not empty");
+            continue;
         }
-        fields.push_back(std::move(field));
+        if (!is_axis(column) && room == 0) {
+            too_many.push_back(column.name);
+            continue;
+        }
+        room -= is_axis(column) ? 0 : 1;
+        fields.push_back(
+            {column.name, pcd_letter_of(column.type), size_of(column.type), *count, &column, {}});
     }
+    if (!too_many.empty())
+        left_out.push_back(columns_are(too_many) + " left out, since a PCD file has at most " +
+                           std::to_string(most_pcd_fields) + " fields");
     return fields;
 }
 

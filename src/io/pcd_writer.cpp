@@ -166,6 +166,10 @@ void write_patched(FileInTheMaking& file, const PcdImage& image, const PointClou
     require(image.header.points == cloud.size(), "a cloud has the points of its image");
     const std::vector<PosedColumn> columns = posed_columns(cloud, shape);
     const Patching patching{image, posed_fields(image, columns), with_free_names(cloud, shape.added), shown};
+    if (!patching.added.empty() && image.header.fields.size() + patching.added.size() > most_pcd_fields)
+        throw Error(Trouble::output, shown,
+                    "columns cannot be added, since a PCD file has at most " +
+                        std::to_string(most_pcd_fields) + " fields; save it as .ply, or without them");
     BlockWriter out(file, image.bytes.size(), progress);
     PatchedCopy copy(image.bytes, out);
     if (!patching.added.empty()) add_fields(patching, copy);

@@ -27,7 +27,7 @@ namespace knead {
 
 // The customs of the extensions: what separates the columns of a new file, and what comes first.
 enum class TableKind {
-    xyz, // blanks; a remark names the columns where they would not be known again
+    xyz, // blanks; a remark names the columns where their numbers would not tell the same names
     txt, // the same; also .asc, and a table under any other name
     csv, // commas, and a line of names
     pts, // a count first; x y z, intensity and colours alone

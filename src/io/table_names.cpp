@@ -1,6 +1,7 @@
 #include "io/table_names.h"
 
 #include "base/lower_case.h"
+#include "io/free_names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,7 @@ namespace knead {
 
 namespace {
 
-// --- Names of the file
-// ---------------------------------------------------------------------------------------
+// --- Names of the file -------------------------------------------------------------------------------------
 
 struct Spelling {
     std::string_view standard;
@@ -49,27 +49,19 @@ std::string one_word(std::string_view name, std::size_t column) {
 }
 
 void take_names(const TableLayout& layout, std::vector<Attribute>& columns) {
-    const auto is_taken = [&](std::string_view name) {
-        return std::any_of(columns.begin(), columns.end(),
-                           [&](const Attribute& column) { return column.name == name; });
-    };
+    FreeNames names;
     // Standard names go to the first that has a claim, and no other name may be one of those that are taken.
     for (std::size_t c = 0; c < columns.size(); ++c)
-        if (const std::string name = standard_name(layout.names[c]); !name.empty() && !is_taken(name))
+        if (const std::string name = standard_name(layout.names[c]);
+            !name.empty() && names.take_exactly(name))
             columns[c].name = name;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-        if (!columns[c].name.empty()) continue;
-        const std::string own = one_word(layout.names[c], c);
-        std::string name = own;
-        for (unsigned number = 2; is_taken(name); ++number) name = own + "_" + std::to_string(number);
-        columns[c].name = name;
-    }
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        if (columns[c].name.empty()) columns[c].name = names.take(one_word(layout.names[c], c));
 }
 
-// --- Names by the numbers
-// ------------------------------------------------------------------------------------
+// --- Names by the numbers ----------------------------------------------------------------------------------
 
-// All columns are of this type until colours are found.
+// What all columns are until colours are found.
 std::size_t rows_of(const Attribute& column) {
     return column.values.size() / sizeof(double);
 }
@@ -80,12 +72,6 @@ double number_at(const Attribute& column, std::size_t row) {
     return number;
 }
 
-bool all_of(const Attribute& column, bool (*is_right)(double value)) {
-    for (std::size_t i = 0; i < rows_of(column); ++i)
-        if (!is_right(number_at(column, i))) return false;
-    return rows_of(column) > 0;
-}
-
 bool is_byte(double value) {
     return value >= 0 && value <= 255 && value == std::floor(value);
 }
@@ -94,68 +80,52 @@ bool is_short(double value) {
     return value >= 0 && value <= 65535 && value == std::floor(value);
 }
 
-// Three columns of what is whole and from 0 to 255.
-bool are_colors(std::span<const Attribute> columns, std::size_t at) {
-    if (at + 3 > columns.size()) return false;
-    return all_of(columns[at], is_byte) && all_of(columns[at + 1], is_byte) &&
-           all_of(columns[at + 2], is_byte);
-}
+// A table to be asked what its columns may be.
+struct Numbers {
+    TableKind kind;
+    std::size_t columns, rows;
+    const TableNumbers& at;
 
-// Three columns of vectors of length 1, as far as few digits tell it, or 0 where there was no normal.
-bool are_normals(std::span<const Attribute> columns, std::size_t at) {
-    constexpr double rounding = 0.02;
-    if (at + 3 > columns.size()) return false;
-    bool any = false;
-    for (std::size_t i = 0; i < rows_of(columns[at]); ++i) {
-        const Vec3d normal(number_at(columns[at], i), number_at(columns[at + 1], i),
-                           number_at(columns[at + 2], i));
-        if (normal.isZero(0)) continue;
-        if (!(std::abs(normal.norm() - 1) < rounding)) return false;
-        any = true;
+    bool all_of(std::size_t column, bool (*is_right)(double value)) const {
+        for (std::size_t row = 0; row < rows; ++row)
+            if (!is_right(at(column, row))) return false;
+        return rows > 0;
     }
-    return any;
-}
 
-bool is_opaque(const Attribute& column) {
-    return all_of(column, [](double value) { return value == 255; });
-}
+    // Three columns of what is whole and from 0 to 255.
+    bool are_colors(std::size_t column) const {
+        if (column + 3 > columns) return false;
+        return all_of(column, is_byte) && all_of(column + 1, is_byte) && all_of(column + 2, is_byte);
+    }
 
-// Behind x y z. An intensity stands alone in a .pts file, or in front of colours; x y z i r g b and x y z r g
-// b a may look alike, and a fourth value that is always 255 is an alpha.
-bool begins_with_intensity(TableKind kind, std::span<const Attribute> columns) {
-    if (columns.size() == 4) return kind == TableKind::pts;
-    if (columns.size() == 7 && are_colors(columns, 3) && is_opaque(columns[6])) return false;
-    return columns.size() % 3 == 1 && are_colors(columns, 4);
-}
-
-void guess_names(TableKind kind, std::vector<Attribute>& columns) {
-    const auto name = [&](std::size_t at, std::initializer_list<const char*> names) {
-        for (const char* const word : names) columns[at++].name = word;
-        return at;
-    };
-    bool has_colors = false;
-    bool has_normals = false;
-    std::size_t at = name(0, {"x", "y", "z"});
-    while (at < columns.size()) {
-        if (at == 3 && begins_with_intensity(kind, columns)) {
-            at = name(at, {"intensity"});
-        } else if (!has_normals && are_normals(columns, at)) {
-            at = name(at, {"nx", "ny", "nz"});
-            has_normals = true;
-        } else if (!has_colors && are_colors(columns, at)) {
-            at = name(at, {"red", "green", "blue"});
-            has_colors = true;
-            if (at < columns.size() && columns.size() == 7 && is_opaque(columns[at]))
-                at = name(at, {"alpha"});
-        } else {
-            columns[at].name = "column_" + std::to_string(at + 1);
-            ++at;
+    // Three columns of vectors of length 1, as far as few digits tell it, or 0 where there was no normal.
+    bool are_normals(std::size_t column) const {
+        constexpr double rounding = 0.02;
+        if (column + 3 > columns) return false;
+        bool any = false;
+        for (std::size_t row = 0; row < rows; ++row) {
+            const Vec3d normal(at(column, row), at(column + 1, row), at(column + 2, row));
+            if (normal.isZero(0)) continue;
+            if (!(std::abs(normal.norm() - 1) < rounding)) return false;
+            any = true;
         }
+        return any;
     }
-}
 
-// --- Colours
-// -------------------------------------------------------------------------------------------------
+    bool is_opaque(std::size_t column) const {
+        return all_of(column, [](double value) { return value == 255; });
+    }
+
+    // Behind x y z. An intensity stands alone in a .pts file, or in front of colours; x y z i r g b and x y z
+    // r g b a may look alike, and a fourth value that is always 255 is an alpha.
+    bool begins_with_intensity() const {
+        if (columns == 4) return kind == TableKind::pts;
+        if (columns == 7 && are_colors(3) && is_opaque(6)) return false;
+        return columns % 3 == 1 && are_colors(4);
+    }
+};
+
+// --- Colours -----------------------------------------------------------------------------------------------
 
 template<typename Whole>
 void make_whole(Attribute& column, ScalarType type) {
@@ -175,8 +145,11 @@ void type_colors(std::vector<Attribute>& columns) {
         for (const std::string_view name : {"red", "green", "blue", "alpha"})
             if (column.name == name) colors.push_back(&column);
     const auto all = [&](bool (*is_right)(double)) {
-        return std::all_of(colors.begin(), colors.end(),
-                           [&](const Attribute* column) { return all_of(*column, is_right); });
+        return std::ranges::all_of(colors, [&](const Attribute* column) {
+            for (std::size_t row = 0; row < rows_of(*column); ++row)
+                if (!is_right(number_at(*column, row))) return false;
+            return rows_of(*column) > 0;
+        });
     };
     const bool bytes = all(is_byte);
     if (!bytes && !all(is_short)) return;
@@ -189,12 +162,44 @@ void type_colors(std::vector<Attribute>& columns) {
 
 } // namespace
 
+std::vector<std::string> names_by_numbers(TableKind kind, std::size_t columns, std::size_t rows,
+                                          const TableNumbers& numbers) {
+    const Numbers table{kind, columns, rows, numbers};
+    std::vector<std::string> names{"x", "y", "z"};
+    const auto add = [&](std::initializer_list<const char*> more) {
+        names.insert(names.end(), more.begin(), more.end());
+    };
+    bool has_colors = false;
+    bool has_normals = false;
+    while (names.size() < columns) {
+        const std::size_t at = names.size();
+        if (at == 3 && table.begins_with_intensity()) {
+            add({"intensity"});
+        } else if (!has_normals && table.are_normals(at)) {
+            add({"nx", "ny", "nz"});
+            has_normals = true;
+        } else if (!has_colors && table.are_colors(at)) {
+            add({"red", "green", "blue"});
+            has_colors = true;
+            if (columns == 7 && names.size() == 6 && table.is_opaque(6)) add({"alpha"});
+        } else {
+            names.push_back("column_" + std::to_string(at + 1));
+        }
+    }
+    return names;
+}
+
 std::array<std::size_t, 3> name_table_columns(const TableLayout& layout, TableKind kind,
                                               std::vector<Attribute>& columns) {
-    if (layout.names.empty())
-        guess_names(kind, columns);
-    else
+    if (layout.names.empty()) {
+        const TableNumbers numbers = [&](std::size_t c, std::size_t row) {
+            return number_at(columns[c], row);
+        };
+        const auto names = names_by_numbers(kind, columns.size(), rows_of(columns.front()), numbers);
+        for (std::size_t c = 0; c < columns.size(); ++c) columns[c].name = names[c];
+    } else {
         take_names(layout, columns);
+    }
     type_colors(columns);
     std::array<std::size_t, 3> axes{};
     for (std::size_t c = columns.size(); c-- > 0;)

@@ -90,6 +90,10 @@ std::vector<std::string> write_patched(FileInTheMaking& file, const TableImage& 
     Patching patching{image, {}, with_free_names(cloud, shape.added), shown, PatchedCopy(image.bytes, out)};
     patching.posed.resize(cloud.attributes.size(), nullptr);
     for (const PosedColumn& column : columns) patching.posed[column.column] = &column;
+    if (!patching.added.empty() && image.layout.columns + patching.added.size() > most_table_columns)
+        throw Error(Trouble::output, shown,
+                    "columns cannot be added, since a table has at most " +
+                        std::to_string(most_table_columns) + "; save it as .ply, or without them");
     const bool nameless = image.layout.names.empty();
     if (!patching.added.empty() && nameless &&
         image.layout.words_in_remark >= image.layout.columns + patching.added.size())

@@ -57,8 +57,7 @@ void require_same_column(const Attribute& before, const Attribute& after) {
     require(before.values == after.values, "a column that no pose changes keeps its values");
 }
 
-// --- An edit: points moved, normals turned, a column added
-// ---------------------------------------------------
+// --- An edit: points moved, normals turned, a column added -------------------------------------------------
 
 struct Edit {
     std::vector<float> positions;
@@ -181,8 +180,7 @@ void require_edited(const Edited& edited) {
         if (!changes[column]) require_unchanged(edited, column);
 }
 
-// --- The properties
-// --------------------------------------------------------------------------------------------
+// --- The properties ----------------------------------------------------------------------------------------
 
 PointCloud read_again(const Format& format, std::vector<std::byte> bytes) {
     SilentProgress progress;
@@ -216,7 +214,7 @@ void check_as_new_file(const Format& format, PointCloud cloud) {
     const bool keeps_columns = format.name == "ply" && cloud.image->format() == "ply";
     cloud.image = nullptr;
     auto file = saved(format, cloud, {});
-    if (!file || (cloud.size() == 0 && !keeps_columns)) return; // some have no way to say: no points
+    if (!file) return;
     const PointCloud again = read_again(format, std::move(file->bytes));
     require(again.size() == cloud.size(), "a new file has all points");
     if (!keeps_columns) return;

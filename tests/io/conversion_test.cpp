@@ -108,6 +108,25 @@ TEST(Conversion, keeps_points_and_attributes_or_tells_of_them) {
     }
 }
 
+TEST(Conversion, of_no_points_reads_back_or_is_refused_at_once) {
+    for (const Format& format : known_formats()) {
+        SCOPED_TRACE(format.name);
+        const std::string name = "out" + std::string(format.extensions.front());
+        PointCloud cloud = make_cloud({});
+        for (const char* colour : {"red", "green", "blue"})
+            add_attribute(cloud, colour, std::span<const std::uint8_t>());
+        if (format.name == "obj") {
+            EXPECT_NE(refusal_to_write(cloud, {}, name).find("the cloud has no points, and OBJ"),
+                      std::string::npos);
+            continue;
+        }
+        std::vector<std::string> heard;
+        const PointCloud back = read_bytes(written(cloud, {}, name, &heard), name);
+        EXPECT_EQ(back.size(), 0U);
+        EXPECT_TRUE(find_attribute(back, "red") || !heard.empty()) << joined(heard);
+    }
+}
+
 TEST(Conversion, goes_from_every_format_to_every_other_in_a_pose) {
     for (const Format& from : known_formats())
         for (const Format& to : known_formats()) {

@@ -40,5 +40,14 @@ TEST(NewColumns, get_legal_names_of_their_own) {
     EXPECT_EQ(words[0], "the column 'my column' is called 'my_column_2' there");
 }
 
+TEST(NewColumns, are_told_by_name_as_far_as_a_sentence_goes) {
+    EXPECT_EQ(columns_are({"a"}), "the column 'a' is");
+    EXPECT_EQ(columns_are({"a", "b"}), "the columns 'a' and 'b' are");
+    EXPECT_EQ(columns_are({"a", "b", "c"}), "the columns 'a', 'b' and 'c' are");
+    const std::string many = columns_are(std::vector<std::string>(1000, std::string(1000, 'x')));
+    EXPECT_LT(many.size(), 800U);
+    EXPECT_TRUE(many.ends_with("…' and 987 more are")) << many;
+}
+
 } // namespace
 } // namespace knead::test

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
 
 namespace knead::test {
 namespace {
@@ -297,7 +299,9 @@ TEST(Table, WritesACloudFromElsewhereByTheCustomsOfTheExtension) {
     EXPECT_EQ(heard.size(), 2U) << joined(heard);
     heard.clear();
     (void)written(cloud, {}, "out.pts", &heard);
-    EXPECT_NE(joined(heard).find("left out: pair, a_b, links"), std::string::npos) << joined(heard);
+    EXPECT_NE(joined(heard).find("the columns 'pair', 'a_b' and 'links' are left out, since PTS has only"),
+              std::string::npos)
+        << joined(heard);
     const std::vector<float> far{5, 6};
     EXPECT_EQ(written(make_cloud(std::vector<float>{1, 2, 3, 4, 5, 6}), {{}, {}, {{"far", far}}}, "out.xyz"),
               "//x y z far\n1 2 3 5\n4 5 6 6\n");
@@ -321,6 +325,111 @@ TEST(Table, ReadsBackWhatItWrote) {
                 EXPECT_TRUE(is == was || (std::isnan(is) && std::isnan(was))) << cloud.attributes[a].name;
             }
     }
+}
+
+// A cloud of two points with columns behind x y z.
+struct Column {
+    const char* name;
+    std::vector<float> values;
+};
+PointCloud cloud_with(const std::vector<Column>& columns) {
+    PointCloud cloud = make_cloud(std::vector<float>{1, 2, 3, 4, 5, 6});
+    for (const Column& column : columns) add_attribute(cloud, column.name, column.values);
+    return cloud;
+}
+
+TEST(Table, NamesColumnsWhereTheirNumbersWouldNotTellTheSameNames) {
+    const std::vector<Column> unknown[] = {
+        {{"nx", {0, 0}}, {"ny", {0, 0}}, {"nz", {0, 0}}},          // no normals: 0 … 255, as colours are
+        {{"nx", {0, 1}}, {"ny", {0, 0}}, {"nz", {2, 0}}},          // none of length 1
+        {{"red", {0, 1}}, {"green", {1, 0}}, {"blue", {0, 0}}},    // may be normals
+        {{"ny", {0, 1}}, {"nx", {1, 0}}, {"nz", {0, 0}}},          // in another order
+        {{"nx", {0.6F, 1}}, {"ny", {0.8F, 0}}},                    // two
+        {{"red", {0.5F, 1}}, {"green", {1, 0}}, {"blue", {0, 0}}}, // fractions
+        {{"intensity", {7, 8}}},                                   // alone
+        {{"column_5", {7, 8}}},                                    // in the fourth place
+        {{"p", {1, 2}}, {"q", {1, 2}}, {"u", {1, 2}}, {"v", {300, 2}}}}; // of anybody
+    const std::vector<Column> known[] = {
+        {},
+        {{"nx", {0, 1}}, {"ny", {0, 0}}, {"nz", {1, 0}}},
+        {{"red", {9, 255}}, {"green", {1, 0}}, {"blue", {0, 0}}},
+        {{"red", {9, 255}}, {"green", {1, 0}}, {"blue", {0, 0}}, {"alpha", {255, 255}}},
+        {{"red", {9, 9}},
+         {"green", {9, 9}},
+         {"blue", {9, 9}},
+         {"nx", {1, 1}},
+         {"ny", {0, 0}},
+         {"nz", {0, 0}}},
+        {{"column_4", {7, 8}}}};
+    for (const char* name : {"out.xyz", "out.txt", "out.asc", "out.csv"})
+        for (const bool is_known : {false, true})
+            for (const std::vector<Column>& columns : is_known
+                                                          ? std::span(known).first(std::size(known))
+                                                          : std::span<const std::vector<Column>>(unknown)) {
+                const PointCloud cloud = cloud_with(columns);
+                SCOPED_TRACE(name + (": " + names_of(cloud)));
+                const std::string bytes = written(cloud, {}, name);
+                const bool named = bytes.find_first_of("xn") != std::string::npos;
+                EXPECT_EQ(named, !is_known || name == std::string("out.csv")) << bytes;
+                EXPECT_EQ(columns_of(bytes, name), names_of(cloud));
+            }
+    std::vector<std::string> heard;
+    (void)written(cloud_with(unknown[2]), {}, "out.pts", &heard);
+    EXPECT_NE(joined(heard).find("PTS names no columns"), std::string::npos) << joined(heard);
+}
+
+TEST(Table, GivesListsColumnsOfTheirOwn) {
+    PointCloud cloud = cloud_with({{"pair_1", {7, 8}}});
+    cloud.attributes.push_back({"pair", ScalarType::int64, std::vector<std::byte>(32), {0, 2, 4}});
+    const std::int64_t odd = (std::int64_t{1} << 60) + 1; // more digits than a double has
+    std::memcpy(cloud.attributes.back().values.data(), &odd, sizeof odd);
+    cloud.attributes.push_back({"none", ScalarType::uint8, {}, {0, 0, 0}});
+    std::vector<std::string> heard;
+    const std::string bytes = written(cloud, {}, "out.csv", &heard);
+    EXPECT_EQ(bytes, "x,y,z,pair_1,pair_1_2,pair_2\n1,2,3,7,1152921504606846977,0\n4,5,6,8,0,0\n");
+    EXPECT_EQ(heard,
+              (std::vector<std::string>{"out.csv: the lists 'none' are left out, since they are empty"}));
+    EXPECT_EQ(columns_of(bytes), "x y z pair_1 pair_1_2 pair_2");
+}
+
+TEST(Table, WritesNoMoreColumnsThanItReads) {
+    PointCloud cloud = make_cloud(std::vector<float>{1, 2, 3});
+    for (int i = 0; i < 9999; ++i)
+        add_attribute(cloud, "c" + std::to_string(i), std::vector<std::uint8_t>{1});
+    std::rotate(cloud.attributes.begin(), cloud.attributes.begin() + 3, cloud.attributes.end());
+    cloud.coordinate_columns = {9999, 10000, 10001};
+    for (const char* name : {"out.txt", "out.csv", "out.pcd"}) {
+        std::vector<std::string> heard;
+        const PointCloud back = read_bytes(written(cloud, {}, name, &heard), name);
+        EXPECT_EQ(back.attributes.size(), 10'000U) << name;
+        EXPECT_EQ(back.file_position(0), Vec3d(1, 2, 3)) << name;
+        EXPECT_NE(joined(heard).find("the columns 'c9997' and 'c9998' are left out"), std::string::npos)
+            << joined(heard);
+        const std::vector<float> far{5};
+        EXPECT_NE(refusal_to_write(back, {{}, {}, {{"far", far}}}, name).find("columns cannot be added"),
+                  std::string::npos);
+    }
+}
+
+// Names that all become the same word: each gets a number, and in no time.
+TEST(Table, TakesManyNamesThatAreOneWord) {
+    std::string names = "x,y,z", row = "1,2,3";
+    for (unsigned i = 0; i < 9997; ++i) {
+        names += ",\"a";
+        for (unsigned bit = 0; bit < 14; ++bit) names += (i >> bit & 1U) != 0 ? ' ' : '\t';
+        names += "b\"";
+        row += ",4";
+    }
+    const PointCloud cloud = read_bytes(names + "\n" + row + "\n", "cloud.csv");
+    ASSERT_EQ(cloud.attributes.size(), 10'000U);
+    EXPECT_EQ(cloud.attributes[3].name, "a______________b");
+    EXPECT_EQ(cloud.attributes.back().name, "a______________b_9997");
+}
+
+TEST(Table, KeepsAllDigitsOfWhatDoesNotTurn) {
+    const PointCloud cloud = read_bytes("1 2 3 0.123456789 0.98765432 0.1\n4 5 6 0 1 0\n", "cloud.txt");
+    const std::vector<float> normals{0.123456789F, 0.98765432F, 0.1F, 1, 0, 0};
+    EXPECT_EQ(written(cloud, {{}, normals}, "out.xyz"), "1 2 3 0.123456789 0.98765432 0.1\n4 5 6 1 0 0\n");
 }
 
 TEST(Table, OfAnotherKindIsWrittenAnew) {

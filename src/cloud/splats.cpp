@@ -8,6 +8,7 @@ namespace knead {
 namespace {
 
 constexpr std::size_t most_bands = 3; // of the harmonics that anybody writes
+constexpr std::size_t most_harmonics = 3 * most_bands * (most_bands + 2);
 
 std::optional<std::size_t> find_real(const PointCloud& cloud, const std::string& name) {
     const auto column = find_attribute(cloud, name);
@@ -19,8 +20,12 @@ std::optional<std::size_t> find_real(const PointCloud& cloud, const std::string&
 
 void find_harmonics(const PointCloud& cloud, SplatColumns& splats) {
     std::vector<std::size_t> found;
-    while (const auto column = find_real(cloud, "f_rest_" + std::to_string(found.size())))
+    // One more than are known tells that they are not; each takes a search through all columns.
+    while (found.size() <= most_harmonics) {
+        const auto column = find_real(cloud, "f_rest_" + std::to_string(found.size()));
+        if (!column) break;
         found.push_back(*column);
+    }
     for (std::size_t bands = 1; bands <= most_bands; ++bands)
         if (found.size() == 3 * bands * (bands + 2)) splats.bands = bands;
     const auto named = std::ranges::count_if(

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
+#include <unordered_map>
 
 namespace knead {
 
@@ -50,6 +52,15 @@ Distances distances(std::size_t points, const Position& position, const PointClo
     return result;
 }
 
+// Where the columns of each name are, so that many columns are found in no more time than few.
+using Places = std::unordered_map<std::string_view, std::size_t>;
+
+Places places_of(const PointCloud& cloud) {
+    Places places;
+    for (std::size_t a = 0; a < cloud.attributes.size(); ++a) places.try_emplace(cloud.attributes[a].name, a);
+    return places;
+}
+
 bool is_coordinate(const PointCloud& cloud, std::size_t column) {
     const auto& columns = cloud.coordinate_columns;
     return std::find(columns.begin(), columns.end(), column) != columns.end();
@@ -85,17 +96,18 @@ Distances distances_between(const PointCloud& cloud, std::span<const float> posi
 
 AttributeDifferences attribute_differences(const PointCloud& a, const PointCloud& b) {
     AttributeDifferences differences;
+    const Places in_a = places_of(a), in_b = places_of(b);
     for (std::size_t column = 0; column < a.attributes.size(); ++column) {
         if (is_coordinate(a, column)) continue;
         const Attribute& own = a.attributes[column];
-        const auto other = find_attribute(b, own.name);
-        if (!other)
+        const auto other = in_b.find(own.name);
+        if (other == in_b.end())
             differences.only_in_a.push_back(own.name);
-        else if (!are_equal(own, b.attributes[*other]))
+        else if (!are_equal(own, b.attributes[other->second]))
             differences.differ.push_back(own.name);
     }
     for (std::size_t column = 0; column < b.attributes.size(); ++column)
-        if (!is_coordinate(b, column) && !find_attribute(a, b.attributes[column].name))
+        if (!is_coordinate(b, column) && !in_a.contains(b.attributes[column].name))
             differences.only_in_b.push_back(b.attributes[column].name);
     return differences;
 }

@@ -84,7 +84,8 @@ void choose_axes(NewFile& file) {
 
 void count_returns(NewFile& file) {
     for (const LasField& field : file.plan.fields) {
-        if (field.dimension.name != "return_number") continue;
+        // Extra bytes of this name are such because they are no return numbers.
+        if (field.dimension.name != "return_number" || field.is_extra) continue;
         for (std::size_t point = 0; point < file.points; ++point) {
             const double number = new_value(field.column, point, file.shown);
             if (number >= 1 && number <= 15) ++file.by_return[static_cast<std::size_t>(number) - 1];

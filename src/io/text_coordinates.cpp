@@ -11,13 +11,13 @@ namespace knead {
 
 namespace {
 
-constexpr std::size_t digits_of_float = 7;
+constexpr int digits_of_float = 7;
 constexpr double farthest_diagonals = 8; // a float there lies within a millionth of the diagonal of the next
 
 // Significant digits: neither zeros in front nor zeros behind count.
-std::size_t significant_digits(std::string_view word) {
-    std::size_t digits = 0;
-    std::size_t zeros = 0; // since the last other digit
+int significant_digits(std::string_view word) {
+    int digits = 0;
+    int zeros = 0; // since the last other digit
     for (const char letter : word) {
         if (letter == 'e' || letter == 'E') break;
         if (letter == '0' && digits > 0) ++zeros;
@@ -26,6 +26,23 @@ std::size_t significant_digits(std::string_view word) {
         zeros = 0;
     }
     return digits;
+}
+
+// Whether the float next to a number is next to no other number of as many digits, seven at most. Floats lie
+// closer together than numbers of six digits wherever they have their full precision, and mostly closer than
+// those of seven; not so from a power of two just below a power of ten up to that, as from 2^-10 to 0.001.
+bool float_tells(double value, std::string_view word) {
+    using Limits = std::numeric_limits<float>;
+    const double magnitude = std::abs(value);
+    if (magnitude == 0) return true;
+    if (magnitude < static_cast<double>(Limits::min()) || magnitude > static_cast<double>(Limits::max()))
+        return false;
+    if (word.size() < digits_of_float) return true; // as most are
+    const int digits = significant_digits(word);
+    if (digits != digits_of_float) return digits < digits_of_float;
+    const double step = std::ldexp(1.0, std::ilogb(magnitude) - (Limits::digits - 1));
+    const double last_digit = std::pow(10.0, std::floor(std::log10(magnitude)) - (digits_of_float - 1));
+    return step <= last_digit;
 }
 
 void narrow(Attribute& column) {
@@ -53,9 +70,7 @@ void TextCoordinates::add(std::size_t axis, double value, std::string_view word)
     values.resize(values.size() + sizeof value);
     std::memcpy(values.data() + values.size() - sizeof value, &value, sizeof value);
     if (!std::isfinite(value)) return;
-    // A short word has no more than seven digits; most have.
-    if (word.size() > digits_of_float && few_digits_)
-        few_digits_ = significant_digits(word) <= digits_of_float;
+    floats_tell_apart_ = floats_tell_apart_ && float_tells(value, word);
     lowest_[axis] = std::min(lowest_[axis], value);
     highest_[axis] = std::max(highest_[axis], value);
     farthest_ = std::max(farthest_, std::abs(value));
@@ -68,7 +83,7 @@ bool TextCoordinates::float_is_enough() const {
         if (side > 0) squared += side * side;
     }
     // Points that all lie in one place have no diagonal, and are taken as doubles.
-    return few_digits_ && farthest_ <= farthest_diagonals * std::sqrt(squared);
+    return floats_tell_apart_ && farthest_ <= farthest_diagonals * std::sqrt(squared);
 }
 
 void TextCoordinates::finish(PointCloud& cloud) {

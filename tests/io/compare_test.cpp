@@ -79,5 +79,18 @@ TEST(Compare, names_attributes_that_differ) {
     EXPECT_EQ(differences.only_in_b, std::vector<std::string>{"other"});
 }
 
+TEST(Compare, takes_many_columns_in_no_time) {
+    PointCloud cloud = make_cloud(std::vector<float>{1, 2, 3});
+    for (int i = 0; i < 100'000; ++i)
+        add_attribute(cloud, "c" + std::to_string(i), std::vector<std::uint8_t>{1});
+    PointCloud other = cloud;
+    other.attributes[50'000].values[0] = std::byte{2};
+    other.attributes[7].name = "d";
+    const AttributeDifferences differences = attribute_differences(cloud, other);
+    EXPECT_EQ(differences.differ, std::vector<std::string>{"c49997"});
+    EXPECT_EQ(differences.only_in_a, std::vector<std::string>{"c4"});
+    EXPECT_EQ(differences.only_in_b, std::vector<std::string>{"d"});
+}
+
 } // namespace
 } // namespace knead::test

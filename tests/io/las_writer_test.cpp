@@ -1,4 +1,6 @@
+#include "io/las_header.h"
 #include "io/las_samples.h"
+#include "io/scalar_bytes.h"
 
 #include <gtest/gtest.h>
 
@@ -212,6 +214,21 @@ TEST(LasWriter, keeps_columns_without_a_place_as_extra_bytes) {
     EXPECT_EQ(value_of(back, "return_number", 2), 11);
     EXPECT_EQ(value_of(back, "quality_of_the_measurement_in_pe", 2), 0.3);
     EXPECT_EQ(get<std::uint64_t>(saved, 255 + 8 * 10), 1U); // of return 11
+}
+
+TEST(LasWriter, counts_returns_by_their_own_place_only) {
+    PointCloud cloud = make_cloud(std::vector<float>{0, 0, 0, 1, 1, 1});
+    add_attribute(cloud, "return_number", std::vector<float>{2, 300}); // no return numbers
+    const std::string bytes = written(cloud, {}, "out.las");
+    const auto count = [&](std::size_t number) {
+        return load_little<std::uint64_t>(std::as_bytes(std::span(bytes)),
+                                          las_at::points_by_return + 8 * (number - 1));
+    };
+    EXPECT_EQ(count(1), 2U) << "as the points say";
+    EXPECT_EQ(count(2), 0U);
+    const PointCloud back = read_bytes(bytes, "out.las");
+    EXPECT_EQ(value_at(back.attributes[find_attribute(back, "return_number").value()], 1), 1);
+    EXPECT_EQ(value_at(back.attributes[find_attribute(back, "return_number_2").value()], 1), 300);
 }
 
 TEST(LasWriter, makes_a_new_file_in_a_pose) {

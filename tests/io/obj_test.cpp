@@ -95,7 +95,6 @@ TEST(Obj, NumbersKeepTheirPrecision) {
     // Whole metres far away: floats could not hold an edit of centimetres.
     const PointCloud far = read_obj_text("v 512840 5403000 100\nv 512940 5403100 120\n");
     EXPECT_EQ(far.attributes[0].type, ScalarType::float64);
-    EXPECT_TRUE(far.remarks.empty());
     std::vector<float> posed = far.positions;
     posed[0] += 0.25F;
     EXPECT_EQ(saved(far, {posed, {}}), "v 512840.25 5403000 100\nv 512940 5403100 120\n");
@@ -103,6 +102,32 @@ TEST(Obj, NumbersKeepTheirPrecision) {
     EXPECT_EQ(fine.attributes[0].type, ScalarType::float64);
     EXPECT_EQ(fine.file_position(0)[0], 0.123456789);
     EXPECT_EQ(read_obj_text("v 0.1234567 0 0\nv 1 1 1.000000000\n").attributes[0].type, ScalarType::float32);
+}
+
+TEST(Obj, NumbersThatNoFloatTellsApartAreDoubles) {
+    const auto type_of = [](const std::string& number) {
+        const PointCloud cloud = read_bytes("v 0 0 0\nv 1 1 " + number + "\n", "cloud.obj");
+        return cloud.attributes[2].type;
+    };
+    for (const char* number : {"0.1234567", "0.000976562", "0.0009123456", "1.2e-38", "-0", "nan", "1e999"})
+        EXPECT_EQ(type_of(number), ScalarType::float32) << number;
+    // Two of seven digits that are the same float; too small for a float's full precision, and too large.
+    EXPECT_EQ(0.0009900005F, 0.0009900006F);
+    for (const char* number : {"0.0009900005", "0.0009900006", "0.12345678", "1e-40", "1e39"})
+        EXPECT_EQ(type_of(number), ScalarType::float64) << number;
+    const PointCloud far = read_bytes("v 0 0 0\nv 1e39 1e200 -1e300\n", "cloud.obj");
+    EXPECT_EQ(far.file_position(1), Vec3d(1e39, 1e200, -1e300));
+}
+
+TEST(Obj, KeepsAllDigitsOfWholeNumbers) {
+    const std::string whole = "9007199254740993"; // 2^53 + 1
+    const PointCloud cloud = read_bytes("VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE I I U\nWIDTH 1\nHEIGHT "
+                                        "1\nDATA ascii\n" +
+                                            whole + " -" + whole + " 18446744073709551615\n",
+                                        "cloud.pcd");
+    EXPECT_EQ(written(cloud, {}, "out.obj"), "v " + whole + " -" + whole + " 18446744073709551615\n");
+    EXPECT_NE(written(cloud, {}, "out.off").find(whole + " -" + whole + " 18446744073709551615\n"),
+              std::string::npos);
 }
 
 TEST(Obj, ColoursMayBeMissingHereAndThere) {

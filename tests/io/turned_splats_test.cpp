@@ -1,5 +1,6 @@
 // Gaussian splats that turn: their quaternions and their view-dependent colours.
 
+#include "io/lzf.h"
 #include "io/ply_samples.h"
 #include "io/through_files.h"
 #include "io/turned_splats.h"
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <numbers>
 #include <random>
+#include <set>
 
 namespace knead::test {
 namespace {
@@ -172,6 +174,52 @@ TEST(Splats, AreKnownByTheirColumns) {
     EXPECT_TRUE(odd.other_harmonics);
     EXPECT_EQ(odd.bands, 0U);
     EXPECT_TRUE(odd.harmonics.empty());
+}
+
+TEST(Splats, WithMoreHarmonicsThanAnybodyKnowsAreFoundInNoTime) {
+    PointCloud cloud = make_cloud(std::vector<float>{1, 2, 3});
+    for (int i = 0; i < 100'000; ++i)
+        add_attribute(cloud, "f_rest_" + std::to_string(i), std::vector<float>{1});
+    for (const char* name : {"scale_0", "rot_0", "rot_1", "rot_2", "rot_3"})
+        add_attribute(cloud, name, std::vector<float>{1});
+    const SplatColumns splats = find_splats(cloud).value();
+    EXPECT_TRUE(splats.other_harmonics);
+    EXPECT_TRUE(splats.harmonics.empty());
+}
+
+// Hears of the stages that it is told of.
+class Listener final : public Progress {
+public:
+    void report(std::string_view stage, double /*fraction*/) override { stages.insert(std::string(stage)); }
+    bool cancelled() const override { return false; }
+    std::set<std::string> stages;
+};
+
+TEST(Splats, TurnInCompressedFilesAsInOthers) {
+    Dice dice;
+    const PointCloud cloud = read_bytes(splat_file(45, dice));
+    const std::string plain = written(cloud, {}, "out.pcd");
+    std::string header = plain.substr(0, plain.find("DATA binary\n"));
+    std::string body; // column by column; the fields are the cloud's columns
+    for (const Attribute& column : cloud.attributes)
+        body.append(reinterpret_cast<const char*>(column.values.data()), column.values.size());
+    const auto packed = pack_lzf(std::as_bytes(std::span(body)));
+    std::array<std::uint32_t, 2> lengths{static_cast<std::uint32_t>(packed.size()),
+                                         static_cast<std::uint32_t>(body.size())};
+    header.append("DATA binary_compressed\n").append(reinterpret_cast<const char*>(lengths.data()), 8);
+    header.append(reinterpret_cast<const char*>(packed.data()), packed.size());
+    const std::vector<float> turns = as_floats({dice.turn(), Quatd::Identity(), dice.turn()});
+    const std::vector<float> far{1, 2, 3};
+    const PosedShape shape{{}, {}, {{"far", far}}, turns};
+    const PointCloud expected = read_bytes(written(read_bytes(plain, "a.pcd"), shape, "a.pcd"), "a.pcd");
+    const ScratchFolder folder;
+    Listener listener;
+    (void)write_cloud(folder / "b.pcd", read_bytes(header, "b.pcd"), shape, listener);
+    EXPECT_TRUE(listener.stages.contains("patching"));
+    const PointCloud turned = read_cloud(folder / "b.pcd", listener);
+    ASSERT_EQ(turned.attributes.size(), expected.attributes.size());
+    for (std::size_t a = 0; a < expected.attributes.size(); ++a)
+        EXPECT_EQ(turned.attributes[a].values, expected.attributes[a].values) << expected.attributes[a].name;
 }
 
 TEST(Splats, ThatAreNoNumbersStayAsTheyAre) {

@@ -19,7 +19,7 @@ namespace knead {
 PointCloud read_cloud(const std::filesystem::path& path, Progress& progress);
 
 // A column to save behind those of the cloud, as float32: one value a point, in the order of the file. A name
-// that the cloud has already gets a number.
+// that the cloud has already gets a number. Formats that have no place for it say so.
 struct AddedColumn {
     std::string name; // one word
     std::span<const float> values;

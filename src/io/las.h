@@ -35,10 +35,12 @@ bool looks_like_las(std::span<const std::byte> first_bytes);
 // an offset there, and float64 columns here. `shown` names the file in errors.
 PointCloud read_las(std::vector<std::byte> bytes, const std::string& shown, Progress& progress);
 
-// See Format::write. In a file that was LAS already, a coordinate is the whole number next to the posed
-// value; the header's scale and offset of an axis change only if the pose leaves the range of its whole
-// numbers, which the returned sentences say; its bounds change only on axes on which a point moved. A new
-// file is LAS 1.2, or 1.4 where the attributes ask for it.
+// See Format::write. In a file that was LAS already, a coordinate that a pose changes becomes the whole
+// number next to the posed value. Where the numbers of an axis would leave the range of 32 bits, its offset
+// in the header changes, and its scale where the extent asks for coarser steps; all numbers of that axis are
+// then made anew, which the returned sentences say. The header's bounds of an axis become those of the saved
+// points where a number changed, and stay elsewhere. Normals of extra bytes turn, and added columns become
+// extra bytes. A new file is LAS 1.2, or 1.4 where the attributes ask for it (las_plan.h).
 std::vector<std::string> write_las(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
                                    const std::string& shown, Progress& progress);
 

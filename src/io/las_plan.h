@@ -15,7 +15,7 @@ namespace knead {
 struct LasField {
     NewColumn column;
     LasDimension dimension; // where in a point
-    double factor = 1;      // of the values: colours of 8 bits fill 16
+    double factor = 1;      // of the values: 256 for colours of 8 bits, as LAS asks for
     bool is_extra = false;  // extra bytes, of the column's own type
 };
 
@@ -30,9 +30,12 @@ struct LasPlan {
     std::size_t extra_columns = 0;
 };
 
-// LAS 1.2 with point format 0 to 3 where all columns are such that have a place there; else 1.4 with format
-// 6, 7 or 8, and extra bytes for columns without a place. A column goes to the place that has its name,
-// letter case aside, if all its values are whole numbers that fit. What cannot be held is told in `heard`.
+// LAS 1.2 with point format 0 to 3 where all columns, lists aside, have a place there; else 1.4 with format
+// 6, 7 or 8, and extra bytes of its own type for each column without a place. A column goes to the place that
+// has its name, letter case aside: the first of that name, if all its values are whole numbers that fit; to
+// gps_time, if it is of floats; to red, green and blue, if there are all three. What cannot be held, which
+// are lists and more columns of extra bytes than one record describes, is told in `heard`, and so are names
+// that change.
 LasPlan plan_las(const PointCloud& cloud, std::vector<NewColumn> columns, std::vector<std::string>& heard);
 
 } // namespace knead

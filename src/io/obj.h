@@ -3,17 +3,17 @@
 // the points. Faces, lines, materials, groups and all else are kept byte for byte: they name vertices by
 // number, and vertices keep their order.
 //
-//     v x y z          a point; with a fourth number its weight, a column "weight" that changes nothing
-//     v x y z r g b    with a colour, as many programs write it: columns red, green and blue as written,
-//                      usually from 0 to 1. Seven numbers are x y z weight r g b; of five, or more than
-//                      seven, those behind x y z are kept and not understood
-//     vn x y z         normals: columns nx, ny and nz where each belongs to one point alone. That is so if
-//     the
-//                      corners of faces that name a point all name one normal, which no other point's do (a
-//                      point of no face gets 0 0 0); or if no corner names any, and there are as many normals
-//                      as points, in the same order. Other normals are kept as they are, with a remark
-//     f l p            numbers are checked: a point, a texture coordinate or a normal that is not in the file
-//                      is an error
+// - v x y z: a point; with a fourth number its weight, a column "weight" that changes nothing.
+// - v x y z r g b: with a colour, as many programs write it: columns red, green and blue of floats as
+// written,
+//   usually from 0 to 1. Seven numbers are x y z weight r g b; of five, or more than seven, those behind x y
+//   z are kept and not understood. A point without a weight or colour gets 1 where others have one.
+// - vn x y z: normals: columns nx, ny and nz where each belongs to one point alone. That is so if the corners
+//   that name a point all name one normal, which no other point's do (a point of no corner gets 0 0 0); or if
+//   no corner names any, and there are as many normals as points, in the same order. Other normals are kept
+//   as they are, with a remark.
+// - f, fo, l, p: numbers are checked: a point, a texture coordinate or a normal that is not in the file is an
+//   error.
 
 #include "base/whole_file.h"
 #include "cloud/point_cloud.h"
@@ -55,8 +55,8 @@ bool looks_like_obj(std::span<const std::byte> first_bytes);
 // (input) for a file without vertices, a number that is none, and an element that names what is not there.
 PointCloud read_obj(std::vector<std::byte> bytes, const std::string& shown, Progress& progress);
 
-// See Format::write. A new file has a `v` a point, with its colour where the cloud has colours, and then the
-// normals, where it has them.
+// See Format::write. A new file has a `v` a point, with its colour as fractions where the cloud has colours,
+// and then the normals, where it has them. A cloud of no points is refused, since no OBJ file can tell of it.
 std::vector<std::string> write_obj(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
                                    const std::string& shown, Progress& progress);
 

@@ -1,10 +1,11 @@
 #pragma once
 // The PCD format of the Point Cloud Library: ascii, binary and binary_compressed, organised or not.
 //
-// A field of COUNT 1 is a column of the cloud, one of a higher COUNT a list of so many numbers a point.
-// Padding (fields called "_") is kept in the file and is no column. A 4-byte field "rgb" or "rgba" packs
-// 8-bit colours as 0xAARRGGBB; the cloud has it as the columns red, green, blue (and alpha for "rgba"), while
-// the file keeps its own.
+// A field of COUNT 1 is a column of the cloud under the field's name, one of a higher COUNT a list of so many
+// numbers a point. The file keeps its own names where the cloud has others: normal_x, normal_y and normal_z
+// are columns nx, ny and nz, unless the file has one of these as well; and the first 4-byte field "rgb" or
+// "rgba", which packs 8-bit colours as 0xAARRGGBB, is the columns red, green, blue (and alpha for "rgba"),
+// unless the file has one of these. Padding (fields called "_") is kept in the file and is no column.
 
 #include "base/progress.h"
 #include "base/whole_file.h"
@@ -56,8 +57,8 @@ PointCloud read_pcd(std::vector<std::byte> bytes, const std::string& shown, Prog
 std::vector<std::string> write_pcd(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
                                    const std::string& shown, Progress& progress);
 
-// The part of it that makes a new file of a cloud that came from no PCD file: binary, unorganised. Returns
-// what it could not hold.
+// The part of it that makes a new file of a cloud that came from no PCD file: binary, unorganised, with
+// normals called normal_x …, and colours of bytes packed into one field. Returns what it could not hold.
 std::vector<std::string> write_new_pcd(FileInTheMaking& file, const PointCloud& cloud,
                                        const PosedShape& shape, const std::string& shown, Progress& progress);
 

@@ -42,8 +42,10 @@ void remark_on_coarse_coordinates(PointCloud& cloud, const Bounds& bounds) {
 void add_remarks(PointCloud& cloud) {
     const Bounds bounds = bounds_of(cloud);
     if (const std::size_t strange = cloud.size() - bounds.finite_points; strange > 0)
-        cloud.remarks.push_back(std::to_string(strange) + " of " + std::to_string(cloud.size()) +
-                                " points have a coordinate that is not finite; they are kept and never move");
+        cloud.remarks.push_back(
+            std::to_string(strange) + " of " + std::to_string(cloud.size()) +
+            " points have a coordinate that is not finite, or beyond what floats hold; they "
+            "are kept and never move");
     remark_on_coarse_coordinates(cloud, bounds);
 }
 

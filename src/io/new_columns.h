@@ -48,10 +48,10 @@ void name_standard_columns(std::vector<NewColumn>& columns, const PointCloud& cl
                            const std::array<std::string_view, 3>& normals);
 
 // Makes the names such that a format can write them: letters that `is_legal` refuses become '_', longer names
-// than `longest` are cut, and a name that is then taken gets a number. Returns a sentence for each that
-// changed.
+// than `longest`, in bytes, are cut, and a name that is then taken gets a number. Returns a sentence for each
+// that changed.
 std::vector<std::string> make_names_legal(std::vector<NewColumn>& columns, bool (*is_legal)(char letter),
-                                          std::size_t longest);
+                                          std::size_t longest = 1000);
 
 // Columns as the subject of a sentence: "the columns 'a', 'b' and 12 more are". At least one.
 std::string columns_are(const std::vector<std::string>& names);

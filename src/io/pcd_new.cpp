@@ -136,8 +136,7 @@ std::vector<std::string> write_new_pcd(FileInTheMaking& file, const PointCloud& 
     name_standard_columns(columns, cloud, {"normal_x", "normal_y", "normal_z"});
     for (NewColumn& column : columns)
         if (column.name == "_") column.name.clear(); // padding, in PCD
-    constexpr std::size_t no_limit = 1000;
-    std::vector<std::string> left_out = make_names_legal(columns, is_word_letter, no_limit);
+    std::vector<std::string> left_out = make_names_legal(columns, is_word_letter);
     const std::vector<NewField> fields = new_fields(columns, left_out);
     remark_on_wide_coordinates(columns, cloud, left_out);
     const std::string header = new_header(cloud.size(), fields);

@@ -74,8 +74,7 @@ std::vector<std::string> write_new_ply(FileInTheMaking& file, const PointCloud& 
     ColumnsToWrite all = columns_to_write(cloud, shape);
     std::vector<NewColumn>& columns = all.columns;
     name_standard_columns(columns, cloud, {"nx", "ny", "nz"});
-    constexpr std::size_t no_limit = 1000;
-    std::vector<std::string> left_out = make_names_legal(columns, is_word_letter, no_limit);
+    std::vector<std::string> left_out = make_names_legal(columns, is_word_letter);
     widen(columns, left_out);
     const std::string header = new_header(cloud.size(), columns);
     std::size_t total = header.size();

@@ -146,8 +146,7 @@ std::vector<std::string> write_new_table(FileInTheMaking& file, TableKind kind, 
     ColumnsToWrite all = columns_to_write(cloud, shape);
     std::vector<NewColumn>& columns = all.columns;
     name_standard_columns(columns, cloud, {"nx", "ny", "nz"});
-    constexpr std::size_t no_limit = 1000;
-    std::vector<std::string> left_out = make_names_legal(columns, is_name_letter, no_limit);
+    std::vector<std::string> left_out = make_names_legal(columns, is_name_letter);
     const NewTable table{kind, new_numbers(ordered_columns(columns, kind, left_out), left_out), cloud.size(),
                          shown};
     if (kind == TableKind::pts && !speaks_for_itself(table))

@@ -61,7 +61,7 @@ void patch_word(PatchedCopy& copy, std::string_view word, const PosedColumn& col
     if (!value) return;
     std::array<char, 64> buffer{};
     const std::size_t length = print_scalar(*value, column.attribute->type, buffer);
-    copy.replace(copy.place_of(word), word.size(), std::string_view(buffer.data(), length));
+    copy.replace(copy.place_of(word.data()), word.size(), std::string_view(buffer.data(), length));
 }
 
 void patch_scalar(PatchedCopy& copy, std::size_t at, bool swap, const PosedColumn& column, std::size_t i,

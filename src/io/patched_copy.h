@@ -56,9 +56,9 @@ public:
         replace(at, size, std::as_bytes(std::span(by)));
     }
 
-    // Where a word of the source, told by a view of it, begins among its bytes.
-    std::size_t place_of(std::string_view word) const {
-        return static_cast<std::size_t>(word.data() - reinterpret_cast<const char*>(source_.data()));
+    // A place in the text of the source, or at its end, as a place among its bytes.
+    std::size_t place_of(const char* at) const {
+        return static_cast<std::size_t>(at - reinterpret_cast<const char*>(source_.data()));
     }
 
     void finish() { out_.append(source_.subspan(copied_)); } // the rest; the writer is to be finished, too

@@ -101,7 +101,7 @@ void patch_ascii(const Patching& patching, PatchedCopy& copy) {
             words += ' ';
             append_number(words, static_cast<double>(column.values[point]), ScalarType::float32);
         }
-        copy.replace(copy.place_of({text.at, 0}), 0, words);
+        copy.replace(copy.place_of(text.at), 0, words);
     }
 }
 

@@ -91,7 +91,7 @@ void add_words(Patching& patching, std::size_t point, const TextCursor& text) {
         words += ' ';
         append_number(words, static_cast<double>(column.values[point]), ScalarType::float32);
     }
-    patching.copy.replace(patching.copy.place_of({text.at, 0}), 0, words);
+    patching.copy.replace(patching.copy.place_of(text.at), 0, words);
 }
 
 void patch_ascii_rows(Patching& patching, const PointCloud& cloud) {

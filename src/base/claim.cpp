@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace knead {
 
@@ -56,8 +57,12 @@ Found look_at(int folder, const std::filesystem::path& path, Claim::Kind kind) {
     return trouble ? Found::other : Found::nothing;
 }
 
+std::filesystem::path folder_of_name(const std::filesystem::path& path) {
+    return path.has_parent_path() ? path.parent_path() : ".";
+}
+
 Descriptor open_folder_of(const std::filesystem::path& path) {
-    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    const std::filesystem::path folder = folder_of_name(path);
     return Descriptor(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
 }
 
@@ -98,30 +103,39 @@ bool Claim::make() {
         fail(errno);
     }
     lock(descriptor_.value());
-    if (is_still_there()) return true;
+    if (is_in(folder, name)) return true;
     descriptor_ = Descriptor(); // taken for abandoned in the moment before the lock
     return false;
 }
 
-bool Claim::is_still_there() const {
+bool Claim::is_in(int folder, const std::filesystem::path& name) const {
     struct stat facts {
     }, facts_of_name{};
     return ::fstat(descriptor_.value(), &facts) == 0 &&
-           ::fstatat(folder_.value(), path_.filename().c_str(), &facts_of_name, AT_SYMLINK_NOFOLLOW) == 0 &&
+           ::fstatat(folder, name.c_str(), &facts_of_name, AT_SYMLINK_NOFOLLOW) == 0 &&
            is_same(facts, facts_of_name);
+}
+
+bool Claim::is_at_path() const {
+    return is_in(AT_FDCWD, path_);
 }
 
 Claim::~Claim() {
     if (!descriptor_) return;
     std::error_code ignored;
-    if (kind_ == Kind::file)
+    if (kind_ == Kind::folder && is_at_path()) std::filesystem::remove_all(path_, ignored);
+    if (kind_ == Kind::file && is_in(folder_.value(), path_.filename()))
         (void)::unlinkat(folder_.value(), path_.filename().c_str(), 0);
-    else
-        std::filesystem::remove_all(path_, ignored);
+}
+
+void Claim::refuse_if_away() const {
+    if (::access(folder_of_name(path_).c_str(), W_OK) != 0) fail(errno);
+    if (!is_at_path()) fail(ESTALE);
 }
 
 void Claim::rename_to(const std::filesystem::path& target) {
-    if (::rename(path_.c_str(), target.c_str()) != 0) fail(errno);
+    refuse_if_away();
+    if (::renameat(folder_.value(), path_.filename().c_str(), AT_FDCWD, target.c_str()) != 0) fail(errno);
     descriptor_ = Descriptor();
 }
 

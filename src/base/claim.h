@@ -13,7 +13,8 @@
 
 namespace knead {
 
-// A file or folder in the making. Destroyed before rename_to(), it is removed with all that is in it.
+// A file or folder in the making. Destroyed before rename_to(), it is removed with all that is in it; what
+// somebody else put under its name meanwhile is left alone.
 class Claim {
 public:
     enum class Kind { file, folder };
@@ -34,15 +35,21 @@ public:
     const std::filesystem::path& path() const { return path_; }
     int descriptor() const { return descriptor_.value(); } // of a file: open for reading and writing
 
+    // Whether path() still is what was made: false where its folder was moved or removed, and where something
+    // else stands there.
+    bool is_at_path() const;
+    // Throws std::system_error where it is not, and where nothing may be renamed in its folder.
+    void refuse_if_away() const;
+
     // Renames it over `target`, which must be in the same file system; then nothing is removed any more.
-    // Throws std::system_error, also where the folder of path() is not the one that it was made in.
+    // Throws std::system_error, also where refuse_if_away() does.
     void rename_to(const std::filesystem::path& target);
 
 private:
     Claim(std::filesystem::path path, Kind kind, Descriptor folder)
         : path_(std::move(path)), kind_(kind), folder_(std::move(folder)) {}
     bool make();
-    bool is_still_there() const;
+    bool is_in(int folder, const std::filesystem::path& name) const;
 
     std::filesystem::path path_;
     Kind kind_;

@@ -83,6 +83,22 @@ TEST_P(ClaimOfKind, LeavesAloneWhatIsSomethingElse) {
     EXPECT_EQ(read_text(folder / "kept"), "kept");
 }
 
+TEST_P(ClaimOfKind, LeavesAloneWhatTookItsPlace) {
+    {
+        Claim claim = Claim::beside(target, GetParam());
+        EXPECT_TRUE(claim.is_at_path());
+        std::filesystem::rename(first, folder / "carried off");
+        EXPECT_FALSE(claim.is_at_path());
+        if (GetParam() == Kind::folder) std::filesystem::create_directory(first);
+        const std::filesystem::path other = GetParam() == Kind::folder ? first / "other" : first;
+        write_text(other, "other");
+        EXPECT_FALSE(claim.is_at_path());
+        EXPECT_THROW(claim.rename_to(target), std::system_error);
+    }
+    EXPECT_FALSE(std::filesystem::exists(target));
+    EXPECT_EQ(read_text(GetParam() == Kind::folder ? first / "other" : first), "other");
+}
+
 TEST(Claim, RemovedWhereItsFolderWasMovedTo) {
     const ScratchFolder folder;
     std::filesystem::create_directory(folder / "here");

@@ -3,6 +3,8 @@
 // shown by the program's main function or the editor's toast. Nothing found is std::optional, a numeric
 // outcome is a status with words, and a broken invariant is require() (base/require.h).
 
+#include "base/control_characters.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -17,22 +19,15 @@ enum class Trouble {
     output = 5,       // a file that cannot be written
 };
 
-// The words with '?' for every control character. Names from files must neither break a message's line nor
-// send commands to a terminal.
-inline std::string in_one_line(std::string words) {
-    for (char& letter : words)
-        if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F) letter = '?';
-    return words;
-}
-
 // One sentence for the person at the keyboard: what happened, where, and what to do about it.
 class Error : public std::runtime_error {
 public:
     // `place` is the file, with a line or an offset where one is known ("wave.knead:12", "scan.ply: byte
     // 812"); it may be empty for an argument. `words` says what is wrong and the cure, without a full stop at
-    // its end. Both are shown in_one_line().
+    // its end. Both are shown in one line, without_controls().
     Error(Trouble trouble, const std::string& place, const std::string& words)
-        : std::runtime_error(in_one_line(place.empty() ? words : place + ": " + words)), trouble_(trouble) {}
+        : std::runtime_error(without_controls(place.empty() ? words : place + ": " + words)),
+          trouble_(trouble) {}
 
     Trouble trouble() const { return trouble_; }
 

@@ -2,6 +2,7 @@
 
 #include "bench/evaluation.h"
 #include "bench/report.h"
+#include "edit/json_text.h"
 
 #include <cmath>
 
@@ -210,7 +211,7 @@ std::string evaluation_json(const Evaluation& evaluation) {
                          {"settled_uneven_degrees", twist->settled_uneven},
                          {"holds", twist_is_kept(*twist, twist->measured)},
                          {"settled_holds", twist_is_kept(*twist, twist->settled)}};
-    return json.dump(2, ' ', false, ReportJson::error_handler_t::replace);
+    return json_text(json);
 }
 
 } // namespace knead

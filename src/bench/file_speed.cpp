@@ -5,6 +5,7 @@
 #include "base/whole_file.h"
 #include "bench/made_cloud.h"
 #include "bench/report.h"
+#include "edit/json_text.h"
 #include "io/cloud_file.h"
 #include "io/format.h"
 
@@ -124,7 +125,7 @@ std::string file_speed_json(const FileSpeed& speed) {
                                    {"copy", json_of(format.bytes, format.copy)},
                                    {"save", json_of(format.bytes, format.save)},
                                    {"save_over_copy", ratio(format.save, format.copy)}});
-    return json.dump(2);
+    return json_text(json);
 }
 
 } // namespace knead

@@ -2,6 +2,7 @@
 
 #include "bench/growth.h"
 #include "bench/report.h"
+#include "edit/json_text.h"
 
 namespace knead {
 
@@ -73,7 +74,7 @@ std::string growth_json(const Growth& growth) {
     json["warnings"] = growth.warnings;
     json["by_points"] = json_of(growth.by_points, &RowFigures::points);
     json["by_samples"] = json_of(growth.by_samples, &RowFigures::samples);
-    return json.dump(2);
+    return json_text(json);
 }
 
 } // namespace knead

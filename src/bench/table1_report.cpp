@@ -3,6 +3,7 @@
 #include "bench/report.h"
 #include "bench/table1.h"
 #include "bench/text_table.h"
+#include "edit/json_text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -168,7 +169,7 @@ std::string table1_json(const Table1& table) {
     json["warnings"] = table.warnings;
     json["rows"] = Json::array();
     for (const Table1Result& result : table.results) json["rows"].push_back(json_of(result));
-    return json.dump(2);
+    return json_text(json);
 }
 
 } // namespace knead

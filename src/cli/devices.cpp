@@ -2,6 +2,7 @@
 
 #include "upsample/devices.h"
 #include "cli/commands.h"
+#include "edit/json_text.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -48,7 +49,7 @@ void write_table(const std::vector<DeviceDescription>& devices, std::ostream& ou
 int show_devices(Terminal& terminal, bool json) {
     const std::vector<DeviceDescription> devices = list_devices();
     if (json)
-        terminal.out << as_json(devices).dump(2) << "\n";
+        terminal.out << json_text(as_json(devices)) << "\n";
     else
         write_table(devices, terminal.out);
     if (devices.empty())

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "edit/json_text.h"
 #include "io/cloud_file.h"
 #include "io/compare.h"
 
@@ -50,8 +51,7 @@ std::string json_of(const Difference& difference) {
     json["attributes_differ"] = difference.attributes.differ;
     json["attributes_only_in_a"] = difference.attributes.only_in_a;
     json["attributes_only_in_b"] = difference.attributes.only_in_b;
-    // Names come from the file, in any encoding; JSON is UTF-8.
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return json_text(json);
 }
 
 void print(const Difference& difference, std::ostream& out) {

@@ -3,6 +3,7 @@
 #include "base/stopwatch.h"
 #include "cli/commands.h"
 #include "cloud/point_cloud.h"
+#include "edit/json_text.h"
 #include "graph/bridges.h"
 #include "graph/neighbors.h"
 #include "graph/point_order.h"
@@ -132,8 +133,7 @@ std::string json_of(const PointCloud& cloud, const Facts& facts) {
     json["format"] = facts.kind.format;
     json["encoding"] = facts.kind.encoding;
     json["remarks"] = cloud.remarks;
-    // Names come from the file, in any encoding; JSON is UTF-8.
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return json_text(json);
 }
 
 void print(const PointCloud& cloud, const Facts& facts, std::ostream& out) {

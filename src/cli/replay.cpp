@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/replay_pictures.h"
+#include "edit/json_text.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -150,7 +151,7 @@ int run_replay(const Arguments& arguments, Terminal& terminal) {
             terminal.say("knead: " + session.place(check.line) + ": check failed: " + check.words);
     if (!report.checks.empty() && report.all_checks_held())
         terminal.say(counted(report.checks.size(), "check", "checks") + " held");
-    if (arguments.json) terminal.out << to_json(report).dump(2) << '\n';
+    if (arguments.json) terminal.out << json_text(to_json(report)) << '\n';
     return report.all_checks_held() ? 0 : static_cast<int>(Trouble::check_failed);
 }
 

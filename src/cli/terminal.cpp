@@ -1,5 +1,8 @@
 #include "cli/terminal.h"
 
+#include "base/control_characters.h"
+#include "base/error.h"
+
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -13,17 +16,9 @@ namespace {
 // A signal handler can reach nothing but static storage.
 volatile std::sig_atomic_t stop_asked = 0;
 
-// Names come from files, and must not command the terminal: control characters are shown as "?".
-std::string printable(std::string text) {
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto byte = static_cast<unsigned char>(text[i]);
-        const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
-        const bool is_c0 = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F;
-        const bool is_c1 = byte == 0xC2 && next >= 0x80 && next < 0xA0; // U+0080 … U+009F
-        if (is_c1) text.erase(i, 1);
-        if (is_c0 || is_c1) text[i] = '?';
-    }
-    return text;
+// Names come from files. Words and data are made of lines and columns.
+std::string shown(std::string_view text) {
+    return without_controls(text, "\n\t");
 }
 
 void ask_to_stop(int /*signal*/) {
@@ -46,11 +41,11 @@ Terminal::~Terminal() {
 
 void Terminal::say(const std::string& words) {
     clear_bar();
-    std::fprintf(stderr, "%s\n", printable(words).c_str());
+    std::fprintf(stderr, "%s\n", shown(words).c_str());
 }
 
 void Terminal::warn(const std::string& words) {
-    say(in_one_line("warning: " + words));
+    say(without_controls("warning: " + words));
 }
 
 void Terminal::report(std::string_view stage, double fraction) {
@@ -85,7 +80,7 @@ void Terminal::clear_bar() {
 
 void Terminal::flush_data() {
     clear_bar();
-    const std::string text = printable(out.str()); // JSON has no control characters anyway
+    const std::string text = shown(out.str()); // JSON is ASCII with no other control characters: unchanged
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
     if (!written || std::fflush(stdout) != 0)
         throw Error(Trouble::output, "standard output", "cannot be written");

@@ -23,8 +23,8 @@ TEST(Error, names_the_place_where_there_is_one) {
 }
 
 TEST(Error, is_one_line_that_sends_no_commands_to_a_terminal) {
-    const Error error(Trouble::input, "a\nb.ply", "the name \"\x1B[2J\x7F größe\" is taken");
-    EXPECT_STREQ(error.what(), "a?b.ply: the name \"?[2J? größe\" is taken");
+    const Error error(Trouble::input, "a\nb.ply", "the name \"\x1B[2J\x7F\xC2\x9B größe\" is taken");
+    EXPECT_STREQ(error.what(), "a?b.ply: the name \"?[2J?? größe\" is taken");
 }
 
 } // namespace

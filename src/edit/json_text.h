@@ -1,0 +1,15 @@
+#pragma once
+// JSON on its way out, for other programs to read.
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace knead {
+
+// The value in lines, indented by two, without an end of line. It is ASCII: other characters are escaped,
+// control characters too, so that whatever shows it has nothing to alter. Names come from files and arguments
+// in any encoding, and JSON is UTF-8: bytes that are none become U+FFFD.
+std::string json_text(const nlohmann::ordered_json& json);
+
+} // namespace knead

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
+#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
@@ -19,29 +19,27 @@ namespace knead {
 
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, Trouble trouble, const std::string& doing) {
-    throw Error(trouble, file.string(), "cannot " + doing + " the recording: " + std::strerror(errno));
+[[noreturn]] void fail(const std::filesystem::path& file, Trouble trouble, const std::string& doing,
+                       int code = errno) {
+    throw Error(trouble, file.string(),
+                "cannot " + doing + " the recording: " + std::generic_category().message(code));
 }
 
-bool lock(int descriptor) {
-    return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+bool lock(const Descriptor& journal) {
+    return ::flock(journal.value(), LOCK_EX | LOCK_NB) == 0;
 }
 
-void write_all(int descriptor, std::string_view text, const std::filesystem::path& file) {
-    while (!text.empty()) {
-        const ssize_t written = ::write(descriptor, text.data(), text.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail(file, Trouble::output, "write");
-        text.remove_prefix(static_cast<std::size_t>(written));
-    }
+void write_text(const Descriptor& journal, std::string_view text, const std::filesystem::path& file) {
+    if (const int code = write_all(journal.value(), text); code != 0)
+        fail(file, Trouble::output, "write", code);
 }
 
 // All of it, or Error (input): half of a journal must not pass for the whole.
-std::string read_all(int descriptor, const std::filesystem::path& file) {
+std::string read_all(const Descriptor& journal, const std::filesystem::path& file) {
     std::string text;
     char buffer[65536];
     for (;;) {
-        const ssize_t got = ::read(descriptor, buffer, sizeof buffer);
+        const ssize_t got = ::read(journal.value(), buffer, sizeof buffer);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) fail(file, Trouble::input, "read");
         if (got == 0) return text;
@@ -62,23 +60,18 @@ std::filesystem::path fresh_name(const std::filesystem::path& folder, unsigned a
 
 // What a journal holds, if it is one, nobody has it open, and it can be read.
 std::optional<LostWork> look_at(const std::filesystem::path& file) {
-    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
-    if (descriptor < 0) return std::nullopt;
-    std::optional<LostWork> found;
-    if (lock(descriptor)) {
-        try {
-            const Session session = parse_session(mended(read_all(descriptor, file), file).text, file);
-            if (session.lines.empty())
-                ::unlink(file.c_str());
-            else
-                found = LostWork{file, session.resolve(session.cloud), session.lines.size(),
-                                 std::filesystem::last_write_time(file)};
-        } catch (const std::exception&) {
-            // Not a journal of this version: it stays where it is.
-        }
+    const Descriptor journal(::open(file.c_str(), O_RDWR | O_CLOEXEC));
+    if (!journal || !lock(journal)) return std::nullopt;
+    try {
+        const Session session = parse_session(mended(read_all(journal, file), file).text, file);
+        if (!session.lines.empty())
+            return LostWork{file, session.resolve(session.cloud), session.lines.size(),
+                            std::filesystem::last_write_time(file)};
+        ::unlink(file.c_str());
+    } catch (const std::exception&) {
+        // Not a journal of this version: it stays where it is.
     }
-    ::close(descriptor);
-    return found;
+    return std::nullopt;
 }
 
 } // namespace
@@ -96,14 +89,14 @@ Journal Journal::create(const std::filesystem::path& folder, const std::string& 
     std::filesystem::create_directories(folder, trouble);
     for (unsigned attempt = 0;; ++attempt) {
         const std::filesystem::path file = fresh_name(folder, attempt);
-        const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0600);
-        if (descriptor < 0 && errno == EEXIST && attempt < 1000) continue;
-        if (descriptor < 0) fail(file, Trouble::output, "begin");
-        Journal journal(file, descriptor);
+        Descriptor made(::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0600));
+        if (!made && errno == EEXIST && attempt < 1000) continue;
+        if (!made) fail(file, Trouble::output, "begin");
         // Somebody who looks for lost work may have it for a moment, and may have removed it.
-        ::flock(descriptor, LOCK_EX);
+        ::flock(made.value(), LOCK_EX);
         struct stat status {};
-        if (::fstat(descriptor, &status) == 0 && status.st_nlink == 0) continue;
+        if (::fstat(made.value(), &status) == 0 && status.st_nlink == 0) continue;
+        Journal journal(file, std::move(made));
         journal.append(header);
         sync_folder(folder); // or the file could be nameless after a power cut
         return journal;
@@ -111,39 +104,26 @@ Journal Journal::create(const std::filesystem::path& folder, const std::string& 
 }
 
 Journal Journal::take_over(const std::filesystem::path& file) {
-    const int descriptor = ::open(file.c_str(), O_RDWR | O_APPEND | O_CLOEXEC);
-    if (descriptor < 0) fail(file, Trouble::input, "open");
-    Journal journal(file, descriptor);
+    Descriptor descriptor(::open(file.c_str(), O_RDWR | O_APPEND | O_CLOEXEC));
+    if (!descriptor) fail(file, Trouble::input, "open");
     if (!lock(descriptor))
         throw Error(Trouble::input, file.string(), "another knead is working on this recording");
     const std::string text = read_all(descriptor, file);
     const std::string whole = mended(text, file).text;
-    if (whole.size() > text.size()) write_all(descriptor, std::string_view(whole).substr(text.size()), file);
-    if (::ftruncate(descriptor, static_cast<off_t>(whole.size())) != 0) fail(file, Trouble::output, "mend");
-    return journal;
-}
-
-Journal::~Journal() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-Journal::Journal(Journal&& other) noexcept
-    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-Journal& Journal::operator=(Journal&& other) noexcept {
-    std::swap(file_, other.file_);
-    std::swap(descriptor_, other.descriptor_);
-    return *this;
+    if (whole.size() > text.size()) write_text(descriptor, std::string_view(whole).substr(text.size()), file);
+    if (::ftruncate(descriptor.value(), static_cast<off_t>(whole.size())) != 0)
+        fail(file, Trouble::output, "mend");
+    return {file, std::move(descriptor)};
 }
 
 void Journal::append(std::string_view line) {
-    const off_t before = ::lseek(descriptor_, 0, SEEK_END);
+    const off_t before = ::lseek(descriptor_.value(), 0, SEEK_END);
     try {
-        write_all(descriptor_, std::string(line) + "\n", file_);
-        if (::fdatasync(descriptor_) != 0) fail(file_, Trouble::output, "sync");
+        write_text(descriptor_, std::string(line) + "\n", file_);
+        if (::fdatasync(descriptor_.value()) != 0) fail(file_, Trouble::output, "sync");
     } catch (...) {
         // Whole lines only; if even that fails, take_over() drops the piece.
-        [[maybe_unused]] const int cut = ::ftruncate(descriptor_, before);
+        [[maybe_unused]] const int cut = ::ftruncate(descriptor_.value(), before);
         throw;
     }
 }

@@ -2,6 +2,7 @@
 // The recording that is always on: a session file in the user's state folder that grows line by line, so that
 // a crash loses at most the act that was going on.
 
+#include "base/descriptor.h"
 #include "edit/session.h"
 
 #include <filesystem>
@@ -24,10 +25,6 @@ public:
     // another process has it.
     static Journal take_over(const std::filesystem::path& file);
 
-    ~Journal();
-    Journal(Journal&& other) noexcept;
-    Journal& operator=(Journal&& other) noexcept;
-
     const std::filesystem::path& file() const { return file_; }
 
     // Appends a line and syncs it. Throws Error (output) when the disk is full or fails.
@@ -36,9 +33,10 @@ public:
     void discard();
 
 private:
-    Journal(std::filesystem::path file, int descriptor) : file_(std::move(file)), descriptor_(descriptor) {}
+    Journal(std::filesystem::path file, Descriptor descriptor)
+        : file_(std::move(file)), descriptor_(std::move(descriptor)) {}
     std::filesystem::path file_;
-    int descriptor_ = -1;
+    Descriptor descriptor_; // carries the lock
 };
 
 // A journal's text as whole lines. The last one has no end where a crash cut it short: it counts if it can be

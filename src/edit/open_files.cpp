@@ -61,8 +61,7 @@ OpenFiles::OpenFiles(const fs::path& state_folder, const std::vector<fs::path>& 
     } catch (const std::system_error&) {
         return;
     }
-    const std::string text = text_of(files);
-    if (entry_ && ::write(entry_->descriptor(), text.data(), text.size()) < 0) entry_.reset();
+    if (entry_ && write_all(entry_->descriptor(), text_of(files)) != 0) entry_.reset();
 }
 
 std::vector<pid_t> OpenFiles::others_with(const fs::path& file) const {

@@ -4,6 +4,10 @@
 #include "edit/open_files.h"
 #include "support/child.h"
 
+#include <csignal>
+
+#include <sys/resource.h>
+
 namespace knead::test {
 namespace {
 
@@ -48,6 +52,19 @@ TEST(OpenFiles, WhereNothingCanBeWrittenNobodyIsTold) {
     EXPECT_TRUE(nowhere.others_with("cat.ply").empty());
     const OpenFiles no_folder("/proc/nowhere", {"cat.ply"});
     EXPECT_TRUE(no_folder.others_with("cat.ply").empty());
+}
+
+TEST(OpenFiles, OnAFullDiskNobodyIsToldHalfAName) {
+    const ScratchFolder folder;
+    const std::string names = in_child([&] {
+        ::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{20, 20}; // bytes of a file: writing more is cut short
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        const OpenFiles open(folder / "state", {folder / std::string(100, 'n')});
+        return std::to_string(
+            std::distance(fs::directory_iterator(folder / "state/open"), fs::directory_iterator()));
+    });
+    EXPECT_EQ(names, "0");
 }
 
 std::vector<std::string> warnings_of(LiveDocument& live) {

@@ -1,13 +1,10 @@
 #include "app/recent_files.h"
 
-#include "base/error.h"
-#include "base/whole_file.h"
-#include "edit/journal.h"
+#include "app/kept_text.h"
 
 #include <algorithm>
 #include <fstream>
 #include <string>
-#include <string_view>
 
 namespace knead {
 
@@ -15,32 +12,19 @@ namespace {
 
 constexpr std::size_t most = 12;
 
-std::filesystem::path list_file() {
-    const std::filesystem::path folder = default_journal_folder();
-    return folder.empty() ? folder : folder / "recent";
-}
+constexpr const char* list_name = "recent";
 
 void write_list(const std::vector<std::filesystem::path>& recent) {
-    const std::filesystem::path target = list_file();
-    if (target.empty()) return;
-    std::error_code ignored;
-    std::filesystem::create_directories(target.parent_path(), ignored);
     std::string text;
     for (const std::filesystem::path& file : recent) text += file.string() + '\n';
-    try {
-        FileInTheMaking file(target);
-        file.write(std::string_view(text));
-        file.commit();
-    } catch (const Error&) {
-        // A convenience; nothing of the user's work.
-    }
+    keep_text(list_name, text);
 }
 
 } // namespace
 
 std::vector<std::filesystem::path> read_recent_files() {
     std::vector<std::filesystem::path> recent;
-    std::ifstream in(list_file());
+    std::ifstream in(kept_file(list_name));
     std::error_code ignored;
     for (std::string line; recent.size() < most && std::getline(in, line);)
         if (!line.empty() && std::filesystem::is_regular_file(line, ignored)) recent.emplace_back(line);

@@ -1,26 +1,20 @@
 #include "app/remembered.h"
 
-#include "base/error.h"
-#include "base/whole_file.h"
-#include "edit/journal.h"
+#include "app/kept_text.h"
 
 #include <fstream>
 #include <string>
-#include <string_view>
 
 namespace knead {
 
 namespace {
 
-std::filesystem::path settings_file() {
-    const std::filesystem::path folder = default_journal_folder();
-    return folder.empty() ? folder : folder / "window";
-}
+constexpr const char* settings_name = "window";
 
 } // namespace
 
 UpAxis read_up_axis() {
-    std::ifstream in(settings_file());
+    std::ifstream in(kept_file(settings_name));
     std::string name, value;
     while (in >> name >> value)
         if (name == "up") return value == "y" ? UpAxis::y : UpAxis::z;
@@ -28,17 +22,7 @@ UpAxis read_up_axis() {
 }
 
 void remember_up_axis(UpAxis up) {
-    const std::filesystem::path target = settings_file();
-    if (target.empty()) return;
-    std::error_code ignored;
-    std::filesystem::create_directories(target.parent_path(), ignored);
-    try {
-        FileInTheMaking file(target);
-        file.write(std::string_view(up == UpAxis::y ? "up y\n" : "up z\n"));
-        file.commit();
-    } catch (const Error&) {
-        // A convenience; nothing of the user's work.
-    }
+    keep_text(settings_name, up == UpAxis::y ? "up y\n" : "up z\n");
 }
 
 } // namespace knead

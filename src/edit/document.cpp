@@ -280,13 +280,10 @@ double Document::handle_error(Progress& progress) {
     for (std::size_t i = 0; i < pipeline_.order().points(); ++i) {
         const Index label = pipeline_.labels().point[i];
         if (label == no_index) continue;
-        const auto at = [i](const std::vector<float>& positions) {
-            return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
-        };
         const HandleMotion motion =
             label == pipeline_.labels().outside ? HandleMotion{} : now().motions[label];
-        const Vec3d target = motion.linear * at(rest.positions) + motion.offset;
-        largest = std::max(largest, (at(posed.positions) - target).norm());
+        const Vec3d target = motion.linear * point_at(rest.positions, i) + motion.offset;
+        largest = std::max(largest, (point_at(posed.positions, i) - target).norm());
     }
     return bounds_.diagonal() > 0 ? largest / bounds_.diagonal() : largest;
 }
@@ -393,12 +390,9 @@ std::vector<Index> Document::resolve(const HandleLine& line, const std::string& 
     }
     SilentProgress silent;
     const std::vector<float> rest = now().rest ? positions(silent) : std::vector<float>{};
-    const auto at = [](const std::vector<float>& positions, std::size_t i) {
-        return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
-    };
     const auto file_position = [&](std::size_t i) -> Vec3d {
         const Vec3d opened = cloud_.file_position(i);
-        return rest.empty() ? opened : Vec3d(opened + (at(rest, i) - at(cloud_.positions, i)));
+        return rest.empty() ? opened : Vec3d(opened + (point_at(rest, i) - point_at(cloud_.positions, i)));
     };
     return resolve_points(line, cloud_, file_position, place);
 }

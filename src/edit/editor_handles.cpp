@@ -215,10 +215,7 @@ struct PointGrid {
 std::vector<Index> points_across(const Editor& editor, const Handle& handle, int axis, double at,
                                  double reach) {
     const std::vector<float>& rest = editor.opened.opened->positions;
-    const auto place = [&](Index i) {
-        return Vec3d(
-            Eigen::Map<const Vec3f>(rest.data() + 3 * std::size_t{editor.ordered[i]}).cast<double>());
-    };
+    const auto place = [&](Index i) { return point_at(rest, editor.ordered[i]); };
     std::vector<bool> in_handle(editor.ordered.size(), false);
     Eigen::AlignedBox3d box;
     for (const Index i : *handle.points) {
@@ -248,9 +245,7 @@ Vec3d rest_middle(const Editor& editor, const std::vector<Index>& points) {
     std::size_t count = 0;
     for (const Index i : points) {
         if (editor.ordered[i] == no_index) continue;
-        sum += Eigen::Map<const Vec3f>(editor.opened.opened->positions.data() +
-                                       3 * std::size_t{editor.ordered[i]})
-                   .cast<double>();
+        sum += point_at(editor.opened.opened->positions, editor.ordered[i]);
         ++count;
     }
     return count > 0 ? Vec3d(sum / static_cast<double>(count)) : sum;

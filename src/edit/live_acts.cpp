@@ -22,7 +22,7 @@ Vec3d middle_at_rest(const Document& document, const std::string& name) {
     if (handle == document.handles().end()) return sum;
     for (const Index i : *handle->points) {
         if (!is_finite(document.cloud(), i)) continue;
-        sum += Eigen::Map<const Vec3f>(document.cloud().positions.data() + 3 * std::size_t{i}).cast<double>();
+        sum += point_at(document.cloud().positions, i);
         ++count;
     }
     return count > 0 ? Vec3d(sum / count) : sum;

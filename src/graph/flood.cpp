@@ -199,10 +199,7 @@ private:
 };
 
 double length_of(const Graph& graph, std::span<const float> positions, std::size_t v, std::size_t link) {
-    const auto at = [&](std::size_t u) {
-        return Eigen::Map<const Vec3f>(positions.data() + 3 * u).cast<double>();
-    };
-    return (at(v) - at(graph.neighbor[link])).norm();
+    return (point_at(positions, v) - point_at(positions, graph.neighbor[link])).norm();
 }
 
 // The median length of a link, over at most some ten thousand of them, evenly chosen.

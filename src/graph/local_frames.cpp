@@ -6,19 +6,15 @@ namespace knead {
 
 namespace {
 
-Vec3d position_of(std::span<const float> positions, std::size_t v) {
-    return Eigen::Map<const Vec3f>(positions.data() + 3 * v).cast<double>();
-}
-
 Quatd frame_at(const Graph& graph, std::span<const float> positions, std::size_t v) {
     const auto row = graph.row(v);
     if (row.empty()) return Quatd::Identity();
-    Vec3d mean = position_of(positions, v);
-    for (const Index u : row) mean += position_of(positions, u);
+    Vec3d mean = point_at(positions, v);
+    for (const Index u : row) mean += point_at(positions, u);
     mean /= static_cast<double>(row.size() + 1);
     Mat3d spread = Mat3d::Zero();
     const auto add = [&](std::size_t u) {
-        const Vec3d away = position_of(positions, u) - mean;
+        const Vec3d away = point_at(positions, u) - mean;
         spread.noalias() += away * away.transpose();
     };
     add(v);

@@ -33,18 +33,14 @@ std::size_t middle_of(const Cell& cell, std::span<const std::uint64_t> code, std
         std::partition_point(lower, upper, [&](Index v) { return !(code[v] & bit); }) - among.begin());
 }
 
-Vec3d position_of(std::span<const float> positions, Index v) {
-    return Eigen::Map<const Vec3f>(positions.data() + 3 * std::size_t{v}).cast<double>();
-}
-
 Index nearest_to_mean(const Cell& cell, std::span<const float> positions, std::span<const Index> among) {
     Vec3d sum = Vec3d::Zero();
-    for (std::size_t i = cell.begin; i < cell.end; ++i) sum += position_of(positions, among[i]);
+    for (std::size_t i = cell.begin; i < cell.end; ++i) sum += point_at(positions, among[i]);
     const Vec3d mean = sum / static_cast<double>(cell.end - cell.begin);
     Index nearest = among[cell.begin];
     double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t i = cell.begin; i < cell.end; ++i) {
-        const double squared = (position_of(positions, among[i]) - mean).squaredNorm();
+        const double squared = (point_at(positions, among[i]) - mean).squaredNorm();
         if (squared < smallest) {
             smallest = squared;
             nearest = among[i];

@@ -60,16 +60,13 @@ std::vector<std::pair<Index, Index>> touching(std::span<const NearestSamples> ne
 std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
                            std::span<const std::uint8_t> lengths, std::span<const float> positions,
                            int rounds, Workers& workers, Progress& progress) {
-    const auto position = [&](std::size_t v) {
-        return Eigen::Map<const Vec3f>(positions.data() + 3 * v).cast<double>();
-    };
     for (int round = 0; round < rounds; ++round) {
         const std::vector<Index> nearest = territories(graph, lengths, samples, workers, progress);
         std::vector<Vec3d> mean(samples.size(), Vec3d::Zero());
         std::vector<double> count(samples.size(), 0);
         for (std::size_t v = 0; v < graph.size(); ++v) {
             if (nearest[v] == no_index) continue;
-            mean[nearest[v]] += position(v);
+            mean[nearest[v]] += point_at(positions, v);
             count[nearest[v]] += 1;
         }
         for (std::size_t s = 0; s < samples.size(); ++s) mean[s] /= count[s];
@@ -77,7 +74,7 @@ std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
         for (std::size_t v = 0; v < graph.size(); ++v) {
             if (nearest[v] == no_index) continue;
             const Index s = nearest[v];
-            const double squared = (position(v) - mean[s]).squaredNorm();
+            const double squared = (point_at(positions, v) - mean[s]).squaredNorm();
             if (squared >= smallest[s]) continue;
             smallest[s] = squared;
             samples[s] = static_cast<Index>(v);

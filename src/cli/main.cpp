@@ -66,8 +66,9 @@ int main(int argc, char** argv) {
 
     // `knead FILE` and `knead` alone are `knead edit` with the same.
     std::vector<std::string> arguments(argv + std::min(1, argc), argv + argc);
-    if (arguments.empty() ||
-        (!is_subcommand(app, arguments.front()) && std::filesystem::is_regular_file(arguments.front())))
+    std::error_code ignored;
+    if (arguments.empty() || (!is_subcommand(app, arguments.front()) &&
+                              std::filesystem::is_regular_file(arguments.front(), ignored)))
         arguments.insert(arguments.begin(), "edit");
     std::ranges::reverse(arguments); // as CLI11 takes them
 

@@ -380,5 +380,27 @@ TEST_F(Replay, ReadsPathsFromTheSessionsFolderAndWritesToTheWorkingOne) {
     EXPECT_TRUE(std::filesystem::exists(folder / "elsewhere" / "out.ply"));
 }
 
+// Names may hold anything: as JSON they come back as they are, and no raw byte of them reaches a terminal.
+TEST_F(Replay, JsonAltersNoNameAndIsAscii) {
+    write_text(folder / "c.ply",
+               "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+               "property float z\nproperty int label\nend_header\n0 0 0 1\n");
+    session("", R"("path":"c.ply")");
+    const std::string name = "odd\x7F\xC2\x9B"
+                             "31m\xC3\xA9";
+    const Outcome outcome = replay({"--json", "--out", name + ".off"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(json::parse(outcome.out)["warnings"].at(0).get<std::string>().rfind(name + ".off: ", 0), 0U);
+    for (const char c : outcome.out) EXPECT_TRUE(c == '\n' || (c >= 0x20 && c < 0x7F)) << int(c);
+    EXPECT_NE(outcome.err.find("odd??31m\xC3\xA9.off: "), std::string::npos) << outcome.err;
+    EXPECT_EQ(json::parse(replay({"--json", "--out", "\xFF.off"}).out)["warnings"].size(), 1U) << "no UTF-8";
+}
+
+TEST(CommandLine, RefusesAFirstWordThatIsNoPossibleFile) {
+    const Outcome outcome = run_knead({std::string(300, 'n')});
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+}
+
 } // namespace
 } // namespace knead::test

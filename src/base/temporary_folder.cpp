@@ -4,7 +4,6 @@
 #include "base/whole_file.h"
 
 #include <system_error>
-#include <vector>
 
 namespace knead {
 
@@ -16,27 +15,40 @@ fs::path folder_of(const std::string& text) {
 }
 
 TemporaryFolder::TemporaryFolder(const fs::path& target) : target_(target) {
-    const bool is_there = fs::is_directory(target);
-    if (!is_there && fs::exists(target))
-        throw Error(Trouble::output, target.string(), "is a file; name a folder");
     try {
+        const bool is_there = fs::is_directory(target);
+        if (!is_there && fs::exists(target))
+            throw Error(Trouble::output, target.string(), "is a file; name a folder");
         claim_.emplace(Claim::beside(is_there ? target / "" : target, Claim::Kind::folder));
     } catch (const std::system_error& error) {
         refuse_to_write(target, error.code().value());
     }
 }
 
-void TemporaryFolder::hand_over() {
+std::vector<fs::path> TemporaryFolder::names() const {
     std::vector<fs::path> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path()))
+        names.push_back(entry.path().filename());
+    return names;
+}
+
+void TemporaryFolder::make_ready() const {
     try {
-        for (const fs::directory_entry& entry : fs::directory_iterator(path()))
-            names.push_back(entry.path().filename());
-        for (const fs::path& name : names)
+        claim_->refuse_if_away();
+        for (const fs::path& name : names())
             if (fs::is_directory(fs::symlink_status(target_ / name)))
                 throw Error(Trouble::output, (target_ / name).string(),
                             "is a folder; a file is to be put there");
+    } catch (const std::system_error& error) {
+        refuse_to_write(target_, error.code().value());
+    }
+}
+
+void TemporaryFolder::hand_over() {
+    make_ready();
+    try {
         if (fs::is_directory(target_))
-            for (const fs::path& name : names) fs::rename(path() / name, target_ / name);
+            for (const fs::path& name : names()) fs::rename(path() / name, target_ / name);
         else
             claim_->rename_to(target_);
     } catch (const std::system_error& error) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace knead {
 
@@ -21,12 +22,17 @@ public:
 
     const std::filesystem::path& path() const { return claim_->path(); }
 
+    // Throws Error (output) for all that hand_over() would, but for what befalls the disk in between.
+    void make_ready() const;
+
     // Renames all files of the folder into the target, or where that is not there the folder itself to it.
     // Other files of the target stay; a link is replaced, not followed. All or none, unless the disk fails
     // half-way. Throws Error (output). Once only.
     void hand_over();
 
 private:
+    std::vector<std::filesystem::path> names() const; // of what is in it
+
     std::filesystem::path target_;
     std::optional<Claim> claim_; // none after hand_over()
 };

@@ -32,6 +32,8 @@ std::string why_not_written(int code) {
     case ENOENT:
     case ENOTDIR:
         return "its folder is not there; make it, or choose another place";
+    case ESTALE:
+        return "somebody else took away what was written so far; try again";
     default:
         return system_words(code);
     }
@@ -75,6 +77,12 @@ std::string first_bytes_of_file(const std::filesystem::path& path, std::size_t m
     return bytes;
 }
 
+std::optional<FileStamp> stamp_of(const std::filesystem::path& path) {
+    struct stat facts {};
+    if (::stat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode)) return std::nullopt;
+    return FileStamp{facts.st_dev, facts.st_ino, facts.st_size, facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec};
+}
+
 void refuse_to_write(const std::filesystem::path& shown, int code) {
     throw Error(Trouble::output, shown.string(), "cannot be written: " + why_not_written(code));
 }
@@ -94,8 +102,7 @@ FileInTheMaking::FileInTheMaking(const std::filesystem::path& target) : shown_(t
     }
     struct stat facts {};
     const bool is_there = ::stat(target_.c_str(), &facts) == 0;
-    if (is_there && S_ISDIR(facts.st_mode))
-        throw Error(Trouble::output, shown_.string(), "is a folder; name a file");
+    refuse_folder();
     if (is_there && !S_ISREG(facts.st_mode))
         throw Error(Trouble::output, shown_.string(), "is not a regular file; name another");
     if (is_there && ::access(target_.c_str(), W_OK) != 0 && errno == EACCES)
@@ -113,21 +120,32 @@ FileInTheMaking::FileInTheMaking(const std::filesystem::path& target) : shown_(t
     (void)::fchmod(descriptor, is_there ? facts.st_mode & 07777 : 0666 & ~mask);
 }
 
+void FileInTheMaking::refuse_folder() const {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(target_, ignored))
+        throw Error(Trouble::output, shown_.string(), "is a folder; name a file");
+}
+
 void FileInTheMaking::write(std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t put = ::write(temporary_->descriptor(), bytes.data(), bytes.size());
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) refuse_to_write(shown_, errno);
-        bytes = bytes.subspan(static_cast<std::size_t>(put));
-    }
+    if (const int code = write_all(temporary_->descriptor(), bytes); code != 0) refuse_to_write(shown_, code);
 }
 
 void FileInTheMaking::write(std::string_view text) {
     write(std::as_bytes(std::span(text.data(), text.size())));
 }
 
-void FileInTheMaking::commit() {
+void FileInTheMaking::make_ready() {
     if (::fsync(temporary_->descriptor()) != 0) refuse_to_write(shown_, errno);
+    refuse_folder();
+    try {
+        temporary_->refuse_if_away();
+    } catch (const std::system_error& error) {
+        refuse_to_write(shown_, error.code().value());
+    }
+}
+
+void FileInTheMaking::commit() {
+    make_ready();
     try {
         temporary_->rename_to(target_);
     } catch (const std::system_error& error) {

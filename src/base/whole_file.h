@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include <sys/types.h>
+
 namespace knead {
 
 // All bytes of a file. Throws Error (input) naming the path when it is missing, a folder, unreadable, or
@@ -20,6 +22,20 @@ std::vector<std::byte> read_whole_file(const std::filesystem::path& path, Progre
 
 // The first bytes of a file, at most so many; none of what cannot be read or is no regular file. Never waits.
 std::string first_bytes_of_file(const std::filesystem::path& path, std::size_t most);
+
+// Tells a file from what it becomes when somebody writes to it or puts another one in its place.
+struct FileStamp {
+    dev_t device = 0;
+    ino_t inode = 0;
+    off_t size = 0;
+    time_t seconds = 0;   // when its bytes were changed last,
+    long nanoseconds = 0; // and of that second
+    bool operator==(const FileStamp&) const = default;
+};
+
+// That of the file as it is now, links followed; nothing where there is no regular file. To know later
+// whether a file still is what was read, take it before reading.
+std::optional<FileStamp> stamp_of(const std::filesystem::path& path);
 
 // Throws Error (output): that `shown` cannot be written, why, after errno's `code`, and what helps.
 [[noreturn]] void refuse_to_write(const std::filesystem::path& shown, int code);
@@ -41,10 +57,17 @@ public:
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
 
-    // Syncs, renames, and syncs the folder.
+    const std::filesystem::path& shown() const { return shown_; }
+
+    // Syncs, and throws Error (output) for all that commit() would, but for what befalls the disk in between:
+    // for those who put several files in their places together.
+    void make_ready();
+    // Makes ready, renames, and syncs the folder.
     void commit();
 
 private:
+    void refuse_folder() const;
+
     std::filesystem::path shown_; // as the user named it, for errors
     std::filesystem::path target_;
     std::optional<Claim> temporary_; // none after commit()

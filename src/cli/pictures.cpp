@@ -122,6 +122,10 @@ void PictureMaker::write(const std::filesystem::path& path) const {
     write_png(path, state_->picture);
 }
 
+void PictureMaker::write(FileInTheMaking& file) const {
+    write_png(file, state_->picture);
+}
+
 } // namespace knead
 
 #else
@@ -137,6 +141,7 @@ PictureMaker::PictureMaker(const PictureOptions& /*options*/, Workers& /*workers
 PictureMaker::~PictureMaker() = default;
 void PictureMaker::draw(const PictureShape& /*shape*/) {}
 void PictureMaker::write(const std::filesystem::path& /*path*/) const {}
+void PictureMaker::write(FileInTheMaking& /*file*/) const {}
 
 } // namespace knead
 

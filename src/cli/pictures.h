@@ -2,6 +2,7 @@
 // The pictures of `knead render` and `knead replay`: their options, and drawing them with no display.
 
 #include "base/progress.h"
+#include "base/whole_file.h"
 #include "base/workers.h"
 #include "graph/point_order.h"
 #include "view/coloring.h"
@@ -58,6 +59,7 @@ public:
     void draw(const PictureShape& shape);
     // Writes what was drawn last as PNG. Throws Error (output).
     void write(const std::filesystem::path& path) const;
+    void write(FileInTheMaking& file) const; // that the caller commits
 
 private:
     struct State;

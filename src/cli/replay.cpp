@@ -134,11 +134,12 @@ int run_replay(const Arguments& arguments, Terminal& terminal) {
         pictures.emplace(arguments.pictures);
         options.after_frame = pictures->after_frame();
         options.after_last = pictures->after_last();
+        options.add_outputs = pictures->adding();
     }
     ReplayReport report =
         replay(session, options, terminal, [&](const std::string& words) { terminal.warn(words); });
     if (pictures)
-        for (std::filesystem::path& path : pictures->write()) report.written.push_back(std::move(path));
+        for (std::filesystem::path& path : pictures->targets()) report.written.push_back(std::move(path));
     terminal.clear_bar();
     if (arguments.dry_run)
         terminal.say(arguments.session + ": " + counted(session.lines.size() + 1, "line", "lines") +

@@ -1,9 +1,10 @@
 #include "cli/replay_pictures.h"
 
-#include "base/temporary_folder.h"
+#include "base/outputs.h"
 
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 namespace knead {
 
@@ -69,18 +70,19 @@ ShapeSeen ReplayPictures::after_last() {
     };
 }
 
-std::vector<fs::path> ReplayPictures::write() {
-    State& s = *state_;
-    std::vector<fs::path> written;
-    if (!s.options.picture.empty()) {
-        s.last->write(s.options.picture);
-        written.push_back(s.options.picture);
-    }
-    if (s.made) {
-        s.made->hand_over();
-        written.push_back(folder_of(s.options.frames));
-    }
-    return written;
+std::function<void(Outputs&)> ReplayPictures::adding() {
+    return [this](Outputs& outputs) {
+        State& s = *state_;
+        if (!s.options.picture.empty()) s.last->write(outputs.add(FileInTheMaking(s.options.picture)));
+        if (s.made) outputs.add(std::move(*s.made));
+    };
+}
+
+std::vector<fs::path> ReplayPictures::targets() const {
+    std::vector<fs::path> targets;
+    if (!state_->options.picture.empty()) targets.emplace_back(state_->options.picture);
+    if (!state_->options.frames.empty()) targets.push_back(folder_of(state_->options.frames));
+    return targets;
 }
 
 } // namespace knead

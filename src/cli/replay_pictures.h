@@ -5,6 +5,7 @@
 #include "edit/replay.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,8 +20,8 @@ struct ReplayPictureOptions {
     bool wanted() const { return !picture.empty() || !frames.empty(); }
 };
 
-// Draws while a replay runs. Frames go into a temporary folder beside theirs until write(), so that a replay
-// that fails leaves nothing behind.
+// Draws while a replay runs. Frames go into a temporary folder beside theirs, and take their place together
+// with everything else that the replay writes, so that one that fails leaves nothing behind.
 class ReplayPictures {
 public:
     // Throws Error as PictureMaker does, and (output) for targets that cannot be written to.
@@ -31,9 +32,12 @@ public:
     ShapeSeen after_frame();
     ShapeSeen after_last();
 
-    // Puts everything in its place: frame-000001.png and so on into the folder, which is made if it is not
-    // there; other files in it stay. Returns what was written: the picture, and the folder.
-    std::vector<std::filesystem::path> write();
+    // For ReplayOptions, too: adds the picture, and the folder, which is made if it is not there, with
+    // frame-000001.png and so on; other files in it stay.
+    std::function<void(Outputs&)> adding();
+
+    // The targets: the picture, and the folder.
+    std::vector<std::filesystem::path> targets() const;
 
 private:
     struct State;

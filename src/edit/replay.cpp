@@ -3,8 +3,6 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
-#include "base/temporary_folder.h"
-#include "base/whole_file.h"
 #include "edit/session_cloud.h"
 #include "io/cloud_file.h"
 #include "io/compare.h"
@@ -104,7 +102,8 @@ private:
             const auto* check = std::get_if<CheckLine>(&line.action);
             if (!check || is_recorded_name(check->positions)) continue;
             const std::filesystem::path path = session_.resolve(check->positions);
-            if (!std::filesystem::exists(path))
+            std::error_code ignored;
+            if (!std::filesystem::exists(path, ignored))
                 throw Error(Trouble::input, session_.place(line.number),
                             "\"positions\": there is no file " + path.string());
         }
@@ -216,26 +215,26 @@ private:
         return 1e-4;
     }
 
-    // What was recorded is put in its place when all of it, and `out`, is written.
+    // Everything is put in its place when all of it is written.
     void write_results(Document& document) {
-        std::optional<TemporaryFolder> checks;
-        std::optional<FileInTheMaking> session;
-        if (options_.record_checks) {
-            write_checks(document.cloud(), checks.emplace(folder_of_session()));
-            write_session(session.emplace(session_.file));
-        }
+        Outputs outputs;
+        if (options_.add_outputs) options_.add_outputs(outputs);
         if (options_.out) {
             const std::vector<float> positions = document.positions(progress_);
             const std::vector<float> normals = document.normals(progress_);
             const std::vector<float> rotations = document.rotations(progress_);
             for (const std::string& words :
-                 write_cloud(*options_.out, document.cloud(), {positions, normals, {}, rotations}, progress_))
+                 write_cloud(outputs.add(FileInTheMaking(*options_.out)), document.cloud(),
+                             {positions, normals, {}, rotations}, progress_))
                 add_warning(words);
             report_.written.push_back(*options_.out);
         }
+        if (options_.record_checks) {
+            write_checks(document.cloud(), outputs.add(TemporaryFolder(folder_of_session())));
+            write_session(outputs.add(FileInTheMaking(session_.file)));
+        }
+        outputs.hand_over();
         if (!options_.record_checks) return;
-        checks->hand_over();
-        session->commit();
         for (const RecordedCheck& recorded : recorded_)
             report_.written.push_back(session_.resolve(recorded.file));
         report_.written.push_back(session_.file);

@@ -1,6 +1,7 @@
 #pragma once
 // A recorded session, carried out from its first line to its last with no window.
 
+#include "base/outputs.h"
 #include "edit/document.h"
 #include "edit/extent_change.h"
 #include "edit/session.h"
@@ -34,6 +35,8 @@ struct ReplayOptions {
     // For pictures; either may be empty, and none is called in a rehearsal.
     ShapeSeen after_frame; // after every frame of a drag and every settling
     ShapeSeen after_last;  // after the last line, before anything is written
+    // Adds what else takes its place together with everything that the replay writes; may be empty.
+    std::function<void(Outputs&)> add_outputs;
 };
 
 struct CheckResult {
@@ -72,7 +75,7 @@ struct ReplayReport {
 
 // `warn` hears every warning when it comes up, once. Throws Error as the command line's exit codes have it
 // (input, output, numeric, and usage for a device that is not there) and Cancelled; a failed check is no
-// Error. Nothing is written before the last line was carried out.
+// Error. Nothing is written before the last line was carried out, and then all outputs or none.
 ReplayReport replay(const Session& session, const ReplayOptions& options, Progress& progress,
                     const std::function<void(const std::string&)>& warn);
 

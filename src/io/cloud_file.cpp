@@ -87,11 +87,19 @@ void refuse_bad_target(const std::filesystem::path& path) {
 
 std::vector<std::string> write_cloud(const std::filesystem::path& path, const PointCloud& cloud,
                                      const PosedShape& shape, Progress& progress) {
-    const Format& format = format_to_write(path);
+    (void)format_to_write(path); // a wrong extension is told first
     FileInTheMaking file(path);
+    std::vector<std::string> left_out = write_cloud(file, cloud, shape, progress);
+    file.commit();
+    return left_out;
+}
+
+std::vector<std::string> write_cloud(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                     Progress& progress) {
+    const std::filesystem::path& path = file.shown();
+    const Format& format = format_to_write(path);
     std::vector<std::string> left_out = format.write(file, cloud, shape, path.string(), progress);
     progress.stop_if_cancelled();
-    file.commit();
     if (cloud.image && cloud.image->format() != format.name)
         for (const std::string& what : cloud.image->besides_points())
             left_out.push_back("what only the file's own format keeps is left out: " + what);

@@ -4,6 +4,7 @@
 // of its own.
 
 #include "base/progress.h"
+#include "base/whole_file.h"
 #include "cloud/point_cloud.h"
 
 #include <filesystem>
@@ -48,6 +49,10 @@ struct PosedShape {
 // column's type; Cancelled when told so.
 std::vector<std::string> write_cloud(const std::filesystem::path& path, const PointCloud& cloud,
                                      const PosedShape& shape, Progress& progress);
+
+// The same into a file that the caller commits, in the format of that target's extension.
+std::vector<std::string> write_cloud(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
+                                     Progress& progress);
 
 // Whether knead reads and writes files with this extension.
 bool has_cloud_extension(const std::filesystem::path& path);

@@ -35,6 +35,19 @@ TEST(TemporaryFolder, HandsOverOrLeavesNothing) {
     EXPECT_EQ(folder_of("made/"), fs::path("made"));
 }
 
+TEST(TemporaryFolder, RefusesNamesThatTheSystemRefuses) {
+    const ScratchFolder scratch;
+    fs::create_symlink("loop", scratch / "loop");
+    for (const fs::path& target : {scratch / "loop", scratch / std::string(300, 'n')}) {
+        try {
+            const TemporaryFolder folder(target);
+            ADD_FAILURE() << target;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.trouble(), Trouble::output) << error.what();
+        }
+    }
+}
+
 TEST(TemporaryFolder, PutsFilesIntoAFolderThatIsThereAndFollowsNoLink) {
     const ScratchFolder scratch;
     const fs::path target = scratch / "made";

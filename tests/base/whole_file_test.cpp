@@ -268,6 +268,44 @@ TEST(FileInTheMaking, clears_away_what_a_killed_one_left) {
     EXPECT_EQ(entries_of(folder.path()), 2U) << "the file and \"ready\"";
 }
 
+TEST(WriteAll, goes_on_after_a_short_write_and_tells_what_stopped_it) {
+    const ScratchFolder folder;
+    const std::string outcome = in_child([&] {
+        ::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{100'000, 100'000}; // a longer write is cut short there, and the next one fails
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        const Claim claim = Claim::beside(folder / "raw", Claim::Kind::file);
+        const int code = write_all(claim.descriptor(), std::string(150'000, 'k'));
+        return std::string(code == EFBIG ? "too large, " : "as if it were whole, ") +
+               std::to_string(std::filesystem::file_size(claim.path())) + " bytes";
+    });
+    EXPECT_EQ(outcome, "too large, 100000 bytes");
+}
+
+TEST(FileStamp, changes_with_the_file_and_with_what_takes_its_place) {
+    const ScratchFolder folder;
+    EXPECT_FALSE(stamp_of(folder / "file"));
+    EXPECT_FALSE(stamp_of(folder.path()));
+    write_text(folder / "file", "one");
+    std::filesystem::create_symlink("file", folder / "link");
+    const auto first = stamp_of(folder / "file");
+    ASSERT_TRUE(first);
+    EXPECT_EQ(stamp_of(folder / "file"), first);
+    EXPECT_EQ(stamp_of(folder / "link"), first);
+
+    const auto written = std::filesystem::last_write_time(folder / "file");
+    write_text(folder / "file", "longer");
+    std::filesystem::last_write_time(folder / "file", written);
+    EXPECT_NE(stamp_of(folder / "file"), first) << "another size";
+    write_text(folder / "file", "two");
+    std::filesystem::last_write_time(folder / "file", written + std::chrono::nanoseconds(1000));
+    EXPECT_NE(stamp_of(folder / "file"), first) << "another time";
+    std::filesystem::rename(folder / "file", folder / "kept"); // its inode is not free
+    write_text(folder / "file", "two");
+    std::filesystem::last_write_time(folder / "file", written);
+    EXPECT_NE(stamp_of(folder / "file"), first) << "another file";
+}
+
 TEST(FirstBytes, are_those_of_regular_files_only_and_never_waited_for) {
     const ScratchFolder folder;
     write_text(folder / "file", "bytes");

@@ -162,6 +162,19 @@ TEST_F(Render, AReplayThatFailsLeavesNoPictures) {
     expect_failure(replay({"--picture", "a.png", "--frames", "frames", "--size", "40x30"}), 3, "nobody");
 }
 
+TEST_F(Render, AReplayWhoseFramesCannotBePlacedSavesNothingElse) {
+    write_text(folder / "posed.ply", "old");
+    write_text(folder / "a.png", "old");
+    std::filesystem::create_directories(folder / "frames/frame-000002.png"); // is in the way
+    const Outcome outcome =
+        replay({"--out", "posed.ply", "--picture", "a.png", "--frames", "frames", "--size", "40x30"});
+    EXPECT_EQ(outcome.code, 5) << outcome.err;
+    EXPECT_NE(outcome.err.find("frame-000002.png"), std::string::npos) << outcome.err;
+    EXPECT_EQ(read_text(folder / "posed.ply"), "old");
+    EXPECT_EQ(read_text(folder / "a.png"), "old");
+    EXPECT_EQ(files_in(folder / "frames"), std::vector<std::string>{"frame-000002.png"});
+}
+
 TEST_F(Render, ARehearsalDrawsNothing) {
     EXPECT_EQ(replay({"--dry-run", "--picture", "a.png", "--frames", "frames"}).code, 0);
     EXPECT_EQ(files_in(folder.path()), (std::vector<std::string>{"bar.ply", "s.knead"}));

@@ -226,5 +226,40 @@ TEST(Replay, AnEditWithNoIterationsIsEquationOneAlone) {
     EXPECT_LT(report.handle_error, 1e-6);
 }
 
+TEST(Replay, WritesAllItsOutputsOrNone) {
+    const ScratchFolder folder;
+    const Session session = session_in(folder, ends + drag(lift));
+    ReplayOptions options;
+    options.device = "reference";
+    options.out = folder / "posed.ply";
+    options.record_checks = true;
+    write_text(*options.out, "old");
+    const std::string recorded = read_text(session.file);
+    SilentProgress silent;
+    const auto run = [&](bool picture_folder_vanishes) {
+        options.add_outputs = [&, picture_folder_vanishes](Outputs& outputs) {
+            std::filesystem::create_directory(folder / "pictures");
+            outputs.add(FileInTheMaking(folder / "pictures/a.png")).write("picture");
+            if (picture_folder_vanishes) std::filesystem::remove_all(folder / "pictures");
+        };
+        return replay(session, options, silent, [](const std::string&) {});
+    };
+    try {
+        run(true);
+        ADD_FAILURE() << "there was no folder for the picture";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.trouble(), Trouble::output);
+        EXPECT_SAYS(error.what(), "a.png");
+    }
+    EXPECT_EQ(read_text(*options.out), "old");
+    EXPECT_EQ(read_text(session.file), recorded);
+    EXPECT_FALSE(std::filesystem::exists(folder / "s-check-1.ply"));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3) << "no temporaries";
+    run(false);
+    EXPECT_NE(read_text(*options.out), "old");
+    EXPECT_NE(read_text(session.file), recorded);
+    EXPECT_EQ(read_text(folder / "pictures/a.png"), "picture");
+}
+
 } // namespace
 } // namespace knead

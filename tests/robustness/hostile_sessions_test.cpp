@@ -118,10 +118,11 @@ TEST_F(HostileSession, NestingIsRefusedAtAnyDepth) {
 
 TEST_F(HostileSession, PathsThatAreNoCloudsAreRefusedAndNotWaitedFor) {
     ASSERT_EQ(::mkfifo((folder_ / "work/pipe").c_str(), 0600), 0);
-    for (const char* path : {"pipe", "/dev/zero", "/dev/stdin", ".", "../..", "/proc/self/mem", "a\\u0000b",
-                             "s.knead", "no\\nsuch"}) {
-        write_text(folder_ / "work/s.knead",
-                   std::string("{\"knead\":1,\"cloud\":{\"path\":\"") + path + "\"}}\n");
+    const std::string too_long(300, 'n');
+    for (const std::string& path :
+         std::vector<std::string>{"pipe", "/dev/zero", "/dev/stdin", ".", "../..", "/proc/self/mem",
+                                  "a\\u0000b", "s.knead", "no\\nsuch", too_long}) {
+        write_text(folder_ / "work/s.knead", "{\"knead\":1,\"cloud\":{\"path\":\"" + path + "\"}}\n");
         const Outcome outcome = replay();
         EXPECT_EQ(outcome.code, 3) << path;
         session(ends + drag(lift) + R"({"op":"check","positions":")" + path + "\",\"tolerance\":1}\n");

@@ -54,24 +54,27 @@ Document::Document(PointCloud cloud, const Settings& settings, Workers& workers,
 void Document::declare(const HandleLine& line, const std::string& place) {
     refuse_while_posed("handles", place);
     auto points = std::make_shared<const std::vector<Index>>(resolve(line, place));
-    State next = now();
-    std::erase_if(next.handles, [&](const Handle& handle) { return handle.name == line.name; });
-    next.handles.push_back({line.name, line.role, std::move(points), line.free_rotation, line.falloff});
-    next.motions.assign(next.handles.size(), HandleMotion{});
-    take(std::move(next));
+    HandleChange change;
+    const auto old = std::ranges::find(handles_, line.name, &Handle::name);
+    if (old != handles_.end()) change.gone = {static_cast<Index>(old - handles_.begin()), *old};
+    change.come = {static_cast<Index>(handles_.size() - (change.gone ? 1 : 0)),
+                   {line.name, line.role, std::move(points), line.free_rotation, line.falloff}};
+    change_handles(std::move(change));
 }
 
 void Document::drag(const DragLine& line, const std::string& place, Progress& progress) {
     const Index handle = movable_handle(line.handle, place);
-    HandleMotion motion = now().motions[handle];
+    HandleMotion motion = motions_[handle];
     for (std::size_t f = 0; f < line.frames.size(); ++f) {
         motion = motion_of(line.frames[f], line.pivot, cloud_.origin, motion.rotation);
         refuse_absurd(motion, bounds_.diagonal(), f, place);
     }
     if (mode_ == Mode::rehearsal) {
-        State next = now();
-        next.motions[handle] = motion;
+        State next = next_state();
         next.posed = std::make_shared<Posed>();
+        next.posed->made_from = at_;
+        next.posed->handle = handle;
+        next.posed->motion = motion;
         return take(std::move(next));
     }
     try {
@@ -90,7 +93,7 @@ void Document::drag(const DragLine& line, const std::string& place, Progress& pr
 }
 
 void Document::settle(const SettleLine& line, Progress& progress) {
-    if (!is_posed() || mode_ == Mode::rehearsal) return take(State(now()));
+    if (!is_posed() || mode_ == Mode::rehearsal) return take(next_state());
     try {
         begin_settling(progress);
         settle_some(line.iterations, progress);
@@ -107,14 +110,14 @@ void Document::begin_drag(const std::string& handle, const Vec3d& pivot, const s
     const Index index = movable_handle(handle, place);
     const auto samples = is_posed() ? samples_of(now(), progress) : nullptr;
     prepare(progress);
-    under_way_.emplace(
-        UnderWay{now(), samples ? *samples : pipeline_.rest_state(), {}, index, {handle, pivot, {}}});
+    under_way_.emplace(UnderWay{
+        next_state(), motions_, samples ? *samples : pipeline_.rest_state(), {}, index, {handle, pivot, {}}});
 }
 
 double Document::drag_frame(const HandlePose& pose, const std::string& place, Progress& progress) {
     require(under_way_ && under_way_->handle != no_index, "a frame of a drag follows its begin");
     UnderWay& drag = *under_way_;
-    HandleMotion& motion = drag.next.motions[drag.handle];
+    HandleMotion& motion = drag.motions[drag.handle];
     const HandleMotion before = motion;
     const HandleMotion next = motion_of(pose, drag.line.pivot, cloud_.origin, before.rotation);
     refuse_absurd(next, bounds_.diagonal(), drag.line.frames.size(), place);
@@ -122,13 +125,13 @@ double Document::drag_frame(const HandlePose& pose, const std::string& place, Pr
     double way = 0;
     try {
         motion = next;
-        pipeline_.follow_handles(drag.next.motions, drag.samples);
+        pipeline_.follow_handles(drag.motions, drag.samples);
         forget(drag.acceleration);
         for (unsigned i = 0; i < drag.next.settings.iterations; ++i) {
             progress.stop_if_cancelled();
             way = iterate_once(drag);
         }
-        upsample(drag.next.motions, drag.samples);
+        upsample(drag.motions, drag.samples);
         drag.line.frames.push_back(pose);
     } catch (...) {
         motion = before;
@@ -155,6 +158,7 @@ void Document::end(UnderWay act, std::variant<DragLine, SettleLine> line) {
     posed->made_from = at_;
     posed->act = std::move(line);
     posed->handle = act.handle;
+    if (act.handle != no_index) posed->motion = act.motions[act.handle];
     act.next.posed = posed;
     take(std::move(act.next));
     keep(posed);
@@ -165,7 +169,7 @@ void Document::begin_settling(Progress& progress) {
     require(!under_way_ && is_posed() && mode_ == Mode::real, "only what is posed can settle");
     const auto samples = samples_of(now(), progress);
     prepare(progress);
-    under_way_.emplace(UnderWay{now(), *samples});
+    under_way_.emplace(UnderWay{next_state(), motions_, *samples});
 }
 
 bool Document::settle_some(unsigned iterations, Progress& progress) {
@@ -177,7 +181,7 @@ bool Document::settle_some(unsigned iterations, Progress& progress) {
         rests = iterate_once(settling) <= at_rest;
         ++settling.iterations;
     }
-    upsample(settling.next.motions, settling.samples);
+    upsample(settling.motions, settling.samples);
     return rests;
 }
 
@@ -197,7 +201,7 @@ void Document::abandon() noexcept {
 }
 
 void Document::commit(Progress& progress) {
-    State next = now();
+    State next = next_state();
     if (is_posed()) {
         next.rest = std::make_shared<Committed>();
         next.rest->shape = mode_ == Mode::real ? posed_now(progress) : std::make_shared<const RestShape>();
@@ -205,7 +209,6 @@ void Document::commit(Progress& progress) {
     }
     const auto committed = is_posed() ? next.rest : nullptr;
     next.posed = nullptr;
-    next.motions.assign(next.handles.size(), HandleMotion{});
     take(std::move(next));
     if (committed) keep(committed);
 }
@@ -214,7 +217,7 @@ void Document::change_settings(const SettingsChange& change, const std::string& 
     if (change.neighbors) refuse_while_posed("\"neighbors\"", place);
     if (change.samples) refuse_while_posed("\"samples\"", place);
     if (change.strays) refuse_while_posed("\"strays\"", place);
-    State next = now();
+    State next = next_state();
     next.settings = changed(now().settings, change);
     take(std::move(next));
 }
@@ -222,22 +225,20 @@ void Document::change_settings(const SettingsChange& change, const std::string& 
 void Document::remove(const DeleteLine& line, const std::string& place) {
     const Index handle = find_handle(line.handle, place);
     refuse_while_posed("handles", place);
-    State next = now();
-    next.handles.erase(next.handles.begin() + handle);
-    next.motions.assign(next.handles.size(), HandleMotion{});
-    take(std::move(next));
+    change_handles({.gone = HandleChange::Place{handle, handles_[handle]}, .come = {}});
 }
 
 void Document::rename(const RenameLine& line, const std::string& place) {
     const Index handle = find_handle(line.handle, place);
     const bool taken =
-        std::ranges::any_of(now().handles, [&](const Handle& other) { return other.name == line.to; });
+        std::ranges::any_of(handles_, [&](const Handle& other) { return other.name == line.to; });
     if (taken && line.to != line.handle)
         throw Error(Trouble::input, place,
                     "\"to\": there is a handle " + quoted(line.to) + " already; delete it first");
-    State next = now();
-    next.handles[handle].name = line.to;
-    take(std::move(next));
+    const HandleChange::Place old{handle, handles_[handle]};
+    HandleChange change{.gone = old, .come = old};
+    change.come->handle.name = line.to;
+    change_handles(std::move(change));
 }
 
 std::vector<float> Document::positions(Progress& progress) {
@@ -262,12 +263,21 @@ std::vector<float> Document::normals(Progress& progress) {
 
 std::vector<float> Document::rotations(Progress& progress) {
     if (mode_ == Mode::rehearsal || !holds_splats_ || (!now().rest && !is_posed())) return {};
-    const auto shape = is_posed() ? posed_now(progress) : rest_of(now(), progress);
+    std::vector<float> posed;
+    std::shared_ptr<const RestShape> rest;
+    if (is_posed()) {
+        const auto samples = samples_of(now(), progress);
+        shape(progress);
+        posed = pipeline_.rotations(motions_, *samples);
+    } else {
+        rest = rest_of(now(), progress);
+    }
+    const std::vector<float>& ordered = rest ? rest->rotations : posed;
     const PointOrder& order = pipeline_.order();
     std::vector<float> result(4 * cloud_.size(), 0.0F);
     for (std::size_t i = 0; i < cloud_.size(); ++i) result[4 * i] = 1;
     for (std::size_t i = 0; i < order.points(); ++i)
-        std::copy_n(shape->rotations.data() + 4 * i, 4, result.data() + 4 * std::size_t{order.file_index[i]});
+        std::copy_n(ordered.data() + 4 * i, 4, result.data() + 4 * std::size_t{order.file_index[i]});
     return result;
 }
 
@@ -280,8 +290,7 @@ double Document::handle_error(Progress& progress) {
     for (std::size_t i = 0; i < pipeline_.order().points(); ++i) {
         const Index label = pipeline_.labels().point[i];
         if (label == no_index) continue;
-        const HandleMotion motion =
-            label == pipeline_.labels().outside ? HandleMotion{} : now().motions[label];
+        const HandleMotion motion = label == pipeline_.labels().outside ? HandleMotion{} : motions_[label];
         const Vec3d target = motion.linear * point_at(rest.positions, i) + motion.offset;
         largest = std::max(largest, (point_at(posed.positions, i) - target).norm());
     }
@@ -295,18 +304,18 @@ HandleDemand Document::demand(Progress& progress) {
 }
 
 Index Document::find_handle(const std::string& name, const std::string& place) const {
-    for (Index h = 0; h < now().handles.size(); ++h)
-        if (now().handles[h].name == name) return h;
+    for (Index h = 0; h < handles_.size(); ++h)
+        if (handles_[h].name == name) return h;
     std::string words = "\"handle\": there is no handle " + quoted(name) + " here";
-    if (now().handles.empty()) throw Error(Trouble::input, place, words + "; declare one first");
+    if (handles_.empty()) throw Error(Trouble::input, place, words + "; declare one first");
     words += "; there are";
-    for (const Handle& handle : now().handles) words += " " + quoted(handle.name);
+    for (const Handle& handle : handles_) words += " " + quoted(handle.name);
     throw Error(Trouble::input, place, words);
 }
 
 Index Document::movable_handle(const std::string& name, const std::string& place) const {
     const Index handle = find_handle(name, place);
-    if (now().handles[handle].role != HandleRole::moving)
+    if (handles_[handle].role != HandleRole::moving)
         throw Error(Trouble::input, place,
                     "\"handle\": " + quoted(name) +
                         " is not a moving handle; declare it with \"role\":\"moving\"");
@@ -318,32 +327,31 @@ void Document::refuse_while_posed(const std::string& what, const std::string& pl
     const auto is_posed = [](const HandleMotion& motion) {
         return motion.linear != Mat3d::Identity() || motion.offset != Vec3d::Zero();
     };
-    const auto posed = std::ranges::find_if(now().motions, is_posed);
+    const auto posed = std::ranges::find_if(motions_, is_posed);
     const std::string who =
-        posed == now().motions.end()
+        posed == motions_.end()
             ? std::string("handles are posed")
-            : quoted(now().handles[static_cast<std::size_t>(posed - now().motions.begin())].name) +
-                  " is posed";
+            : quoted(handles_[static_cast<std::size_t>(posed - motions_.begin())].name) + " is posed";
     throw Error(Trouble::input, place,
                 what + " cannot change while " + who + "; put a {\"op\":\"commit\"} line before this one");
 }
 
 void Document::prepare_ahead(Progress& progress) {
     if (mode_ == Mode::rehearsal) return;
-    if (now().handles.empty())
+    if (handles_.empty())
         pipeline_.prepare_ahead(now().settings, progress);
     else
         prepare(progress);
 }
 
 void Document::prepare(Progress& progress) {
-    pipeline_.prepare({now().settings, now().handles, rest_of(now(), progress)}, progress);
+    prepare_for(at_, progress);
 }
 
 // Returns the longest way that a sample went, over the cloud's size.
 double Document::iterate_once(UnderWay& act) {
     const Stopwatch clock;
-    const double way = pipeline_.iterate(act.next.motions, act.samples, act.acceleration);
+    const double way = pipeline_.iterate(act.motions, act.samples, act.acceleration);
     log_.iteration.push_back(clock.seconds());
     return pipeline_.cloud_size() > 0 ? way / pipeline_.cloud_size() : way;
 }
@@ -363,7 +371,7 @@ const RestShape& Document::shape(Progress& progress) {
     if (!posed_is_now_) {
         const auto samples = samples_of(now(), progress);
         prepare(progress);
-        pipeline_.upsample(now().motions, *samples);
+        pipeline_.upsample(motions_, *samples);
         posed_is_now_ = true;
     }
     return pipeline_.posed();
@@ -372,12 +380,13 @@ const RestShape& Document::shape(Progress& progress) {
 std::shared_ptr<const RestShape> Document::posed_now(Progress& progress) {
     const auto samples = samples_of(now(), progress);
     shape(progress);
-    return posed_shape(now(), *samples);
+    return posed_shape(motions_, *samples);
 }
 
-std::shared_ptr<const RestShape> Document::posed_shape(const State& state, const SampleState& samples) const {
+std::shared_ptr<const RestShape> Document::posed_shape(const std::vector<HandleMotion>& motions,
+                                                       const SampleState& samples) const {
     auto shape = std::make_shared<RestShape>(pipeline_.posed());
-    if (holds_splats_) shape->rotations = pipeline_.rotations(state.motions, samples);
+    if (holds_splats_) shape->rotations = pipeline_.rotations(motions, samples);
     return shape;
 }
 

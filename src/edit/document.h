@@ -40,7 +40,7 @@ public:
     const Bounds& bounds() const { return bounds_; } // of the shape as opened; its diagonal is D
     const Pipeline& pipeline() const { return pipeline_; }
     const Settings& settings() const { return now().settings; }
-    const std::vector<Handle>& handles() const { return now().handles; }
+    const std::vector<Handle>& handles() const { return handles_; }
     const FrameLog& log() const { return log_; }
 
     // Whether handles were dragged since the last commit.
@@ -95,16 +95,16 @@ public:
     // In the order of computation (pipeline().order()), good until the next act.
     const RestShape& shape(Progress& progress);
     // Of each handle in this edit, as it was at the last finished act.
-    const std::vector<HandleMotion>& motions() const { return now().motions; }
+    const std::vector<HandleMotion>& motions() const { return motions_; }
     // Every pose that a handle was given in this edit, the first one first.
     std::vector<HandleMotion> way_of(const std::string& handle) const;
     std::size_t undoable() const { return at_; } // how many acts undo() can take back
 
     // --- What history costs ---
     //
-    // It costs poses and not points: of committed shapes and of the samples' states only some are kept, near
-    // the present more than far from it, and another is made again, to the bit, from what is kept and the
-    // poses that were recorded.
+    // It costs what the acts brought, poses and handles as their lines have them, and not points: of
+    // committed shapes and of the samples' states only some are kept, near the present more than far from it,
+    // and another is made again, to the bit, from what is kept and the poses that were recorded.
 
     struct Memory {
         std::size_t shapes = 4;
@@ -141,21 +141,22 @@ private:
         std::size_t made_from = 0;                   // in history_: the state before the act
         std::variant<DragLine, SettleLine> act = {}; // that made it
         Index handle = no_index;                     // of a drag
+        HandleMotion motion = {};                    // to which it brought that handle
     };
 
-    // Everything that undo takes back; arrays are shared between states, and never changed once they are
-    // here.
+    // Everything that undo takes back, shared between states where it is large. Of the handles and their
+    // motions, of which there may be thousands, it has what changed since the state before.
     struct State {
         Settings settings;
-        std::vector<Handle> handles;
-        std::vector<HandleMotion> motions; // one a handle, in this edit
-        std::shared_ptr<Committed> rest;   // null: as opened
-        std::shared_ptr<Posed> posed;      // null: nothing was dragged in this edit
+        std::shared_ptr<const HandleChange> change; // of the handles; null: none
+        std::shared_ptr<Committed> rest;            // null: as opened
+        std::shared_ptr<Posed> posed;               // null: nothing was dragged in this edit
     };
 
     // What begin_drag() and begin_settling() began.
     struct UnderWay {
         State next;
+        std::vector<HandleMotion> motions;
         SampleState samples, samples_before = {}; // the latter: before the frame that is being computed
         Index handle = no_index;                  // no_index: settling
         DragLine line = {};                       // its frames so far
@@ -165,7 +166,14 @@ private:
 
     Index find_handle(const std::string& name, const std::string& place) const;
     void refuse_while_posed(const std::string& what, const std::string& place) const;
-    void take(State next); // makes it the present one, and the present one the last in history
+    State next_state() const; // for an act to change
+    void take(State next);    // makes it the present one, and the present one the last in history
+    void step_forward();
+    void change_handles(HandleChange change);
+    // As they were in a state of the past, or are in the present one.
+    std::vector<Handle> handles_of(std::size_t at) const;
+    std::vector<HandleMotion> motions_of(std::size_t at) const;
+    void prepare_for(std::size_t at, Progress& progress);
     void prepare(Progress& progress);
     Index movable_handle(const std::string& name, const std::string& place) const;
     double iterate_once(UnderWay& act);
@@ -174,8 +182,9 @@ private:
     std::shared_ptr<const RestShape> rest_of(const State& state, Progress& progress);
     std::shared_ptr<const SampleState> samples_of(const State& state, Progress& progress); // of a posed one
     std::shared_ptr<const RestShape> posed_now(Progress& progress); // where something is posed
-    // The pipeline's posed points, which are those of `state`, as a shape to keep.
-    std::shared_ptr<const RestShape> posed_shape(const State& state, const SampleState& samples) const;
+    // The pipeline's posed points, which are those of these motions, as a shape to keep.
+    std::shared_ptr<const RestShape> posed_shape(const std::vector<HandleMotion>& motions,
+                                                 const SampleState& samples) const;
     void repeat(const Posed& posed, SampleState& samples, Progress& progress);
     const State& now() const { return history_[at_]; }
     void end(UnderWay act, std::variant<DragLine, SettleLine> line);
@@ -188,8 +197,10 @@ private:
     Bounds bounds_;
     bool holds_splats_;
     Pipeline pipeline_;
-    std::vector<State> history_; // from the cloud as it was opened to what can be redone
-    std::size_t at_ = 0;         // the present one
+    std::vector<State> history_;        // from the cloud as it was opened to what can be redone
+    std::size_t at_ = 0;                // the present one
+    std::vector<Handle> handles_;       // of the present one
+    std::vector<HandleMotion> motions_; // one a handle, in this edit
     Memory memory_;
     std::vector<std::shared_ptr<Committed>> kept_shapes_; // those with a shape, the oldest first
     std::vector<std::shared_ptr<Posed>> kept_samples_;    // and with samples

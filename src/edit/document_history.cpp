@@ -26,6 +26,9 @@ std::size_t bytes_of(const RestShape& shape) {
 void Document::undo(const std::string& place) {
     require(!under_way_, "an act comes after the drag that goes on");
     if (at_ == 0) throw Error(Trouble::input, place, "there is nothing to undo");
+    std::vector<HandleMotion> motions = motions_of(at_ - 1);
+    if (now().change) take_back(*now().change, handles_);
+    motions_ = std::move(motions);
     --at_;
     posed_is_now_ = false;
 }
@@ -33,19 +36,65 @@ void Document::undo(const std::string& place) {
 void Document::redo(const std::string& place) {
     require(!under_way_, "an act comes after the drag that goes on");
     if (at_ + 1 == history_.size()) throw Error(Trouble::input, place, "there is nothing to redo");
-    ++at_;
-    posed_is_now_ = false;
+    step_forward();
+}
+
+Document::State Document::next_state() const {
+    State next = now();
+    next.change = nullptr;
+    return next;
 }
 
 void Document::take(State next) {
     require(!under_way_, "an act comes after the drag that goes on");
     history_.resize(at_ + 1);
     history_.push_back(std::move(next));
-    ++at_;
-    posed_is_now_ = false;
+    step_forward();
     const auto forgotten = [&](const auto& made) { return made->made_from + 1 >= at_; };
     std::erase_if(kept_shapes_, forgotten);
     std::erase_if(kept_samples_, forgotten);
+}
+
+void Document::step_forward() {
+    const State& next = history_[at_ + 1];
+    motions_.reserve(handles_.size() + 1); // what can fail comes first
+    if (next.change) apply(*next.change, handles_);
+    if (!next.posed)
+        motions_.assign(handles_.size(), HandleMotion{});
+    else if (next.posed->handle != no_index)
+        motions_[next.posed->handle] = next.posed->motion;
+    ++at_;
+    posed_is_now_ = false;
+}
+
+void Document::change_handles(HandleChange change) {
+    State next = next_state();
+    next.change = std::make_shared<const HandleChange>(std::move(change));
+    take(std::move(next));
+}
+
+std::vector<Handle> Document::handles_of(std::size_t at) const {
+    std::vector<Handle> handles = handles_;
+    for (std::size_t later = at_; later > at; --later)
+        if (const auto& change = history_[later].change) take_back(*change, handles);
+    return handles;
+}
+
+std::vector<HandleMotion> Document::motions_of(std::size_t at) const {
+    std::vector<HandleMotion> motions(handles_of(at).size());
+    std::vector<bool> known(motions.size(), false);
+    for (const Posed* posed = history_[at].posed.get(); posed;
+         posed = history_[posed->made_from].posed.get()) {
+        if (posed->handle == no_index || known[posed->handle]) continue;
+        motions[posed->handle] = posed->motion;
+        known[posed->handle] = true;
+    }
+    return motions;
+}
+
+// Of an early state this may make shapes again.
+void Document::prepare_for(std::size_t at, Progress& progress) {
+    pipeline_.prepare({history_[at].settings, handles_of(at), rest_of(history_[at], progress)}, progress);
 }
 
 const DragLine* Document::redoable_drag() const {
@@ -80,12 +129,12 @@ std::shared_ptr<const RestShape> Document::rest_of(const State& state, Progress&
     if (!state.rest) return nullptr;
     const std::shared_ptr<Committed> committed = state.rest;
     if (!committed->shape) {
-        const State& from = history_[committed->made_from];
-        const auto samples = samples_of(from, progress);
+        const std::vector<HandleMotion> motions = motions_of(committed->made_from);
+        const auto samples = samples_of(history_[committed->made_from], progress);
         posed_is_now_ = false;
-        pipeline_.prepare({from.settings, from.handles, rest_of(from, progress)}, progress);
-        pipeline_.upsample(from.motions, *samples);
-        committed->shape = posed_shape(from, *samples);
+        prepare_for(committed->made_from, progress);
+        pipeline_.upsample(motions, *samples);
+        committed->shape = posed_shape(motions, *samples);
     }
     const std::shared_ptr<const RestShape> shape = committed->shape;
     keep(committed);
@@ -98,9 +147,8 @@ std::shared_ptr<const SampleState> Document::samples_of(const State& state, Prog
     for (; posed && !posed->samples; posed = history_[posed->made_from].posed) dropped.push_back(posed);
     std::shared_ptr<const SampleState> samples = posed ? posed->samples : nullptr;
     for (auto next = dropped.rbegin(); next != dropped.rend(); ++next) {
-        const State& from = history_[(*next)->made_from];
         posed_is_now_ = false;
-        pipeline_.prepare({from.settings, from.handles, rest_of(from, progress)}, progress);
+        prepare_for((*next)->made_from, progress);
         SampleState made = samples ? *samples : pipeline_.rest_state();
         repeat(**next, made, progress);
         samples = (*next)->samples = std::make_shared<const SampleState>(std::move(made));
@@ -112,7 +160,7 @@ std::shared_ptr<const SampleState> Document::samples_of(const State& state, Prog
 // The act that made a pose, once more; the pipeline is prepared for the state before it.
 void Document::repeat(const Posed& posed, SampleState& samples, Progress& progress) {
     const State& from = history_[posed.made_from];
-    std::vector<HandleMotion> motions = from.motions;
+    std::vector<HandleMotion> motions = motions_of(posed.made_from);
     Acceleration acceleration;
     const auto iterate = [&](unsigned iterations) {
         forget(acceleration);

@@ -7,6 +7,7 @@
 #include <Eigen/SVD>
 
 #include <algorithm>
+#include <utility>
 
 namespace knead {
 
@@ -52,6 +53,14 @@ std::vector<Index> points_in(const Region& region, const PointCloud& cloud,
     return points;
 }
 
+void exchange(const std::optional<HandleChange::Place>& gone, const std::optional<HandleChange::Place>& come,
+              std::vector<Handle>& handles) {
+    std::optional<HandleChange::Place> coming = come; // what can fail comes first
+    handles.reserve(handles.size() + 1);
+    if (gone) handles.erase(handles.begin() + gone->at);
+    if (coming) handles.insert(handles.begin() + coming->at, std::move(coming->handle));
+}
+
 // Which of two labels a vertex takes that has points of both.
 Index stronger(Index a, Index b, Index outside) {
     if (a == no_index) return b;
@@ -68,6 +77,14 @@ bool hold_the_same(const std::vector<Handle>& a, const std::vector<Handle>& b) {
         return x.role == y.role && x.points == y.points && x.free_rotation == y.free_rotation &&
                x.falloff == y.falloff;
     });
+}
+
+void apply(const HandleChange& change, std::vector<Handle>& handles) {
+    exchange(change.gone, change.come, handles);
+}
+
+void take_back(const HandleChange& change, std::vector<Handle>& handles) {
+    exchange(change.come, change.gone, handles);
 }
 
 void append_point(std::vector<IndexRange>& ranges, std::uint64_t point) {

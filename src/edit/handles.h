@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,20 @@ struct Handle {
 // Whether two lists of handles hold the same points in the same way, whatever their names. (The same points
 // are the same array: handles share theirs when they are copied.)
 bool hold_the_same(const std::vector<Handle>& a, const std::vector<Handle>& b);
+
+// What an act changed in a list of handles: one went, one came, or one went and another came.
+struct HandleChange {
+    struct Place {
+        Index at = 0; // in the list
+        Handle handle;
+    };
+    std::optional<Place> gone; // from its place before,
+    std::optional<Place> come; // to its place then
+};
+// The list after the act of what it was before, and the other way round. Where memory runs out nothing has
+// changed.
+void apply(const HandleChange& change, std::vector<Handle>& handles);
+void take_back(const HandleChange& change, std::vector<Handle>& handles);
 
 // Puts a point behind ranges that name only points before it.
 void append_point(std::vector<IndexRange>& ranges, std::uint64_t point);

@@ -18,9 +18,9 @@ namespace knead::test {
 class Desk {
 public:
     explicit Desk(PointCloud cloud, const Settings& settings = {}, unsigned threads = 2,
-                  const std::string& device = "reference")
+                  const std::string& device = "reference", Document::Mode mode = Document::Mode::real)
         : workers_(threads), upsampler_(make_upsampler(device, workers_, threads).upsampler),
-          document_(std::move(cloud), settings, workers_, *upsampler_) {}
+          document_(std::move(cloud), settings, workers_, *upsampler_, mode) {}
 
     // Carries out session lines, without their header; line 1 is the first of them.
     Desk& play(const std::string& lines) {

@@ -229,6 +229,77 @@ TEST(History, SamplesThatWereDroppedAreMadeAgainToTheBit) {
     EXPECT_TRUE(same_bits(desk.play(twist).shape(), other.play(twist).shape()));
 }
 
+// Name, role and array of the points of each handle, and its motion; and whether the pipeline takes the same.
+struct Seen {
+    std::vector<std::string> names;
+    std::vector<const void*> points;
+    std::vector<Vec3d> offsets;
+    explicit Seen(const Document& document) {
+        for (const Handle& handle : document.handles()) {
+            names.push_back(handle.name + (handle.role == HandleRole::fixed ? " fixed" : " moving"));
+            points.push_back(handle.points.get());
+        }
+        for (const HandleMotion& motion : document.motions()) offsets.push_back(motion.offset);
+    }
+    bool operator==(const Seen&) const = default;
+};
+
+TEST(History, HandlesAndTheirMotionsAreThoseOfTheTime) {
+    const auto handle = [](const std::string& name, const std::string& role, const std::string& points) {
+        return R"({"op":"handle","name":")" + name + R"(","role":")" + role + R"(","points":)" + points +
+               "}\n";
+    };
+    const auto removed = [](const std::string& name) {
+        return R"({"op":"delete","handle":")" + name + "\"}\n";
+    };
+    const auto renamed = [](const std::string& name, const std::string& to) {
+        return R"({"op":"rename","handle":")" + name + R"(","to":")" + to + "\"}\n";
+    };
+    const std::string acts[] = {handle("a", "moving", "[[0,9]]"),
+                                handle("b", "fixed", "[[20,29]]"),
+                                handle("c", "moving", "[[40,49]]"),
+                                handle("a", "moving", "[[50,59]]"), // again: behind the others now
+                                renamed("b", "bee"),
+                                drag(lift, "a"),
+                                drag(lift, "c"),
+                                renamed("c", "sea"), // while it is posed
+                                set(R"("stiffness":0.02)"),
+                                settle(2),
+                                drag(R"({"translate":[0,0.25,0]})", "sea"),
+                                commit,
+                                removed("bee"),
+                                handle("d", "fixed", "[3]"),
+                                drag(lift, "sea"),
+                                commit,
+                                removed("a")};
+    const std::size_t count = std::size(acts);
+    Desk desk(bar());
+    desk.document().keep_at_most({.shapes = 1, .samples = 1, .sample_bytes = 0}); // much is made again
+    std::vector<Seen> seen{Seen(desk.document())};
+    std::vector<std::vector<float>> shapes{desk.shape()};
+    for (const std::string& act : acts) {
+        shapes.push_back(desk.play(act).shape());
+        seen.emplace_back(desk.document());
+    }
+    EXPECT_EQ(seen[4].names, (std::vector<std::string>{"b fixed", "c moving", "a moving"}));
+    EXPECT_EQ(seen[count].names, (std::vector<std::string>{"sea moving", "d fixed"}));
+    EXPECT_EQ(seen[11].offsets, (std::vector<Vec3d>{{0, 0, 0}, {0, 0.25, 0}, {0.5, 0, 0.25}}));
+    std::size_t at = count;
+    const auto go_to = [&](std::size_t target) {
+        for (; at > target; --at) desk.play(undo);
+        for (; at < target; ++at) desk.play(redo);
+        EXPECT_EQ(Seen(desk.document()), seen[at]) << "after act " << at;
+        EXPECT_TRUE(same_bits(desk.shape(), shapes[at])) << "after act " << at;
+    };
+    for (const std::size_t target : {16U, 17U, 11U, 13U, 6U, 5U, 12U, 3U, 4U, 15U, 0U, 7U, 10U, 9U, 17U})
+        go_to(target);
+    go_to(3);
+    desk.play(removed("a")); // another future
+    EXPECT_EQ(Seen(desk.document()).names, (std::vector<std::string>{"b fixed", "c moving"}));
+    desk.play(undo);
+    EXPECT_EQ(Seen(desk.document()), seen[3]);
+}
+
 TEST(History, WhatItKeepsDoesNotGrowWithTheSteps) {
     Desk desk(bar());
     desk.document().keep_at_most({.shapes = 2, .samples = 4, .sample_bytes = 0});

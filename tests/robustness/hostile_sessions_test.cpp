@@ -146,6 +146,33 @@ TEST_F(HostileSession, PointsNamedManyTimesTakeMemoryOnce) {
     EXPECT_EQ(megabytes, "20000 points, little memory");
 }
 
+// What the document remembers grows with the acts, and not with the acts times the handles: that would be a
+// gigabyte for the declarations, and two for the drags.
+TEST_F(HostileSession, ThousandsOfHandlesTakeMemoryOnceAndNotOnceAnAct) {
+    constexpr int count = 3000;
+    const std::string outcome = in_child([&]() -> std::string {
+        Desk desk(bar(3000), {}, 1, "reference", Document::Mode::rehearsal);
+        const auto handle = [](int i) {
+            return "a handle of the hostile session, number " + std::to_string(i);
+        };
+        rusage before{}, after{};
+        ::getrusage(RUSAGE_SELF, &before);
+        SilentProgress silent;
+        Document& document = desk.document();
+        for (Index i = 0; i < count; ++i)
+            document.declare({handle(i), HandleRole::moving, std::vector<IndexRange>{{i, i}}}, "s:2");
+        for (int i = 0; i < count; ++i)
+            document.drag({handle(i), {}, {HandlePose{.translate = Vec3d(1, i, 0)}}}, "s:3", silent);
+        for (int i = 0; i < count; ++i) document.undo("s:4");
+        for (int i = 0; i < count; ++i) document.redo("s:5");
+        ::getrusage(RUSAGE_SELF, &after);
+        const long megabytes = (after.ru_maxrss - before.ru_maxrss) / 1024;
+        if (document.motions().back().offset != Vec3d(1, count - 1, 0)) return "other motions";
+        return megabytes < 32 ? "little" : std::to_string(megabytes) + " MB";
+    });
+    EXPECT_EQ(outcome, "little");
+}
+
 TEST_F(HostileSession, NamesDoNotCommandTheTerminal) {
     const std::string words =
         refused_with(ends + R"({"op":"delete","handle":"\u001b]0;owned\u0007\u009b31m\r\u007f"})"

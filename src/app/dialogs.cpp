@@ -1,4 +1,4 @@
-// The two questions that are asked before something is lost.
+// The questions that are asked before something is lost.
 
 #include "app/ui.h"
 #include "app/widgets.h"
@@ -61,11 +61,32 @@ void unsaved_question(const Ui& ui) {
     ImGui::EndPopup();
 }
 
+struct OverwritingWords {
+    const char* title = "";
+    const char* what_is_lost = "";
+    const char *go_on = "Overwrite", *elsewhere = "Another name…";
+};
+
+OverwritingWords words_about(const Ui& ui, const WishSaveTo& target) {
+    if (target.anyway)
+        return {
+            "This file has changed",
+            "Somebody else wrote to it after knead last read or saved it. Saving here puts what you did in "
+            "its place, and theirs is gone for good.",
+            "Save anyway", "Save as…"};
+    if (ui.has_cloud() && target.file == ui.editor.opened.file)
+        return {
+            "Overwrite the input?",
+            "This is the cloud that you opened. Sessions recorded on it will no longer fit, and the points "
+            "as they were are gone for good."};
+    return {"Overwrite this file?", "What is in it now will be gone."};
+}
+
 void overwriting_question(const Ui& ui) {
     std::optional<WishSaveTo>& target = ui.state.overwriting;
     if (target && !ImGui::IsPopupOpen("overwrite")) ImGui::OpenPopup("overwrite");
-    const bool is_input = target && ui.has_cloud() && target->file == ui.editor.opened.file;
-    if (!begin_question(ui, "overwrite", is_input ? "Overwrite the input?" : "Overwrite this file?")) return;
+    const OverwritingWords words = target ? words_about(ui, *target) : OverwritingWords{};
+    if (!begin_question(ui, "overwrite", words.title)) return;
     if (!target) {
         ImGui::CloseCurrentPopup();
         ImGui::EndPopup();
@@ -74,20 +95,17 @@ void overwriting_question(const Ui& ui) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(target->file.c_str());
     ImGui::PopTextWrapPos();
-    faint_text(is_input
-                   ? "This is the cloud that you opened. Sessions recorded on it will no longer fit, and the "
-                     "points as they were are gone for good."
-                   : "What is in it now will be gone.");
+    faint_text(words.what_is_lost);
     ImGui::Dummy({0, ui.scaled(8)});
     const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-    if (ImGui::Button("Overwrite", {width, 0})) {
+    if (ImGui::Button(words.go_on, {width, 0})) {
         target->ask = false;
         ui.wish(*target);
         target.reset();
         ImGui::CloseCurrentPopup();
     }
     ImGui::SameLine();
-    if (main_button("Another name…", {width, 0}) || pressed(ImGuiKey_Escape)) {
+    if (main_button(words.elsewhere, {width, 0}) || pressed(ImGuiKey_Escape)) {
         if (target) ui.wish(WishBrowse{target->purpose});
         target.reset();
         ImGui::CloseCurrentPopup();

@@ -223,6 +223,7 @@ bool take_news(Loop& loop) {
         if (notice.kind == Notice::Kind::error) loop.state.after = {}; // what should have been saved was not
         add_toast(loop.state, std::move(notice));
     }
+    if (const auto held = std::exchange(editor.held_save, {})) ask_about(loop.work, *held);
     return changed || was_opening;
 }
 

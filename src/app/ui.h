@@ -45,6 +45,7 @@ struct WishSaveTo {        // asks before anything is overwritten
     std::filesystem::path file;
     bool ask = true;
     SaveColumns columns = {}; // of a cloud
+    bool anyway = false;      // although somebody else changed it since it was read or written here
 };
 struct WishDiscard {}; // the unsaved work; what it kept waiting comes now
 struct WishDemonstration {

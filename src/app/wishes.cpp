@@ -91,10 +91,10 @@ void fulfil(Work& work, const WishBrowse& wish) {
 
 void save(Work& work, const WishSaveTo& wish) {
     if (wish.purpose == BrowseFor::save_session) {
-        work.editor.live->save_session(wish.file);
+        work.editor.live->save_session(wish.file, wish.anyway);
         remember_file(work.state.recent, wish.file);
     } else
-        work.editor.live->save_cloud(wish.file, wish.columns);
+        work.editor.live->save_cloud(wish.file, wish.columns, wish.anyway);
     if (work.state.after.waiting_for_save) work.state.after.save_was_posted = true;
 }
 
@@ -193,6 +193,15 @@ bool replaces_document(const Wish& wish) {
 void grant(Work& work, const Wish& wish) {
     if (replaces_document(wish) && has_to_ask(work, wish)) return;
     std::visit([&](const auto& wanted) { fulfil(work, wanted); }, wish);
+}
+
+void ask_about(Work& work, const HeldSave& held) {
+    work.state.overwriting = {.purpose = held.columns ? BrowseFor::save_cloud : BrowseFor::save_session,
+                              .file = held.target,
+                              .ask = true,
+                              .columns = held.columns.value_or(SaveColumns{}),
+                              .anyway = true};
+    work.state.after.save_was_posted = false;
 }
 
 void go_on_after_saving(Work& work) {

@@ -16,6 +16,9 @@ struct Work {
 
 void grant(Work& work, const Wish& wish);
 
+// Asks about a save that the document held back.
+void ask_about(Work& work, const HeldSave& held);
+
 // Goes on with what waited for a save, once that has succeeded or failed. Call it once a frame.
 void go_on_after_saving(Work& work);
 

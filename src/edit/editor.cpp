@@ -133,6 +133,10 @@ bool refresh(Editor& editor) {
         editor.notices.push_back(std::move(notice));
         changed = true;
     }
+    if (auto held = editor.live->take_held_save()) {
+        editor.held_save = std::move(held);
+        changed = true;
+    }
     return changed;
 }
 

@@ -114,8 +114,16 @@ void LiveWork::show_where_it_rests() {
         show_document();
 }
 
+// Somebody else's changes are lost only if the user says so.
+bool LiveWork::hold_back(HeldSave save) {
+    if (!was_changed(known_files_, save.target)) return false;
+    shared_.with([&](LiveShared& s) { s.held_save = std::move(save); });
+    return true;
+}
+
 void LiveWork::carry_out(task::SaveCloud& task) {
     finish_settling();
+    if (!task.anyway && hold_back({task.target, task.columns})) return;
     look_for_others(task.target);
     const std::vector<float> positions = document_->positions(progress_);
     const std::vector<float> normals = document_->normals(progress_);
@@ -126,6 +134,7 @@ void LiveWork::carry_out(task::SaveCloud& task) {
     if (task.columns.displacement) shape.added.push_back({"displacement", far});
     if (task.columns.stretch) shape.added.push_back({"stretch", stretch});
     const std::vector<std::string> heard = write_cloud(task.target, document_->cloud(), shape, progress_);
+    take_note(known_files_, task.target);
     say(Notice::Kind::information, "Saved the cloud as " + task.target.string());
     for (const std::string& words : heard) say(Notice::Kind::warning, words);
     publish_view();
@@ -133,8 +142,10 @@ void LiveWork::carry_out(task::SaveCloud& task) {
 
 void LiveWork::carry_out(task::SaveSession& task) {
     finish_settling();
+    if (!task.anyway && hold_back({task.target, std::nullopt})) return;
     look_for_others(task.target);
     recording_->save(task.target);
+    take_note(known_files_, task.target);
     recording_->discard(); // the journal: a crash loses nothing of this any more
     saved_.session_state = recording_->state();
     session_file_ = std::filesystem::absolute(task.target);

@@ -95,12 +95,12 @@ void LiveDocument::advance_play(int frames) {
     shared_->change([&](LiveShared& shared) { shared.pace.frames += frames; });
 }
 
-void LiveDocument::save_cloud(std::filesystem::path target, SaveColumns columns) {
-    put(*shared_, task::SaveCloud{std::move(target), columns});
+void LiveDocument::save_cloud(std::filesystem::path target, SaveColumns columns, bool anyway) {
+    put(*shared_, task::SaveCloud{std::move(target), columns, anyway});
 }
 
-void LiveDocument::save_session(std::filesystem::path target) {
-    put(*shared_, task::SaveSession{std::move(target)});
+void LiveDocument::save_session(std::filesystem::path target, bool anyway) {
+    put(*shared_, task::SaveSession{std::move(target), anyway});
 }
 
 std::shared_ptr<const DocumentView> LiveDocument::view() const {
@@ -121,6 +121,10 @@ std::vector<Notice> LiveDocument::take_notices() {
 
 std::vector<StepNumber> LiveDocument::take_refused() {
     return shared_->with([](LiveShared& shared) { return std::exchange(shared.refused, {}); });
+}
+
+std::optional<HeldSave> LiveDocument::take_held_save() {
+    return shared_->with([](LiveShared& shared) { return std::exchange(shared.held_save, {}); });
 }
 
 LiveDocument::Saved LiveDocument::saved() const {

@@ -87,6 +87,13 @@ struct SaveColumns {
     bool stretch = false;      // "stretch", see edit/measures.h
 };
 
+// A save that was not carried out, since somebody else has changed the file after this editor read or wrote
+// it.
+struct HeldSave {
+    std::filesystem::path target;
+    std::optional<SaveColumns> columns; // of a cloud; none: a session
+};
+
 struct OpenRequest {
     std::filesystem::path file;                   // a cloud or a session
     std::filesystem::path journal_folder;         // empty: no journal
@@ -159,9 +166,11 @@ public:
     void set_play_pace(double speed, bool held); // also of later ones
     void advance_play(int frames);               // while it is held; below 0: back, as far as this drag goes
 
-    // Writes the shape as it is now / the session so far. Success and failure come as notices.
-    void save_cloud(std::filesystem::path target, SaveColumns columns = {});
-    void save_session(std::filesystem::path target);
+    // Writes the shape as it is now / the session so far. Success and failure come as notices. Over a file
+    // that somebody else has changed since this editor read or wrote it, only `anyway`: else
+    // take_held_save() has it.
+    void save_cloud(std::filesystem::path target, SaveColumns columns = {}, bool anyway = false);
+    void save_session(std::filesystem::path target, bool anyway = false);
 
     // --- What is newest ---
 
@@ -170,6 +179,7 @@ public:
     bool take_frame(PosedFrame& frame);
     std::vector<Notice> take_notices();
     std::vector<StepNumber> take_refused();
+    std::optional<HeldSave> take_held_save(); // the newest
 
     // The state (DocumentView::state) that a session on disk has; nothing where there is none.
     struct Saved {

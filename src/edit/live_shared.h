@@ -45,9 +45,11 @@ struct Play {
 struct SaveCloud {
     std::filesystem::path target;
     SaveColumns columns;
+    bool anyway = false;
 };
 struct SaveSession {
     std::filesystem::path target;
+    bool anyway = false;
 };
 } // namespace task
 using LiveTask = std::variant<task::Lines, task::BeginDrag, task::EndDrag, task::CancelDrag, task::ResetPose,
@@ -75,6 +77,7 @@ struct LiveShared {
     PosedFrame frame;
     std::vector<Notice> notices;
     std::vector<StepNumber> refused;
+    std::optional<HeldSave> held_save;
     LiveDocument::Saved saved;
 };
 

@@ -34,9 +34,11 @@ LiveWork::LiveWork(OpenRequest request, Locked<LiveShared>& shared)
 
 void LiveWork::open() {
     std::string about_journal;
+    if (!request_.restore) take_note(known_files_, request_.file);
     Session session = session_to_open(request_, progress_, about_journal);
     if (!about_journal.empty()) say(Notice::Kind::warning, about_journal);
     const bool is_plain_cloud = session.file.empty();
+    take_note(known_files_, session.resolve(session.cloud));
     PointCloud cloud =
         read_session_cloud(session, is_plain_cloud ? std::optional(request_.file) : std::nullopt, progress_);
     for (const std::string& remark : cloud.remarks) say(Notice::Kind::warning, remark);

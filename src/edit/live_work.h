@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "edit/known_files.h"
 #include "edit/live_drag.h"
 #include "edit/live_publisher.h"
 #include "edit/live_recording.h"
@@ -45,6 +46,7 @@ private:
     void carry_out(task::Redo& task);
     void carry_out(task::SaveCloud& task);
     void carry_out(task::SaveSession& task);
+    bool hold_back(HeldSave save);
     template<typename Record>
     void record(Record&& write);
     void add_act(const SessionAction& action, bool joins);
@@ -111,6 +113,7 @@ private:
     bool told_of_journal_ = false;
     LiveDocument::Saved saved_;
     std::filesystem::path session_file_;
+    KnownFiles known_files_;
 
     std::optional<OpenFiles> open_files_;
     std::set<std::string> told_of_others_; // in these words

@@ -1,5 +1,7 @@
 #include "edit/open_files.h"
 
+#include "edit/known_files.h"
+
 #include <algorithm>
 #include <charconv>
 #include <fstream>
@@ -16,13 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr unsigned most_documents = 1000; // of one process
-
-// The same text for one file by any name.
-std::string real_name(const fs::path& file) {
-    std::error_code trouble;
-    const fs::path real = fs::weakly_canonical(fs::absolute(file, trouble), trouble);
-    return trouble ? file.string() : real.string();
-}
 
 // An entry is called PROCESS-NUMBER, and holds the names, each with a zero byte behind it.
 std::optional<pid_t> process_of(const fs::path& entry) {

@@ -286,6 +286,84 @@ TEST_F(LiveBar, OnlyWhatIsNotSavedIsOfferedForRestoring) {
     EXPECT_EQ(lost[0].acts, 4U) << "it holds everything from the beginning";
 }
 
+// Somebody else's work is not overwritten unnoticed, under whatever name.
+class SavingOver : public LiveBar {
+protected:
+    // Whether the save that was just posted was held back.
+    bool held() {
+        settle_down();
+        const auto save = live_->take_held_save();
+        if (save) last_held_ = *save;
+        return save.has_value();
+    }
+
+    HeldSave last_held_;
+};
+
+TEST_F(SavingOver, ASessionThatSomebodyElseChangedIsAskedAbout) {
+    const std::filesystem::path session = folder_ / "a.knead";
+    live_->save_session(session);
+    EXPECT_FALSE(held());
+    live_->post(++step_, {RenameLine{"high", "top"}});
+    live_->save_session(session);
+    EXPECT_FALSE(held()) << "its own writing counts for nothing";
+    const std::string own = read_text(session);
+    const auto saved_state = live_->saved().session_state;
+
+    write_text(session, "theirs");
+    live_->post(++step_, {RenameLine{"low", "bottom"}});
+    live_->save_session(session);
+    EXPECT_TRUE(held());
+    EXPECT_EQ(last_held_.target, session);
+    EXPECT_FALSE(last_held_.columns);
+    EXPECT_EQ(read_text(session), "theirs");
+    EXPECT_EQ(live_->saved().session_state, saved_state) << "it is still unsaved";
+    live_->save_session(folder_ / "b.knead");
+    EXPECT_FALSE(held());
+    live_->save_session(session, true);
+    EXPECT_FALSE(held());
+    EXPECT_EQ(read_text(session), read_text(folder_ / "b.knead"));
+    live_->save_session(session);
+    EXPECT_FALSE(held()) << "the question was answered";
+    std::filesystem::remove(session);
+    live_->save_session(session);
+    EXPECT_FALSE(held()) << "there is nothing to lose";
+    EXPECT_TRUE(std::filesystem::exists(session));
+}
+
+TEST_F(SavingOver, ACloudThatSomebodyElseReplacedIsAskedAbout) {
+    const std::filesystem::path cloud = live_->opened().file;
+    std::filesystem::create_symlink("bar.ply", folder_ / "link.ply");
+    live_->save_cloud(cloud);
+    EXPECT_FALSE(held());
+    // The same bytes, but another file: whoever wrote it may have meant something by it.
+    std::filesystem::copy_file(cloud, folder_ / "theirs");
+    std::filesystem::rename(folder_ / "theirs", cloud);
+    const auto theirs = stamp_of(cloud);
+    for (const std::filesystem::path& name : {cloud, folder_ / "link.ply"}) {
+        live_->save_cloud(name, {.stretch = true});
+        EXPECT_TRUE(held());
+        EXPECT_EQ(last_held_.target, name);
+        EXPECT_TRUE(last_held_.columns && last_held_.columns->stretch);
+        EXPECT_EQ(stamp_of(cloud), theirs);
+    }
+    live_->save_cloud(cloud, {}, true);
+    EXPECT_FALSE(held());
+    EXPECT_NE(stamp_of(cloud), theirs);
+}
+
+TEST_F(SavingOver, AnOpenedSessionIsKnownToo) {
+    live_->save_session(folder_ / "a.knead");
+    settle_down();
+    live_ = std::make_unique<LiveDocument>(request_for(folder_ / "a.knead"));
+    wait_until_open(*live_);
+    live_->save_session(folder_ / "a.knead");
+    EXPECT_FALSE(held());
+    write_text(folder_ / "a.knead", read_text(folder_ / "a.knead") + "\n");
+    live_->save_session(folder_ / "a.knead");
+    EXPECT_TRUE(held());
+}
+
 TEST_F(LiveBar, SavesDisplacementAndStretchOnWish) {
     Transform lift;
     lift.shift = {0, 0, 1};

@@ -185,6 +185,24 @@ TEST_F(WindowTest, WhatAKillLeavesIsRestored) {
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
 }
 
+TEST_F(WindowTest, AsksBeforeItOverwritesWhatSomebodyElseSaved) {
+    open_cat();
+    make_handles();
+    const std::filesystem::path session = folder_ / "kept.knead";
+    save("ctrl+s", session);
+    const std::string theirs = read_text(session) + "\n";
+    write_text(session, theirs);
+    desktop_->keys({"ctrl+s"});
+    pause(1);
+    EXPECT_EQ(read_text(session), theirs);
+    // Escape says "Save as…", which asks for another name.
+    save("Escape", folder_ / "mine.knead");
+    EXPECT_EQ(read_text(session), theirs);
+    EXPECT_EQ(read_session(folder_ / "mine.knead").lines.size(), 2U);
+    desktop_->keys({"ctrl+q"});
+    EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+}
+
 TEST_F(WindowTest, SaysWhyAFileCannotBeOpenedAndStaysUsable) {
     editor_ = desktop_->open_editor({(folder_ / "nothing.ply").string()});
     ASSERT_TRUE(desktop_->wait_for_title("knead"));

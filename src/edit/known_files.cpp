@@ -1,0 +1,24 @@
+#include "edit/known_files.h"
+
+#include <system_error>
+
+namespace knead {
+
+std::string real_name(const std::filesystem::path& file) {
+    std::error_code trouble;
+    const std::filesystem::path real =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(file, trouble), trouble);
+    return trouble ? file.string() : real.string();
+}
+
+void take_note(KnownFiles& known, const std::filesystem::path& file) {
+    if (const auto stamp = stamp_of(file)) known.stamps[real_name(file)] = *stamp;
+}
+
+bool was_changed(const KnownFiles& known, const std::filesystem::path& file) {
+    const auto before = known.stamps.find(real_name(file));
+    const auto now = stamp_of(file);
+    return before != known.stamps.end() && now && *now != before->second;
+}
+
+} // namespace knead

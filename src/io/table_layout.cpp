@@ -117,10 +117,7 @@ public:
         // Rows or not, something must say that there are points.
         if (!found && header_.empty() && !layout_.has_count)
             fail("ends before any row of numbers; there are no points in it");
-        if (!found && !header_.empty()) { // no row says otherwise
-            layout_.separator = separator_of(header_);
-            layout_.columns = split_line(header_, layout_.separator).size();
-        }
+        if (!found) take_columns_from_names();
         settle_names();
         if (layout_.separator == ';') settle_decimal_comma();
         return std::move(layout_);
@@ -136,7 +133,9 @@ private:
             line.remove_prefix(static_cast<std::size_t>(begin.at - line.data()));
             while (!line.empty() && (line.front() == '#' || line.front() == '/')) line.remove_prefix(1);
             const Fields names = split_line(line, separator_of(line));
-            if (names_axes(names) && !find_twice(names) && !has_open_quote(line)) remark_ = line;
+            if (names.size() <= most_table_columns && names_axes(names) && !find_twice(names) &&
+                !has_open_quote(line))
+                remark_ = line;
             return false;
         }
         const std::string_view row = line.substr(0, remark_in(line));
@@ -183,6 +182,14 @@ private:
             fail(in_quotes(line) + " is neither a row of numbers nor a line of column names with x, y and z; "
                                    "correct it, or put # in front of it if it is a remark");
         header_ = line;
+    }
+
+    // As many columns as there are names, since no row says otherwise.
+    void take_columns_from_names() {
+        const std::string_view line = header_.empty() ? remark_ : header_;
+        if (line.empty()) return;
+        layout_.separator = separator_of(line);
+        layout_.columns = split_line(line, layout_.separator).size();
     }
 
     // The separator of the rows where it gives a name for each column, else the line's own.

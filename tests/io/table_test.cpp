@@ -219,6 +219,17 @@ TEST(Table, ReadsFilesOfNoPointsAndOfOne) {
     EXPECT_EQ(written(one, {moved(one, {1, 0, 0}), {}}, "out.pts"), "2 2 3");
 }
 
+TEST(Table, OfNoPointsHasTheColumnsThatItNames) {
+    for (const char* bytes :
+         {"x;y;z;q\n", "# x y z q\n0\n", "// x,y,z,q\n0 # points\n", "#x\ty\tz\tq\r\n0\r\n"}) {
+        const PointCloud none = read_bytes(bytes, "cloud.csv");
+        ASSERT_EQ(names_of(none), "x y z q") << bytes;
+        EXPECT_EQ(written(none, {}, "out.csv"), bytes);
+        const std::string more = written(none, {{}, {}, {{"weight", {}}}}, "out.csv");
+        EXPECT_EQ(names_of(read_bytes(more, "cloud.csv")), "x y z q weight") << more;
+    }
+}
+
 TEST(Table, RefusesWhatIsNone) {
     EXPECT_REFUSED("-+e093e\n", "cloud.txt:1: '-+e093e' is neither a row of numbers nor");
     EXPECT_REFUSED("\n\n# only a remark\n", "ends before any row of numbers");

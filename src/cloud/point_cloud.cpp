@@ -98,6 +98,13 @@ std::size_t check_coordinates(const PointCloud& cloud) {
     return points;
 }
 
+// Whole numbers with a sign are directions whatever their unit; without one, nobody knows where their zero
+// is.
+bool holds_directions(ScalarType type) {
+    return !is_whole(type) || type == ScalarType::int8 || type == ScalarType::int16 ||
+           type == ScalarType::int32;
+}
+
 } // namespace
 
 std::size_t size_of(ScalarType type) {
@@ -182,7 +189,10 @@ std::optional<std::array<std::size_t, 3>> find_normals(const PointCloud& cloud) 
             const auto column = find_attribute(cloud, names[axis]);
             if (!column) break;
             const Attribute& attribute = cloud.attributes[*column];
-            if (attribute.is_list() || is_whole(attribute.type)) break;
+            if (attribute.is_list() || !holds_directions(attribute.type)) break;
+            const ScalarType first = cloud.attributes[axis == 0 ? *column : columns[0]].type;
+            const bool one_unit = attribute.type == first || !(is_whole(attribute.type) || is_whole(first));
+            if (!one_unit) break;
             columns[axis] = *column;
             ++found;
         }

@@ -39,6 +39,16 @@ void remark_on_coarse_coordinates(PointCloud& cloud, const Bounds& bounds) {
     cloud.remarks.push_back(words.str());
 }
 
+// Normals of whole numbers, unless they are of one type with a sign.
+void remark_on_normals_that_stay(PointCloud& cloud) {
+    if (find_normals(cloud)) return;
+    for (const char* const name : {"nx", "ny", "nz"})
+        if (!find_attribute(cloud, name)) return;
+    cloud.remarks.emplace_back(
+        "its normals nx, ny and nz are not of one type with a sign, so that nobody knows where "
+        "they point; they are kept and do not turn with the points");
+}
+
 void add_remarks(PointCloud& cloud) {
     const Bounds bounds = bounds_of(cloud);
     if (const std::size_t strange = cloud.size() - bounds.finite_points; strange > 0)
@@ -47,6 +57,7 @@ void add_remarks(PointCloud& cloud) {
             " points have a coordinate that is not finite, or beyond what floats hold; they "
             "are kept and never move");
     remark_on_coarse_coordinates(cloud, bounds);
+    remark_on_normals_that_stay(cloud);
 }
 
 const Format& format_to_read(const std::filesystem::path& path, std::span<const std::byte> first_bytes) {

@@ -21,6 +21,14 @@ std::optional<double> rounded_to_integer(double value) {
     return fits ? std::optional(whole) : std::nullopt;
 }
 
+// A component of a normal as its column holds it. A turn may carry one of a whole type beyond its range, as
+// -128 to 128.
+double nearest_in(ScalarType type, double value) {
+    if (!is_whole(type)) return value;
+    const double highest = std::ldexp(1.0, 8 * static_cast<int>(size_of(type)) - 1) - 1;
+    return std::clamp(std::nearbyint(value), -highest - 1, highest);
+}
+
 } // namespace
 
 std::optional<double> rounded_to(ScalarType type, double value) {
@@ -90,7 +98,8 @@ std::optional<double> posed_value(const PosedColumn& column, std::size_t i, cons
     if (column.rest == nullptr) {
         // A normal with no direction stays as it was: normals are turned, never invented.
         if (!std::isfinite(posed) || posed == static_cast<float>(own)) return std::nullopt;
-        return static_cast<double>(posed);
+        const double turned = nearest_in(column.attribute->type, static_cast<double>(posed));
+        return turned == own ? std::nullopt : std::optional(turned);
     }
     const float rest = column.rest[3 * i];
     if (posed == rest || !std::isfinite(rest)) return std::nullopt;

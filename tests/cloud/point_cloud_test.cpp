@@ -114,10 +114,15 @@ TEST(PointCloud, finds_normals_by_either_spelling) {
     }
 }
 
-TEST(PointCloud, takes_whole_numbers_for_no_normals) {
+TEST(PointCloud, takes_whole_numbers_for_normals_if_they_have_a_sign) {
     PointCloud cloud = make_cloud(std::vector<float>{0, 0, 0});
-    for (const char* name : {"nx", "ny", "nz"}) add_attribute(cloud, name, std::vector<std::uint8_t>{1});
+    for (const char* name : {"nx", "ny", "nz"}) add_attribute(cloud, name, std::vector<std::uint8_t>{0xFF});
     EXPECT_FALSE(find_normals(cloud));
+    for (Attribute& attribute : cloud.attributes)
+        if (attribute.type == ScalarType::uint8) attribute.type = ScalarType::int8;
+    EXPECT_EQ(read_normals(cloud), (std::vector<float>{-1, -1, -1}));
+    cloud.attributes.back() = {"nz", ScalarType::int16, std::vector<std::byte>(2), {}, ScalarType::uint8};
+    EXPECT_FALSE(find_normals(cloud)) << "of what unit?";
 }
 
 TEST(PointCloud, refuses_columns_that_are_not_equally_long) {

@@ -92,7 +92,9 @@ double coordinate_after(const PointCloud& cloud, const Edit& edit, std::size_t a
 double normal_after(const Attribute& column, float posed, std::size_t i) {
     const double own = value_at(column, i);
     const bool stays = !std::isfinite(posed) || posed == static_cast<float>(own);
-    return stays ? own : static_cast<double>(posed);
+    if (stays || !is_whole(column.type)) return stays ? own : static_cast<double>(posed);
+    const double highest = std::pow(2.0, 8 * static_cast<double>(size_of(column.type)) - 1) - 1;
+    return std::clamp(std::nearbyint(static_cast<double>(posed)), -highest - 1, highest);
 }
 
 // What the checks of an edit share.

@@ -100,6 +100,27 @@ TEST(PlyWriter, rounds_whole_numbers_and_refuses_those_that_do_not_fit) {
     EXPECT_NE(words.find("int8"), std::string::npos) << words;
 }
 
+std::string with_normals(const std::string& type, const std::string& normals) {
+    return "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+           "property " +
+           type + " nx\nproperty " + type + " ny\nproperty " + type + " nz\nend_header\n0 0 0 " + normals +
+           "\n1 0 0 0 0 127\n";
+}
+
+TEST(PlyWriter, turns_normals_of_whole_numbers_with_a_sign) {
+    for (const char* type : {"char", "short", "int"}) {
+        const PointCloud cloud = read_bytes(with_normals(type, "0 -128 0"));
+        EXPECT_TRUE(cloud.remarks.empty()) << joined(cloud.remarks);
+        const std::vector<float> turned{127.6F, 0.4F, 0, 0, 0, 127};
+        const std::string expected = std::string(type) == "char" ? "127 0 0" : "128 0 0";
+        EXPECT_EQ(written(cloud, {cloud.positions, turned}), with_normals(type, expected)) << type;
+        EXPECT_EQ(written(cloud, {cloud.positions, read_normals(cloud)}), with_normals(type, "0 -128 0"));
+    }
+    const PointCloud cloud = read_bytes(with_normals("uchar", "0 128 0"));
+    ASSERT_EQ(cloud.remarks.size(), 1U);
+    EXPECT_NE(cloud.remarks[0].find("do not turn"), std::string::npos) << cloud.remarks[0];
+}
+
 TEST(PlyWriter, refuses_a_pose_that_is_not_finite) {
     const PointCloud cloud = read_bytes(sample({}));
     std::vector<float> posed = cloud.positions;

@@ -4,6 +4,8 @@
 #include "base/whole_file.h"
 #include "cloud/splats.h"
 #include "io/format.h"
+#include "io/off.h"
+#include "io/table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,10 +63,15 @@ void add_remarks(PointCloud& cloud) {
 }
 
 const Format& format_to_read(const std::filesystem::path& path, std::span<const std::byte> first_bytes) {
-    for (const Format& format : known_formats())
-        if (format.looks_like(first_bytes)) return format;
+    const Format* const named = format_with_extension(path);
+    for (const Format& format : known_formats()) {
+        if (!format.looks_like(first_bytes)) continue;
+        // Only its name tells an OFF file without its keyword from rows of numbers.
+        const bool is_bare_off = format.read == read_table && named != nullptr && named->read == read_off;
+        return is_bare_off ? *named : format;
+    }
     refuse_foreign_file(first_bytes, path.string());
-    if (const Format* format = format_with_extension(path)) return *format;
+    if (named != nullptr) return *named;
     throw Error(Trouble::input, path.string(),
                 "is in no format that knead knows; it reads " + known_extensions() +
                     ", convert it to one of them");

@@ -6,7 +6,8 @@
 // the colour (red green blue and, where there is a fourth number, alpha: uint8 where all are whole and one is
 // larger than 1, else float32), for ST, the texture coordinates (s t). Numbers behind those are kept and not
 // understood. A vertex is a line, and a face, too. Binary OFF, and vertices of other than three coordinates
-// (4OFF, nOFF), are refused, and so are files without the keyword, which nothing tells from tables.
+// (4OFF, nOFF), are refused. The keyword may be left out in a file with the extension, which is then all that
+// tells it from a table.
 
 #include "base/whole_file.h"
 #include "cloud/point_cloud.h"
@@ -31,7 +32,7 @@ struct OffImage final : SourceImage {
     std::vector<std::string> besides_points() const override;
 };
 
-// Whether a file that begins with these bytes is an OFF file, good or bad.
+// Whether a file that begins with these bytes is an OFF file, good or bad, and says so.
 bool looks_like_off(std::span<const std::byte> first_bytes);
 
 // The cloud in a file's bytes, which it keeps as its image. `shown` names the file in errors. Throws Error

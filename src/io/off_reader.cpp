@@ -52,7 +52,8 @@ public:
     void read_header() {
         if (!rows_.next()) refuse("holds no counts of vertices and faces");
         std::string_view first = rows_.keyword();
-        const auto keyword = parse_keyword(first);
+        const bool is_missing = std::ranges::all_of(first, [](char c) { return c >= '0' && c <= '9'; });
+        const auto keyword = is_missing ? Keyword{} : parse_keyword(first);
         if (!keyword) fail(first, "stands where OFF, COFF, NOFF or CNOFF should; correct the first line");
         keyword_ = *keyword;
         first.remove_prefix(keyword_.length);
@@ -145,8 +146,8 @@ private:
         if (!rows_.next())
             refuse(std::string("ends before its ") + what + " " + std::to_string(row) + " of " +
                    std::to_string(rows) +
-                   " (from 0): it is cut off or its header lies; get it again from "
-                   "its source");
+                   " (from 0), each on a line of its own: it is cut off or its header lies; get it again "
+                   "from its source");
     }
 
     // Which numbers a vertex has; whether a colour has three or four is told by the first line.
@@ -246,8 +247,8 @@ PointCloud read_off(std::vector<std::byte> bytes, const std::string& shown, Prog
     reader.read_header();
     PointCloud cloud = reader.read_vertices();
     if (const std::size_t more = reader.read_faces(); more > 0)
-        cloud.remarks.push_back(std::to_string(more) +
-                                " lines follow the last face; they are kept as they are");
+        cloud.remarks.push_back((more == 1 ? "1 line follows" : std::to_string(more) + " lines follow") +
+                                std::string(" what the counts promise, kept and not understood"));
     cloud.image = std::move(image);
     return cloud;
 }

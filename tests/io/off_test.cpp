@@ -48,6 +48,15 @@ TEST(Off, ReadsHeadersInEverySpelling) {
     }
 }
 
+TEST(Off, MayLackItsKeywordWhereItsNameTellsIt) {
+    const std::string text = "# words\n4 2 6\n" + rows + faces;
+    const PointCloud cloud = read_off_text(text);
+    ASSERT_EQ(cloud.size(), 4U);
+    EXPECT_EQ(file_kind(cloud).format, "off");
+    EXPECT_EQ(saved(cloud, {}), text);
+    EXPECT_EQ(file_kind(read_bytes("1 2 3\n4 5 6\n", "cloud.xyz")).format, "xyz");
+}
+
 TEST(Off, ReadsWhatItsKeywordSays) {
     const std::string text =
         "STCNOFF\n2 0 0\n1 2 3  0 0 1  255 0 10 128  0.25 0.5\n4 5 6  0 1 0  0 1 2 3  0 1\n";

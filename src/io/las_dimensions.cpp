@@ -99,6 +99,9 @@ Descriptor descriptor_at(std::span<const std::byte> bytes, std::size_t at, const
     Descriptor descriptor;
     const std::string_view name(reinterpret_cast<const char*>(bytes.data()) + at + 4, 32);
     descriptor.name = name.substr(0, name.find('\0'));
+    // Such a name could not be shown, and broke the lines of other formats.
+    const auto is_control = [](unsigned char letter) { return letter < 0x20 || letter == 0x7F; };
+    std::ranges::replace_if(descriptor.name, is_control, '_');
     if (code == 0) { // the options are the number of bytes
         descriptor.size = options;
         return descriptor;

@@ -68,6 +68,12 @@ void add_las_remarks(const LasImage& image, PointCloud& cloud) {
     if (const std::size_t undescribed = image.header.undescribed; undescribed > 0)
         cloud.remarks.push_back("each point ends in " + std::to_string(undescribed) +
                                 " bytes that the file does not describe; they are kept as they are");
+    const auto legacy = load_little<std::uint32_t>(image.bytes, las_at::legacy_points);
+    if (legacy != 0 && legacy != cloud.size())
+        cloud.remarks.push_back(
+            "its header tells of " + std::to_string(legacy) + " points in the old place and of " +
+            std::to_string(cloud.size()) +
+            " in that of version 1.4, which counts; other programs may read fewer or none");
     std::size_t end = image.header.points_end();
     for (const LasRecord& record : image.header.records) end = std::max(end, record.begin + record.size);
     if (image.header.minor < 3 && end < image.bytes.size())

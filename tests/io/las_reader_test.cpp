@@ -103,9 +103,9 @@ TEST(LasReader, reads_extra_bytes_by_their_types) {
 
 TEST(LasReader, gives_names_that_are_taken_a_number) {
     LasKind kind;
-    kind.extra = {{"intensity", 9}, {"", 9}, {"x", 9}};
+    kind.extra = {{"intensity", 9}, {"", 9}, {"x", 9}, {"\x1B[31m\n", 9}};
     const PointCloud cloud = read_bytes(las_sample(kind));
-    for (const char* name : {"intensity_2", "extra_1", "x_2"})
+    for (const char* name : {"intensity_2", "extra_1", "x_2", "_[31m_"})
         EXPECT_TRUE(find_attribute(cloud, name).has_value()) << name;
 }
 
@@ -122,6 +122,19 @@ TEST(LasReader, takes_the_old_count_where_the_wide_one_was_left_out) {
     std::string bytes = las_sample(kind);
     put(bytes, 247, std::uint64_t{0});
     EXPECT_EQ(read_bytes(bytes).size(), 5U);
+}
+
+TEST(LasReader, tells_of_counts_that_disagree) {
+    LasKind kind;
+    kind.minor = 4;
+    std::string bytes = las_sample(kind);
+    EXPECT_TRUE(read_bytes(bytes).remarks.empty());
+    put(bytes, 107, std::uint32_t{9});
+    const PointCloud cloud = read_bytes(bytes);
+    EXPECT_EQ(cloud.size(), 5U);
+    ASSERT_EQ(cloud.remarks.size(), 1U);
+    EXPECT_NE(cloud.remarks[0].find("9 points in the old place and of 5"), std::string::npos)
+        << cloud.remarks[0];
 }
 
 TEST(LasReader, names_compressed_files_and_the_cure) {

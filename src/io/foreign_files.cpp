@@ -26,7 +26,7 @@ constexpr std::array<Signature, 11> signatures = {{
     {"\x1F\x8B", "is compressed with gzip; unpack it first"},
     {"PK\x03\x04", "is a ZIP archive; unpack it first"},
     {"{\"knead\"", "is a knead session, not a cloud; 'knead replay' runs it"},
-    {"ply", "begins like a PLY file, but 'ply' must stand alone on its first line"},
+    {"ply", "begins like a PLY file, but 'ply' must stand alone on its first line; correct that line"},
 }};
 
 // The first line that says something: neither empty nor a comment, as OBJ has them.

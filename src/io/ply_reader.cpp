@@ -24,7 +24,7 @@ std::size_t find_vertices(const PlyHeader& header, const std::string& shown) {
             if (found == nullptr)
                 throw Error(Trouble::input, place,
                             std::string("the element vertex has no property ") + axis +
-                                "; a point needs x, y and z");
+                                "; a point needs x, y and z, in small letters");
             if (found->is_list)
                 throw Error(Trouble::input, place,
                             std::string("the property ") + axis + " is a list; a coordinate is one number");

@@ -48,13 +48,28 @@ std::string one_word(std::string_view name, std::size_t column) {
     return word;
 }
 
+bool is_colour(std::string_view standard) {
+    return standard == "red" || standard == "green" || standard == "blue" || standard == "alpha";
+}
+
+// The standard name of each column, "" for none. Letters are colours only where all three are there: "a" and
+// "b" may as well be angles.
+std::vector<std::string> standard_names(const TableLayout& layout) {
+    std::vector<std::string> names;
+    for (const std::string& name : layout.names) names.push_back(standard_name(name));
+    const auto is_named = [&](const char* colour) { return std::ranges::find(names, colour) != names.end(); };
+    if (!is_named("red") || !is_named("green") || !is_named("blue"))
+        for (std::string& name : names)
+            if (is_colour(name)) name.clear();
+    return names;
+}
+
 void take_names(const TableLayout& layout, std::vector<Attribute>& columns) {
     FreeNames names;
+    const std::vector<std::string> standard = standard_names(layout);
     // Standard names go to the first that has a claim, and no other name may be one of those that are taken.
     for (std::size_t c = 0; c < columns.size(); ++c)
-        if (const std::string name = standard_name(layout.names[c]);
-            !name.empty() && names.take_exactly(name))
-            columns[c].name = name;
+        if (!standard[c].empty() && names.take_exactly(standard[c])) columns[c].name = standard[c];
     for (std::size_t c = 0; c < columns.size(); ++c)
         if (columns[c].name.empty()) columns[c].name = names.take(one_word(layout.names[c], c));
 }

@@ -182,7 +182,8 @@ TEST(Table, KnowsNamedColumnsByTheirNames) {
     EXPECT_EQ(columns_of("//X Y Z Rf Gf Bf Nx Ny Nz\n1 2 3 .5 1 0 0 0 1\n"), "x y z red green blue nx ny nz");
     EXPECT_EQ(columns_of("\"Points:0\",\"Points:1\",\"Points:2\",\"Normals:0\"\n1,2,3,4\n"), "x y z nx");
     EXPECT_EQ(columns_of("x,y,z,4,nan\n1,2,3,4,5\n"), "x y z 4 nan") << "names may look like numbers";
-    EXPECT_EQ(columns_of("x y z r Red\n1 2 3 4 5\n"), "x y z red Red");
+    EXPECT_EQ(columns_of("x y z r g b Red\n1 2 3 4 5 6 7\n"), "x y z red green blue Red");
+    EXPECT_EQ(columns_of("x,y,z,a,b,c\n1,2,3,4,5,6\n"), "x y z a b c") << "no colours, but angles";
     EXPECT_EQ(columns_of("1.#IND 2 3 4\n"), "x y z column_4") << "no remark begins within a word";
     EXPECT_EQ(columns_of("1 2 1.#QNAN//4\n"), "x y z");
     EXPECT_EQ(columns_of("# x y z\n1 2 3 4\n"), "x y z column_4") << "a remark that names too few is one";

@@ -1,11 +1,12 @@
 #pragma once
 // Tables of numbers: .xyz, .txt, .asc, .csv and .pts, one point a line, one number a column.
 //
-// Columns are parted by blanks and tabs, by commas, or by semicolons, as the first row has it; "1,5" is one
-// and a half only between semicolons. Lines may end in \n, \r\n or a lone \r; a byte-order mark, empty lines,
-// and remarks (# or //) are passed over. A line of names in front of the rows, quoted or not, or a remark
-// that names as many columns, x, y and z among them, names the columns. A line with a whole number alone in
-// front of the rows is a count of points, as PTS has it; fewer rows are refused, more are read with a remark.
+// Columns are parted by blanks and tabs, by commas, or by semicolons, as the first row has it; where it is
+// not by commas, "1,5" is one and a half, unless a number has a decimal point. Lines may end in \n, \r\n or a
+// lone \r; a byte-order mark, empty lines, and remarks (# or //) are passed over. A line of names in front of
+// the rows, quoted or not, or a remark that names as many columns, x, y and z among them, names the columns.
+// A line with a whole number alone in front of the rows is a count of points, as PTS has it; fewer rows are
+// refused, more are read with a remark.
 //
 // Columns with no names are x y z, and then, told by their values, colours (whole, 0 … 255), normals (of
 // length 1), an intensity in front of colours or alone in a .pts file, or column_4 and so on. Common names

@@ -66,11 +66,18 @@ std::size_t remark_in(std::string_view line) {
     return line.size();
 }
 
+// Whether this is a number; with a decimal comma, too, where none parts the columns.
 bool is_number(std::string_view word, char separator) {
+    if (separator == ' ' && word.ends_with(',')) return false; // "1, 2 3" is a slip
     std::string text(word);
-    if (separator == ';') std::replace(text.begin(), text.end(), ',', '.');
+    if (separator != ',') std::replace(text.begin(), text.end(), ',', '.');
     std::array<std::byte, 8> ignored{};
     return parse_word(text, ScalarType::float64, ignored.data());
+}
+
+std::size_t count_numbers(const Fields& fields, char separator) {
+    const auto is_right = [=](std::string_view field) { return is_number(field, separator); };
+    return static_cast<std::size_t>(std::count_if(fields.begin(), fields.end(), is_right));
 }
 
 bool is_count(const Fields& fields) {
@@ -119,7 +126,7 @@ public:
             fail("ends before any row of numbers; there are no points in it");
         if (!found) take_columns_from_names();
         settle_names();
-        if (layout_.separator == ';') settle_decimal_comma();
+        if (layout_.separator != ',') settle_decimal_comma();
         return std::move(layout_);
     }
 
@@ -143,9 +150,11 @@ private:
         const Fields fields = split_line(row, separator);
         if (fields.size() > most_table_columns)
             fail("has more than " + std::to_string(most_table_columns) + " columns, too many for a cloud");
-        const auto is_right = [&](std::string_view field) { return is_number(field, separator); };
-        const auto numbers = std::count_if(fields.begin(), fields.end(), is_right);
-        if (static_cast<std::size_t>(numbers) == fields.size()) return take_numbers(row, separator, fields);
+        const std::size_t numbers = count_numbers(fields, separator);
+        if (numbers == fields.size()) return take_numbers(row, separator, fields);
+        const Fields words = split_line(row, ' '); // the commas may be decimal ones
+        if (separator == ',' && words.size() >= 3 && count_numbers(words, ' ') == words.size())
+            return take_numbers(row, ' ', words);
         take_header(line, numbers > 0);
         return false;
     }
@@ -223,10 +232,14 @@ private:
             layout_.separator = separator_of(line); // no row says otherwise
     }
 
-    // Semicolons go with decimal commas where there is a comma before there is a point.
+    // Commas are decimal ones where there is one before there is a point, remarks aside.
     void settle_decimal_comma() {
-        const std::size_t first = text_.find_first_of(".,", layout_.rows_begin);
-        layout_.decimal_comma = first != std::string_view::npos && text_[first] == ',';
+        std::size_t at = text_.find_first_of(".,#/", layout_.rows_begin);
+        while (at != std::string_view::npos && text_[at] != '.' && text_[at] != ',') {
+            at = text_.find_first_of("\r\n", at);
+            if (at != std::string_view::npos) at = text_.find_first_of(".,#/", at);
+        }
+        layout_.decimal_comma = at != std::string_view::npos && text_[at] == ',';
     }
 
     [[noreturn]] void fail(const std::string& words) const { fail_at(bytes_, at_, shown_, words); }

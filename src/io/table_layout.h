@@ -18,7 +18,7 @@ constexpr std::size_t most_table_columns = 10'000;
 struct TableLayout {
     char separator = ' ';       // between columns: ',' or ';', or ' ' for any blanks and tabs
     char blank = ' ';           // with ' ' as separator, what new columns are parted by: ' ' or '\t'
-    bool decimal_comma = false; // "1,5"; only with ';' as separator
+    bool decimal_comma = false; // "1,5"; not with ',' as separator
     std::size_t columns = 3;
 
     std::vector<std::string> names; // of all columns as the file has them, without quotes; empty: none

@@ -75,7 +75,7 @@ private:
              ", which is no number; correct it, or put # in front of the line if it is a remark" +
              (word.find(',') == std::string_view::npos
                   ? ""
-                  : " (decimal commas are understood where semicolons part the columns)"));
+                  : " (decimal commas are understood where no number has a decimal point)"));
     }
 
     bool parse(std::string_view word, std::byte* to) {
@@ -136,11 +136,13 @@ std::string_view name_of(TableKind kind) {
 }
 
 std::string_view TableImage::encoding() const {
-    if (layout.separator == ' ')
-        return layout.blank == '\t' ? "columns parted by tabs" : "columns parted by blanks";
     if (layout.separator == ',') return "columns parted by commas";
-    return layout.decimal_comma ? "columns parted by semicolons, decimal commas"
-                                : "columns parted by semicolons";
+    if (layout.separator == ';')
+        return layout.decimal_comma ? "columns parted by semicolons, decimal commas"
+                                    : "columns parted by semicolons";
+    if (layout.blank == '\t')
+        return layout.decimal_comma ? "columns parted by tabs, decimal commas" : "columns parted by tabs";
+    return layout.decimal_comma ? "columns parted by blanks, decimal commas" : "columns parted by blanks";
 }
 
 PointCloud read_table(std::vector<std::byte> bytes, const std::string& shown, Progress& progress) {

@@ -25,6 +25,7 @@ std::vector<Seed> seeds() {
         {"lone returns", "1 2 3\r4 5 6\r"},
         {"named", "x,y,z,nx,ny,nz,quality\n1,2,3,0,0,1,7\n4,5,6,0,1,0,8\n"},
         {"quoted names", "\"X\";\"Y\";\"Z\";\"R\";\"G\";\"B\"\n1,5;2,5;3;255;0;10\n4;5;6;1;2;3\n"},
+        {"decimal commas", "x\ty\tz\tq\n1,5\t2,5\t3\t7,25\n4\t5\t6\t0\n"},
         {"remark with names", "# x y z intensity\n1 2 3 0.5\n4 5 6 0.25\n"},
         {"byte-order mark", "\xEF\xBB\xBF// made by hand\n\n1 2 3\n4 5 6\n"},
         {"count", "2\n1 2 3 -100 255 0 1\n4 5 6 20 0 0 0\n"},

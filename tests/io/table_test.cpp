@@ -57,6 +57,10 @@ std::vector<std::string> sample_tables() {
                                                    {"1, 2, 3,", "4 ,5.5 , -6e1"},
                                                    {"1;2;3", "4;5,5;-6e1"},
                                                    {"1,0;2,0;3,0", "4,0;5,5;-6e1"},
+                                                   {"1;2;3 # so, and", "4;5.5;-6e1"},
+                                                   {"1,0\t2,0\t3,0", "4,0\t5,5\t-6e1"},
+                                                   {"X\tY\tZ", "1 2 3", "4 5,5 -6e1"},
+                                                   {"// x, y, z", "2", "1,0 2,0 3,0", "4,0 5,5 -6e1"},
                                                    {"x,y,z", "1,2,3", "4,5.5,-6e1"},
                                                    {"\"X\";\"Y\";\"Z\"", "1;2;3", "4;5.5;-6e1"},
                                                    {"X Y Z", "1 2 3", "4 5.5 -6e1"},
@@ -253,7 +257,9 @@ TEST(Table, RefusesRowsThatAreWrong) {
     EXPECT_REFUSED("1,2,3\n1,,3\n", "cloud.txt:2: has no number in column y, but ',3'");
     EXPECT_REFUSED("X,Y,Z\n1,2,3\n1,2,three\n", "cloud.txt:3: has 'three' in column 'Z', which is no number");
     EXPECT_REFUSED("1 2 3\n1 2 3x\n", "has '3x' in column z");
-    EXPECT_REFUSED("1 2 3\n1,5 2 3\n", "decimal commas are understood where semicolons part the columns");
+    EXPECT_REFUSED("1 2.5 3\n1,5 2 3\n", "decimal commas are understood where no number has a decimal point");
+    EXPECT_REFUSED("1,5 2 3\n1.5 2 3\n", "has '1.5' in column x, which is no number");
+    EXPECT_REFUSED("1, 2 3\n4, 5 6\n", "has '2 3' among its numbers");
     EXPECT_REFUSED("1;2,5;3\n1;2.5;3\n", "has '2.5' in column y");
     EXPECT_REFUSED("\"1\",2,3\n\"1,2,3\n", "cloud.txt:2: has '1' in column x");
     EXPECT_REFUSED("1 2 3\n4\n", "cloud.txt:2: has 1 number,");

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of packages.txt that are missing, as root or through sudo; says nothing when all are there.
+# `install.sh peers` installs those of packages-peers.txt instead.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -8,7 +9,7 @@ while read -r package _; do
     case "$package" in '' | '#'*) continue ;; esac
     state=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
     [ "$state" = "install ok installed" ] || missing+=("$package")
-done <packages.txt
+done <"packages${1:+-$1}.txt"
 [ ${#missing[@]} -gt 0 ] || exit 0
 
 as_root=()

@@ -192,6 +192,11 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     return outcomes[0];
 }
 
+SystemMatrices system_matrices(const SampleSystem& system) {
+    return {rotation_matrix(system, laplacian(system, system.free_sample.size())),
+            position_matrix(system, laplacian(system, system.moving_rows))};
+}
+
 void set_poisson(SampleSystem& system, double poisson) {
     require(poisson > -1 && poisson < 0.5, "Poisson's ratio of a stable material");
     system.rest.poisson = poisson;

@@ -98,6 +98,12 @@ struct SampleSystem {
 // stay at rest. On a bad outcome the system must not be iterated.
 FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& workers);
 
+// The matrices of steps 2 and 3 of a system that was built, as they were factorised: for comparing solvers.
+struct SystemMatrices {
+    SparseMatrix rotations, positions; // of one pattern where no handle leaves rotation free
+};
+SystemMatrices system_matrices(const SampleSystem& system);
+
 // Another Poisson's ratio; neither system changes.
 void set_poisson(SampleSystem& system, double poisson);
 

@@ -118,6 +118,7 @@ public:
     const HandleLabels& labels() const { return labels_; }
     // Which samples move a vertex that no handle holds: row v is that of vertex v.
     const InfluenceRows& influences() const { return rows_; }
+    const SampleSystem& system() const { return system_; }
     const RestShape& opened() const { return opened_; } // the shape in the file
     double cloud_size() const { return cloud_size_; }
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # The tests of the core, without the window, under sanitizers. A find fails the test that it is met in.
 #
-#   tests/sanitize.sh memory      all rooms: addresses, undefined behaviour (build-core-asan)
-#   tests/sanitize.sh leaks       all rooms, without an OpenCL device: leaks, too (the same build)
-#   tests/sanitize.sh threads     the rooms that use threads: data races (build-core-tsan)
+#   tests/sanitize.sh memory      all rooms, without an OpenCL device: addresses, leaks, undefined behaviour
+#   tests/sanitize.sh device      the rooms that use one, with it: addresses, undefined behaviour (the same build)
+#   tests/sanitize.sh threads     the rooms that use threads: data races
 #   tests/sanitize.sh threads -R edit        what follows goes to ctest
 #
 # The last line is "sanitizers, WHAT: N passed, N failed, N skipped; built in S s, tested in S s"; the exit code is 0
@@ -15,18 +15,18 @@ cd "$root"
 what=${1:-}
 case $what in
 memory)
-    preset=core-asan
-    rooms='.*'
-    targets=(all)
-    export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
-    ;;
-leaks)
     # The leak checker reads the stacks of all threads; PoCL's run until the process ends, and now and then the checker
     # crashes on one ("Tracer caught signal 11"). So it runs where there is no device.
     preset=core-asan
     rooms='.*'
     targets=(all)
-    export ASAN_OPTIONS=detect_leaks=1 OCL_ICD_VENDORS=/nowhere
+    export ASAN_OPTIONS=detect_leaks=1 OCL_ICD_VENDORS=/nowhere UBSAN_OPTIONS=print_stacktrace=1
+    ;;
+device)
+    preset=core-asan
+    rooms='^(upsample|edit|cli): '
+    targets=(test_upsample test_edit test_cli knead)
+    export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
     ;;
 threads)
     preset=core-tsan
@@ -38,7 +38,7 @@ threads)
     export TSAN_OPTIONS=halt_on_error=1
     ;;
 *)
-    echo "tests/sanitize.sh: what? memory, leaks or threads" >&2
+    echo "tests/sanitize.sh: what? memory, device or threads" >&2
     exit 2
     ;;
 esac

@@ -105,8 +105,9 @@ void overwriting_question(const Ui& ui) {
         ImGui::CloseCurrentPopup();
     }
     ImGui::SameLine();
-    if (main_button(words.elsewhere, {width, 0}) || pressed(ImGuiKey_Escape)) {
-        if (target) ui.wish(WishBrowse{target->purpose});
+    const bool gives_up = pressed(ImGuiKey_Escape);
+    if (main_button(words.elsewhere, {width, 0}) || gives_up) {
+        if (target && !(gives_up && target->anyway)) ui.wish(WishBrowse{target->purpose});
         target.reset();
         ImGui::CloseCurrentPopup();
     }

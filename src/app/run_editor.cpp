@@ -211,6 +211,7 @@ bool take_news(Loop& loop) {
         const OpenRequest& request = editor.opening_request;
         if (!request.restore) remember_file(loop.state.recent, request.file);
         loop.state.handle_colors.clear();
+        loop.state.overwriting.reset(); // which asked about the document before
         loop.state.playback.playing = false;
         loop.state.playback.wanted.reset();
         lay_out(loop);
@@ -223,7 +224,10 @@ bool take_news(Loop& loop) {
         if (notice.kind == Notice::Kind::error) loop.state.after = {}; // what should have been saved was not
         add_toast(loop.state, std::move(notice));
     }
-    if (const auto held = std::exchange(editor.held_save, {})) ask_about(loop.work, *held);
+    if (!editor.held_saves.empty() && !loop.state.overwriting) {
+        ask_about(loop.work, editor.held_saves.front());
+        editor.held_saves.erase(editor.held_saves.begin());
+    }
     return changed || was_opening;
 }
 

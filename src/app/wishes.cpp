@@ -207,12 +207,12 @@ void ask_about(Work& work, const HeldSave& held) {
 void go_on_after_saving(Work& work) {
     AfterSaving& after = work.state.after;
     if (!after.waiting_for_save) return;
+    if (work.state.overwriting || !work.editor.held_saves.empty()) return; // a save waits for an answer
     if (!has_unsaved_session(work.editor)) {
         fulfil(work, WishDiscard{}); // nothing is unsaved any more
         return;
     }
-    const bool still_choosing =
-        work.state.browser.open_now || work.state.browser.is_open || work.state.overwriting.has_value();
+    const bool still_choosing = work.state.browser.open_now || work.state.browser.is_open;
     if (!after.save_was_posted && !still_choosing) after = {}; // the user thought better of it
 }
 

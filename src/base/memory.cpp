@@ -3,6 +3,9 @@
 #include <fstream>
 #include <string>
 
+#include <malloc.h>
+#include <sys/resource.h>
+
 namespace knead {
 
 namespace {
@@ -23,11 +26,18 @@ std::uint64_t resident_memory() {
 }
 
 std::uint64_t peak_memory() {
-    return status_bytes("VmHWM:");
+    if (const std::uint64_t peak = status_bytes("VmHWM:")) return peak;
+    struct rusage usage {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-void forget_peak_memory() {
-    std::ofstream("/proc/self/clear_refs") << '5'; // proc(5): resets the peak resident set size
+bool forget_peak_memory() {
+    (void)::malloc_trim(0);
+    if (status_bytes("VmHWM:") == 0) return false;
+    std::ofstream refs("/proc/self/clear_refs");
+    refs << '5' << std::flush; // proc(5): resets the peak resident set size
+    return refs.good();
 }
 
 } // namespace knead

@@ -9,7 +9,8 @@ namespace knead {
 std::uint64_t resident_memory();
 std::uint64_t peak_memory();
 
-// The peak begins again with what is held now. Where Linux does not let it, it stays what it was.
-void forget_peak_memory();
+// Gives the system back what was freed, and begins the peak again with what is held now. Returns whether
+// Linux lets it; else the peak stays what it was.
+bool forget_peak_memory();
 
 } // namespace knead

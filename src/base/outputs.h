@@ -17,7 +17,7 @@ public:
 
     // Makes all of them ready, and only then renames the first: so nothing has changed where one cannot be
     // written, unless the disk fails between two renamings. The folders come first, then the files in the
-    // order in which they were added. Throws Error (output). Once only.
+    // order in which they were added. Throws Error (output), also where two have one target. Once only.
     void hand_over();
 
 private:

@@ -21,6 +21,7 @@ public:
     explicit TemporaryFolder(const std::filesystem::path& target);
 
     const std::filesystem::path& path() const { return claim_->path(); }
+    const std::filesystem::path& target() const { return target_; }
 
     // Throws Error (output) for all that hand_over() would, but for what befalls the disk in between.
     void make_ready() const;

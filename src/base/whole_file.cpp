@@ -72,8 +72,14 @@ std::string first_bytes_of_file(const std::filesystem::path& path, std::size_t m
     struct stat facts {};
     if (!file || ::fstat(file.value(), &facts) != 0 || !S_ISREG(facts.st_mode)) return {};
     std::string bytes(most, '\0');
-    const ssize_t got = ::read(file.value(), bytes.data(), bytes.size());
-    bytes.resize(got < 0 ? 0 : static_cast<std::size_t>(got));
+    std::size_t done = 0;
+    while (done < most) {
+        const ssize_t got = ::read(file.value(), bytes.data() + done, most - done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) break;
+        done += static_cast<std::size_t>(got);
+    }
+    bytes.resize(done);
     return bytes;
 }
 
@@ -102,12 +108,7 @@ FileInTheMaking::FileInTheMaking(const std::filesystem::path& target) : shown_(t
     }
     struct stat facts {};
     const bool is_there = ::stat(target_.c_str(), &facts) == 0;
-    refuse_folder();
-    if (is_there && !S_ISREG(facts.st_mode))
-        throw Error(Trouble::output, shown_.string(), "is not a regular file; name another");
-    if (is_there && ::access(target_.c_str(), W_OK) != 0 && errno == EACCES)
-        throw Error(Trouble::output, shown_.string(),
-                    "is write-protected; allow writing to it, or choose another name");
+    refuse_target();
     try {
         temporary_.emplace(Claim::beside(target_, Claim::Kind::file));
     } catch (const std::system_error& error) {
@@ -120,10 +121,26 @@ FileInTheMaking::FileInTheMaking(const std::filesystem::path& target) : shown_(t
     (void)::fchmod(descriptor, is_there ? facts.st_mode & 07777 : 0666 & ~mask);
 }
 
-void FileInTheMaking::refuse_folder() const {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(target_, ignored))
-        throw Error(Trouble::output, shown_.string(), "is a folder; name a file");
+// What a renaming over the target would meet.
+void FileInTheMaking::refuse_target() const {
+    struct stat facts {};
+    if (::stat(target_.c_str(), &facts) != 0) {
+        if (errno == ENOENT) return; // nothing is there, or no folder, which the temporary meets
+        refuse_to_write(shown_, errno);
+    }
+    if (S_ISDIR(facts.st_mode)) throw Error(Trouble::output, shown_.string(), "is a folder; name a file");
+    if (!S_ISREG(facts.st_mode))
+        throw Error(Trouble::output, shown_.string(), "is not a regular file; name another");
+    if (::access(target_.c_str(), W_OK) != 0 && errno == EACCES)
+        throw Error(Trouble::output, shown_.string(),
+                    "is write-protected; allow writing to it, or choose another name");
+    // In a sticky folder, as /tmp is, only the owner of a file or of the folder may rename over it.
+    struct stat folder {};
+    const std::filesystem::path parent = target_.has_parent_path() ? target_.parent_path() : ".";
+    const bool is_sticky = ::stat(parent.c_str(), &folder) == 0 && (folder.st_mode & S_ISVTX) != 0;
+    const uid_t user = ::geteuid();
+    if (is_sticky && user != 0 && user != facts.st_uid && user != folder.st_uid)
+        refuse_to_write(shown_, EPERM);
 }
 
 void FileInTheMaking::write(std::span<const std::byte> bytes) {
@@ -136,7 +153,7 @@ void FileInTheMaking::write(std::string_view text) {
 
 void FileInTheMaking::make_ready() {
     if (::fsync(temporary_->descriptor()) != 0) refuse_to_write(shown_, errno);
-    refuse_folder();
+    refuse_target();
     try {
         temporary_->refuse_if_away();
     } catch (const std::system_error& error) {

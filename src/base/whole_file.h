@@ -66,7 +66,7 @@ public:
     void commit();
 
 private:
-    void refuse_folder() const;
+    void refuse_target() const;
 
     std::filesystem::path shown_; // as the user named it, for errors
     std::filesystem::path target_;

@@ -108,7 +108,7 @@ std::string file_speed_text(const FileSpeed& speed) {
            " points with normals and colours, medians of " + std::to_string(speed.repeats) +
            ".\nread: the file's bytes into memory, from the system's cache. copy: the same bytes written, "
            "synced and "
-           "renamed.\nsave: every point moved, written over its own format, synced and renamed.\n" +
+           "renamed.\nsave: every point moved, the file patched, synced and renamed.\n" +
            machine_text(speed.machine) + "\n" + format_table(table);
 }
 

@@ -19,7 +19,7 @@ struct FormatSpeed {
     Summary read;          // the plain bytes into memory
     Summary load;          // the cloud from the same file
     Summary copy;          // the plain bytes, written and synced as a whole file
-    Summary save;          // the cloud, every point moved, over the file that it came from
+    Summary save;          // the cloud, every point moved, as another file of its format
 };
 
 struct FileSpeed {

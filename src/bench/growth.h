@@ -3,7 +3,8 @@
 
 #include "bench/table1.h"
 
-#include <array>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 

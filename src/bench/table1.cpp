@@ -65,13 +65,13 @@ void measure_set_up(const PointCloud& cloud, const PipelineInput& input, std::si
     std::vector<double> order, neighbors, sampling, geodesic, set_up, factorize;
     for (std::size_t r = 0; r <= repeats; ++r) {
         pipeline.reset();
-        if (r == 0) forget_peak_memory();
+        const bool warms_up = r == 0;
+        const bool counts = warms_up && forget_peak_memory();
         const std::uint64_t before = resident_memory();
         pipeline = std::make_unique<Pipeline>(cloud, workers, probe);
         pipeline->prepare(input, progress);
-        if (r == 0)
-            figures.memory = peak_memory() - before; // what comes later finds freed memory still resident
-        if (r == 0) continue;
+        if (counts) figures.memory = peak_memory() - std::min(before, peak_memory());
+        if (warms_up) continue;
         const StageSeconds& seconds = pipeline->seconds();
         order.push_back(seconds.order);
         neighbors.push_back(seconds.neighbors);

@@ -126,6 +126,9 @@ void add_bench(CLI::App& app, Job& job) {
             ->excludes(files);
     command->add_option("--picture", arguments->picture, "With --growth: draw it into this file (SVG)")
         ->needs(growth);
+    for (CLI::Option* other : {window, files, growth}) other->excludes(command->get_option("--scans"));
+    window->excludes(command->get_option("--repeat"));
+    files->excludes(command->get_option("--device"));
     command->add_flag("--json", arguments->json, "Print one JSON object");
     command->callback([arguments, &job] {
         job = [arguments](Terminal& terminal) { return run_bench(*arguments, terminal); };

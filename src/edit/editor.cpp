@@ -133,8 +133,8 @@ bool refresh(Editor& editor) {
         editor.notices.push_back(std::move(notice));
         changed = true;
     }
-    if (auto held = editor.live->take_held_save()) {
-        editor.held_save = std::move(held);
+    for (HeldSave& held : editor.live->take_held_saves()) {
+        editor.held_saves.push_back(std::move(held));
         changed = true;
     }
     return changed;

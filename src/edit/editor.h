@@ -87,8 +87,9 @@ struct Editor {
     // Names of handles that were posted and that the document has not shown yet.
     std::vector<std::pair<StepNumber, std::string>> posted_names;
 
-    std::vector<Notice> notices;       // for the user, oldest first; the window takes them
-    std::optional<HeldSave> held_save; // that the user is to be asked about; the window takes it
+    std::vector<Notice> notices; // for the user, oldest first; the window takes them
+    std::vector<HeldSave>
+        held_saves; // that the user is to be asked about, one after the other; the window takes them
     EditorChanges changes;
 };
 

@@ -11,7 +11,7 @@
 namespace knead {
 
 struct KnownFiles {
-    std::map<std::string, FileStamp> stamps; // by real_name()
+    std::map<std::string, FileStamp> stamps; // by real_name(), and by the absolute name that was asked for
 };
 
 // The same text for one file by any name, links followed.

@@ -117,7 +117,7 @@ void LiveWork::show_where_it_rests() {
 // Somebody else's changes are lost only if the user says so.
 bool LiveWork::hold_back(HeldSave save) {
     if (!was_changed(known_files_, save.target)) return false;
-    shared_.with([&](LiveShared& s) { s.held_save = std::move(save); });
+    shared_.with([&](LiveShared& s) { s.held_saves.push_back(std::move(save)); });
     return true;
 }
 

@@ -123,8 +123,8 @@ std::vector<StepNumber> LiveDocument::take_refused() {
     return shared_->with([](LiveShared& shared) { return std::exchange(shared.refused, {}); });
 }
 
-std::optional<HeldSave> LiveDocument::take_held_save() {
-    return shared_->with([](LiveShared& shared) { return std::exchange(shared.held_save, {}); });
+std::vector<HeldSave> LiveDocument::take_held_saves() {
+    return shared_->with([](LiveShared& shared) { return std::exchange(shared.held_saves, {}); });
 }
 
 LiveDocument::Saved LiveDocument::saved() const {

@@ -168,7 +168,7 @@ public:
 
     // Writes the shape as it is now / the session so far. Success and failure come as notices. Over a file
     // that somebody else has changed since this editor read or wrote it, only `anyway`: else
-    // take_held_save() has it.
+    // take_held_saves() has it.
     void save_cloud(std::filesystem::path target, SaveColumns columns = {}, bool anyway = false);
     void save_session(std::filesystem::path target, bool anyway = false);
 
@@ -179,7 +179,8 @@ public:
     bool take_frame(PosedFrame& frame);
     std::vector<Notice> take_notices();
     std::vector<StepNumber> take_refused();
-    std::optional<HeldSave> take_held_save(); // the newest
+    std::vector<HeldSave>
+    take_held_saves(); // since they were taken last, in the order in which they were asked for
 
     // The state (DocumentView::state) that a session on disk has; nothing where there is none.
     struct Saved {

@@ -77,7 +77,7 @@ struct LiveShared {
     PosedFrame frame;
     std::vector<Notice> notices;
     std::vector<StepNumber> refused;
-    std::optional<HeldSave> held_save;
+    std::vector<HeldSave> held_saves;
     LiveDocument::Saved saved;
 };
 

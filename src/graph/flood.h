@@ -2,8 +2,9 @@
 // The nearest samples of every vertex along the surface.
 //
 // The paper's Algorithm 1 searches the graph from every point until it has met K samples. Here all samples
-// flood the graph together, and a vertex keeps the K nearest that reach it: the same sets at O(n K k) instead
-// of O(n r) for searches of r vertices. It is enough that a vertex passes
+// flood the graph together, and a vertex keeps the K nearest that reach it: the same sets at about O(n K k),
+// what arrives by a way round before it does by the shortest being sent on twice, instead of O(n r) for
+// searches of r vertices. It is enough that a vertex passes
 // on what it keeps: if s is among the K first at p, it is among the K first at the vertex before p on a
 // shortest way from s, because whatever beats it there beats it at p too. Vertices should be numbered so that
 // neighbours have near numbers (PointOrder): the flood goes through them in tiles that fit into a cache.

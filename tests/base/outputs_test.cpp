@@ -97,6 +97,41 @@ TEST(Outputs, StayOldWhereTheFolderOfOneBecameReadOnly) {
     EXPECT_EQ(read_text(targets.frames / "1.png"), "old");
 }
 
+TEST(Outputs, StayOldWhereOneNameIsMeantTwice) {
+    const ScratchFolder scratch;
+    const Targets targets(scratch);
+    Outputs outputs;
+    targets.fill(outputs);
+    fs::create_symlink("a.png", targets.picture.parent_path() / "link.png");
+    outputs.add(FileInTheMaking(targets.picture.parent_path() / "link.png")).write("another");
+    EXPECT_NE(targets.refusal(outputs).find("is named for two outputs"), std::string::npos);
+    for (const fs::path& target : {targets.cloud, targets.picture, targets.frames / "1.png"})
+        EXPECT_EQ(read_text(target), "old");
+}
+
+TEST(Outputs, ANameThatNoFileCanHaveIsRefusedAtOnce) {
+    const ScratchFolder scratch;
+    EXPECT_THROW(FileInTheMaking(scratch / (std::string(260, 'a') + ".ply")), Error);
+}
+
+TEST(Outputs, AFileOfSomebodyElsesInAStickyFolderIsRefusedAtOnce) {
+    const ScratchFolder scratch;
+    write_text(scratch / "theirs", "old");
+    fs::permissions(scratch / "theirs", fs::perms{0666});
+    fs::permissions(scratch.path(), fs::perms{01777});
+    const std::string outcome = in_child([&]() -> std::string {
+        if (!become_nobody()) return "";
+        try {
+            FileInTheMaking file(scratch / "theirs");
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "taken";
+    });
+    if (outcome.empty()) GTEST_SKIP() << "root's rights cannot be given up here";
+    EXPECT_NE(outcome.find("cannot be written"), std::string::npos) << outcome;
+}
+
 TEST(Outputs, StayOldWhereAFolderTookThePlaceOfAFile) {
     const ScratchFolder scratch;
     const Targets targets(scratch);

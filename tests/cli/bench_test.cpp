@@ -49,6 +49,8 @@ TEST(Bench, RefusesWrongUsage) {
         {"bench", "--files", ".", "bunny"},
         {"bench", "--growth", "10000", "bunny"},
         {"bench", "--growth", "9999"},
+        {"bench", "--growth", "10000", "--scans", "."},
+        {"bench", "--files", ".", "--device", "reference"},
         {"bench", "--picture", "growth.svg"},
         {"bench", "--files", ".", "--window", "cloud.ply"},
         {"bench", "--repeat", "0", "bunny"},

@@ -292,9 +292,9 @@ protected:
     // Whether the save that was just posted was held back.
     bool held() {
         settle_down();
-        const auto save = live_->take_held_save();
-        if (save) last_held_ = *save;
-        return save.has_value();
+        const auto saves = live_->take_held_saves();
+        if (!saves.empty()) last_held_ = saves.back();
+        return !saves.empty();
     }
 
     HeldSave last_held_;
@@ -329,6 +329,32 @@ TEST_F(SavingOver, ASessionThatSomebodyElseChangedIsAskedAbout) {
     live_->save_session(session);
     EXPECT_FALSE(held()) << "there is nothing to lose";
     EXPECT_TRUE(std::filesystem::exists(session));
+}
+
+TEST_F(SavingOver, AFileThatALinkOnTheWayNowLeadsToIsAskedAbout) {
+    for (const char* version : {"v1", "v2"}) std::filesystem::create_directory(folder_ / version);
+    std::filesystem::create_directory_symlink("v1", folder_ / "current");
+    live_->save_session(folder_ / "current/a.knead");
+    EXPECT_FALSE(held());
+    write_text(folder_ / "v2/a.knead", "theirs");
+    std::filesystem::remove(folder_ / "current");
+    std::filesystem::create_directory_symlink("v2", folder_ / "current");
+    live_->save_session(folder_ / "current/a.knead");
+    EXPECT_TRUE(held());
+    EXPECT_EQ(read_text(folder_ / "v2/a.knead"), "theirs");
+}
+
+TEST_F(SavingOver, EverySaveThatIsHeldBackIsAskedAbout) {
+    for (const char* name : {"a.knead", "b.knead"}) {
+        live_->save_session(folder_ / name);
+        settle_down();
+        write_text(folder_ / name, "theirs");
+    }
+    for (const char* name : {"a.knead", "b.knead"}) live_->save_session(folder_ / name);
+    settle_down();
+    const auto saves = live_->take_held_saves();
+    ASSERT_EQ(saves.size(), 2U);
+    EXPECT_EQ(saves[0].target, folder_ / "a.knead");
 }
 
 TEST_F(SavingOver, ACloudThatSomebodyElseReplacedIsAskedAbout) {

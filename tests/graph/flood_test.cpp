@@ -97,8 +97,23 @@ TEST(Territories, AreTheNearestSample) {
     }
 }
 
+TEST(Flood, IsTheSameSearchAcrossItsTiles) {
+    for (const Shape shape : {Shape::knot, Shape::plane}) {
+        const Cloud cloud = test::cloud_of(test::shape_positions(shape, 20'000)); // five tiles
+        for (const std::size_t count : {5U, 40U, 400U, 3000U}) {
+            const std::vector<Index> samples = test::random_vertices(cloud.size(), count, 9);
+            const auto nearest = flooded(cloud, cloud.lengths, samples);
+            for (Index v = 0; v < cloud.size(); v += count < 40 ? 997 : 97)
+                expect_reached(nearest[v], test::nearest_by_length(cloud.graph, cloud.lengths, samples, v),
+                               v);
+        }
+    }
+}
+
 TEST(Flood, AddsSamplesAsIfTheyHadBeenThereAndTakesThemBack) {
-    for (const auto& [name, cloud] : test::several_clouds()) {
+    auto clouds = test::several_clouds();
+    clouds.push_back({"of several tiles", test::cloud_of(test::shape_positions(Shape::knot, 20'000))});
+    for (const auto& [name, cloud] : clouds) {
         SCOPED_TRACE(name);
         for (const std::size_t base : {0U, 3U, 60U}) {
             const std::vector<Index> samples = test::random_vertices(cloud.size(), base + 20, 6);

@@ -67,6 +67,17 @@ void add_names(Patching& patching) {
     patching.copy.replace(layout.names_end, 0, text);
 }
 
+// Whether names that something else parts than the rows, "x,y,z,the class" above rows parted by blanks, hold
+// what parts the rows: with more columns, that could give as many words, which would then be the names.
+bool names_are_parted_twice(const TableLayout& layout) {
+    const bool is_blank = layout.separator == ' ';
+    const bool names_are = layout.names_separator == ' ' || layout.names_separator == '\t';
+    if (is_blank ? names_are : layout.names_separator == layout.separator) return false;
+    return std::ranges::any_of(layout.names, [&](const std::string& name) {
+        return name.find_first_of(is_blank ? " \t" : std::string(1, layout.separator)) != std::string::npos;
+    });
+}
+
 void patch_rows(Patching& patching, std::size_t points) {
     TableRows rows(patching.image.bytes, patching.image.layout);
     for (std::size_t point = 0; point < points; ++point) {
@@ -94,6 +105,11 @@ std::vector<std::string> write_patched(FileInTheMaking& file, const TableImage& 
         throw Error(Trouble::output, shown,
                     "columns cannot be added, since a table has at most " +
                         std::to_string(most_table_columns) + "; save it as .ply, or without them");
+    if (!patching.added.empty() && names_are_parted_twice(image.layout))
+        throw Error(
+            Trouble::output, shown,
+            "columns cannot be added, since the names in the file that it came from are parted otherwise "
+            "than its rows and hold what parts those; save it as .ply, or without them");
     const bool nameless = image.layout.names.empty();
     if (!patching.added.empty() && nameless &&
         image.layout.words_in_remark >= image.layout.columns + patching.added.size())

@@ -147,7 +147,7 @@ private:
     }
 
     void flood_tile(const Tile& tile, Waiting& waiting, Gathered<Arrival>::Block& leaving,
-                    Gathered<OldRow>::Block* old) {
+                    typename Gathered<OldRow>::Block* old) {
         const Index end = std::min(tile.first_vertex + vertices_a_tile, static_cast<Index>(graph_.size()));
         std::ranges::sort(tile.arriving, {}, &Arrival::distance);
         std::size_t arrived = 0, waits = 0;
@@ -181,7 +181,7 @@ private:
         }
     }
 
-    void keep(Index v, Gathered<OldRow>::Block& old) {
+    void keep(Index v, typename Gathered<OldRow>::Block& old) {
         if (kept_[v]) return;
         kept_[v] = 1;
         old.push({v, rows_[v]});

@@ -211,7 +211,8 @@ bool take_news(Loop& loop) {
         const OpenRequest& request = editor.opening_request;
         if (!request.restore) remember_file(loop.state.recent, request.file);
         loop.state.handle_colors.clear();
-        loop.state.overwriting.reset(); // which asked about the document before
+        loop.state.overwriting.reset(); // which asked about the document before, as these would
+        editor.held_saves.clear();
         loop.state.playback.playing = false;
         loop.state.playback.wanted.reset();
         lay_out(loop);

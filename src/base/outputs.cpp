@@ -26,8 +26,8 @@ void Outputs::hand_over() {
     for (const FileInTheMaking& file : files_) refuse_twice(targets, file.shown());
     for (const TemporaryFolder& folder : folders_) folder.make_ready();
     for (FileInTheMaking& file : files_) file.make_ready();
-    for (TemporaryFolder& folder : folders_) folder.hand_over();
-    for (FileInTheMaking& file : files_) file.commit();
+    for (TemporaryFolder& folder : folders_) folder.put_in_place();
+    for (FileInTheMaking& file : files_) file.put_in_place();
 }
 
 } // namespace knead

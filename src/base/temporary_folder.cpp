@@ -46,6 +46,10 @@ void TemporaryFolder::make_ready() const {
 
 void TemporaryFolder::hand_over() {
     make_ready();
+    put_in_place();
+}
+
+void TemporaryFolder::put_in_place() {
     try {
         if (fs::is_directory(target_))
             for (const fs::path& name : names()) fs::rename(path() / name, target_ / name);

@@ -26,9 +26,11 @@ public:
     // Throws Error (output) for all that hand_over() would, but for what befalls the disk in between.
     void make_ready() const;
 
-    // Renames all files of the folder into the target, or where that is not there the folder itself to it.
-    // Other files of the target stay; a link is replaced, not followed. All or none, unless the disk fails
-    // half-way. Throws Error (output). Once only.
+    // Renames all files of the folder, which was made ready, into the target, or where that is not there the
+    // folder itself to it. Other files of the target stay; a link is replaced, not followed. Throws Error
+    // (output). Once only.
+    void put_in_place();
+    // Both: all or none, unless the disk fails half-way.
     void hand_over();
 
 private:

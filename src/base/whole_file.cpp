@@ -163,6 +163,10 @@ void FileInTheMaking::make_ready() {
 
 void FileInTheMaking::commit() {
     make_ready();
+    put_in_place();
+}
+
+void FileInTheMaking::put_in_place() {
     try {
         temporary_->rename_to(target_);
     } catch (const std::system_error& error) {

@@ -62,7 +62,9 @@ public:
     // Syncs, and throws Error (output) for all that commit() would, but for what befalls the disk in between:
     // for those who put several files in their places together.
     void make_ready();
-    // Makes ready, renames, and syncs the folder.
+    // Renames what was made ready, and syncs the folder.
+    void put_in_place();
+    // Both.
     void commit();
 
 private:

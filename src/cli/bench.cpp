@@ -1,5 +1,5 @@
-// knead bench: the paper's Table 1, how fast files are loaded and saved, and how well the window follows the
-// hand, measured on this machine.
+// knead bench, measured on this machine: the paper's Table 1, how the stages grow, how fast files are loaded
+// and saved, and how well the window follows the hand.
 
 #include "base/whole_file.h"
 #include "bench/file_speed.h"
@@ -97,38 +97,33 @@ void add_bench(CLI::App& app, Job& job) {
     command->add_option("--repeat", arguments->repeats, "How often each cloud is set up (default: 5)")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1000}));
     add_device_options(*command, arguments->device, arguments->threads);
-    command
-        ->add_option("--scans", arguments->scans,
-                     "The folder of the scans (default: KNEAD_SCANS, then ../shared/scans)")
-        ->check(CLI::ExistingDirectory);
+    CLI::Option* scans =
+        command
+            ->add_option("--scans", arguments->scans,
+                         "The folder of the scans (default: KNEAD_SCANS, then ../shared/scans)")
+            ->check(CLI::ExistingDirectory);
     CLI::Option* window = command->add_option(
         "--window", arguments->window,
         "Instead: open this cloud in the window, drag a handle of it for some seconds, and tell "
         "how old the pose on the screen is");
     CLI::Option* files =
         command
-            ->add_option("--files", arguments->files,
-                         "Instead: write a million points in every format into this folder, and tell how "
-                         "fast they are "
-                         "loaded and saved beside a copy of the same bytes; nothing stays there")
-            ->check(CLI::ExistingDirectory)
-            ->excludes(rows)
-            ->excludes(window);
-    window->excludes(rows);
+            ->add_option(
+                "--files", arguments->files,
+                "Instead: write a million points in every format into this folder, and tell how "
+                "fast they are loaded and saved beside a copy of the same bytes; nothing stays there")
+            ->check(CLI::ExistingDirectory);
     CLI::Option* growth =
         command
             ->add_option("--growth", arguments->growth,
-                         "Instead: how the stages grow with the points of a plane, from 10,000 up to so many "
-                         "(10000000), and with the samples, from 100 to 100,000")
-            ->check(CLI::Range(std::size_t{10'000}, std::size_t{1'000'000'000}))
-            ->excludes(rows)
-            ->excludes(window)
-            ->excludes(files);
+                         "Instead: how the stages grow with the points of a plane, from 10,000 up to so "
+                         "many, and with the samples, from 100 to 100,000")
+            ->check(CLI::Range(std::size_t{10'000}, std::size_t{1'000'000'000}));
     command->add_option("--picture", arguments->picture, "With --growth: draw it into this file (SVG)")
         ->needs(growth);
-    for (CLI::Option* other : {window, files, growth}) other->excludes(command->get_option("--scans"));
-    window->excludes(command->get_option("--repeat"));
-    files->excludes(command->get_option("--device"));
+    window->excludes(rows, scans, files, growth, command->get_option("--repeat"));
+    files->excludes(rows, scans, growth, command->get_option("--device"));
+    growth->excludes(rows, scans);
     command->add_flag("--json", arguments->json, "Print one JSON object");
     command->callback([arguments, &job] {
         job = [arguments](Terminal& terminal) { return run_bench(*arguments, terminal); };

@@ -4,8 +4,6 @@
 #include "base/whole_file.h"
 #include "cloud/splats.h"
 #include "io/format.h"
-#include "io/off.h"
-#include "io/table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,12 +62,10 @@ void add_remarks(PointCloud& cloud) {
 
 const Format& format_to_read(const std::filesystem::path& path, std::span<const std::byte> first_bytes) {
     const Format* const named = format_with_extension(path);
-    for (const Format& format : known_formats()) {
-        if (!format.looks_like(first_bytes)) continue;
-        // Only its name tells an OFF file without its keyword from rows of numbers.
-        const bool is_bare_off = format.read == read_table && named != nullptr && named->read == read_off;
-        return is_bare_off ? *named : format;
-    }
+    if (named != nullptr && named->looks_like_with_its_name && named->looks_like_with_its_name(first_bytes))
+        return *named;
+    for (const Format& format : known_formats())
+        if (format.looks_like(first_bytes)) return format;
     refuse_foreign_file(first_bytes, path.string());
     if (named != nullptr) return *named;
     throw Error(Trouble::input, path.string(),

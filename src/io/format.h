@@ -32,6 +32,10 @@ struct Format {
     // as a new file. `shown` names the target in errors.
     std::vector<std::string> (*write)(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
                                       const std::string& shown, Progress& progress);
+
+    // Whether a file with one of its extensions that begins with these bytes is of this format, although its
+    // content would make it one of another. Null: never.
+    bool (*looks_like_with_its_name)(std::span<const std::byte> first_bytes) = nullptr;
 };
 
 constexpr std::size_t first_bytes_size = 4096;

@@ -45,7 +45,7 @@ constexpr std::array<Format, 9> formats = {{
     {"las", las_extensions, looks_like_las, read_las, write_las},
     {"pcd", pcd_extensions, looks_like_pcd, read_pcd, write_pcd},
     {"obj", obj_extensions, looks_like_obj, read_obj, write_obj},
-    {"off", off_extensions, looks_like_off, read_off, write_off},
+    {"off", off_extensions, looks_like_off, read_off, write_off, looks_like_bare_off},
     // Behind all others, since any row of numbers is a table.
     {"txt", txt_extensions, looks_like_table, read_table, write_table_as<TableKind::txt>},
     {"xyz", xyz_extensions, looks_like_none, read_table, write_table_as<TableKind::xyz>},

@@ -34,6 +34,8 @@ struct OffImage final : SourceImage {
 
 // Whether a file that begins with these bytes is an OFF file, good or bad, and says so.
 bool looks_like_off(std::span<const std::byte> first_bytes);
+// Whether it begins with numbers, as one without its keyword does; so does many a table.
+bool looks_like_bare_off(std::span<const std::byte> first_bytes);
 
 // The cloud in a file's bytes, which it keeps as its image. `shown` names the file in errors. Throws Error
 // (input) for counts that the file does not hold, a number that is none, and a face that names what is not

@@ -43,6 +43,11 @@ std::optional<Keyword> parse_keyword(std::string_view word) {
     return keyword;
 }
 
+// What stands first where the keyword is left out.
+bool is_count(std::string_view word) {
+    return std::ranges::all_of(word, [](char c) { return c >= '0' && c <= '9'; });
+}
+
 class OffReader {
 public:
     OffReader(OffImage& image, const std::string& shown, Progress& progress)
@@ -52,8 +57,7 @@ public:
     void read_header() {
         if (!rows_.next()) refuse("holds no counts of vertices and faces");
         std::string_view first = rows_.keyword();
-        const bool is_missing = std::ranges::all_of(first, [](char c) { return c >= '0' && c <= '9'; });
-        const auto keyword = is_missing ? Keyword{} : parse_keyword(first);
+        const auto keyword = is_count(first) ? Keyword{} : parse_keyword(first);
         if (!keyword) fail(first, "stands where OFF, COFF, NOFF or CNOFF should; correct the first line");
         keyword_ = *keyword;
         first.remove_prefix(keyword_.length);
@@ -238,6 +242,11 @@ std::vector<std::string> OffImage::besides_points() const {
 bool looks_like_off(std::span<const std::byte> first_bytes) {
     TextStatements rows(first_bytes);
     return rows.next() && parse_keyword(rows.keyword()).has_value();
+}
+
+bool looks_like_bare_off(std::span<const std::byte> first_bytes) {
+    TextStatements rows(first_bytes);
+    return rows.next() && is_count(rows.keyword());
 }
 
 PointCloud read_off(std::vector<std::byte> bytes, const std::string& shown, Progress& progress) {

@@ -34,7 +34,7 @@ void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, 
     }
 }
 
-// The right-hand side for four columns: `own(row)` of the sample itself, and what `given(sample)` of the
+// The right-hand side, four numbers a row: `own(row)` of the sample itself, and what `given(sample)` of the
 // handles around it says, times `smoothing`.
 template<typename Own, typename Given>
 void assemble_rotations(SampleSystem& system, double smoothing, Own&& own, Given&& given, Workers& workers) {
@@ -47,7 +47,7 @@ void assemble_rotations(SampleSystem& system, double smoothing, Own&& own, Given
             const Index j = rest.graph.neighbor[link];
             if (system.unknown[j] == no_index) side += smoothing * rest.weight[link] * beyond_one(given(j));
         }
-        for (std::size_t c = 0; c < 4; ++c) system.columns[c * rows + row] = side[static_cast<int>(c)];
+        Eigen::Map<Eigen::Vector4d>(system.sides.data() + 4 * row) = side;
     });
 }
 
@@ -56,8 +56,8 @@ template<typename Take>
 void for_solved_rotations(const SampleSystem& system, Take&& take, Workers& workers) {
     const std::size_t rows = system.free_sample.size();
     workers.for_each(rows, grain, [&](std::size_t row) {
-        const double* column = system.columns.data() + row;
-        Quatd solved(1 + column[0], column[rows], column[2 * rows], column[3 * rows]);
+        const double* side = system.sides.data() + 4 * row;
+        Quatd solved(1 + side[0], side[1], side[2], side[3]);
         const double length = solved.norm();
         if (!(length > 1e-6)) return;
         solved.coeffs() /= length;
@@ -77,38 +77,36 @@ void turn_with_handles(SampleSystem& system, std::span<const HandleMotion> handl
     assemble_rotations(
         system, 1.0, [](std::size_t) -> Eigen::Vector4d { return Eigen::Vector4d::Zero(); }, increment,
         workers);
-    (system.has_increments ? system.increments : system.positions).solve(system.columns, 4);
+    (system.has_increments ? system.increments : system.positions).solve(system.sides, 4);
     for_solved_rotations(
         system,
         [&](Index s, const Quatd& turn) { state.rotation[s] = (turn * state.rotation[s]).normalized(); },
         workers);
 }
 
-// Step 1: the rotation that the sample's edges made.
-Quatd local_rotation(const SampleRest& rest, const SampleState& state, Index i) {
-    Mat3d spread = Mat3d::Zero();
-    for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
-        const Index j = rest.graph.neighbor[link];
-        const Vec3d edge = rest.position[j] - rest.position[i];
-        const Vec3d now = edge + (state.displacement[j] - state.displacement[i]);
-        // In this order the sum is symmetric to the last bit where nothing moved; (w now) edgeᵀ would not be.
-        const Mat3d product = now * edge.transpose();
-        spread += rest.weight[link] * product;
-    }
-    return nearest_rotation(spread, state.rotation[i]);
+// Σ w (u_j - u_i) e_ijᵀ of a row.
+Mat3d displaced_spread(const SampleSystem& system, const SampleState& state, std::size_t row) {
+    const Graph& graph = system.rest.graph;
+    const Index i = system.free_sample[row];
+    const Vec3d own = state.displacement[i];
+    Mat3d displaced = Mat3d::Zero();
+    for (Index link = graph.first[i]; link < graph.first[i + 1]; ++link)
+        displaced +=
+            (state.displacement[graph.neighbor[link]] - own) * system.weighted_edge[link].transpose();
+    return displaced;
+}
+
+// Step 1: the rotation that the sample's edges made. With x = p + u its sum is what the edges are at rest,
+// and what displacements add; where nothing moved, that is nothing at all.
+Quatd local_rotation(const SampleSystem& system, const SampleState& state, std::size_t row) {
+    return nearest_rotation(system.spread[row] + displaced_spread(system, state, row),
+                            state.rotation[system.free_sample[row]]);
 }
 
 // F - I of a row.
 Mat3d gradient_at(const SampleSystem& system, const SampleState& state, std::size_t row) {
-    const SampleRest& rest = system.rest;
-    const Index i = system.free_sample[row];
-    Mat3d displaced = Mat3d::Zero();
-    for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
-        const Index j = rest.graph.neighbor[link];
-        const Vec3d edge = rest.weight[link] * (rest.position[j] - rest.position[i]);
-        displaced += (state.displacement[j] - state.displacement[i]) * edge.transpose();
-    }
-    return gradient_of(system.surroundings[row], displaced, turn_of(state.rotation[i]));
+    return gradient_of(system.surroundings[row], displaced_spread(system, state, row),
+                       turn_of(state.rotation[system.free_sample[row]]));
 }
 
 // S of every row, of the shape as it is.
@@ -148,14 +146,12 @@ void find_free_turns(SampleSystem& system, const SampleState& state) {
 // goes with the anchor, and turns about it as the handle's own samples do.
 void add_pulls(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state) {
     if (system.rest.pulled.empty()) return;
-    const std::size_t rows = system.moving_rows;
     find_free_turns(system, state);
     for (const SoftHold& hold : system.rest.pulled) {
         Vec3d way = sent(handles[hold.handle], hold.anchor);
         if (hold.handle < system.free_turn.size())
             way += turn_of(system.free_turn[hold.handle]) * (system.rest.position[hold.sample] - hold.anchor);
-        for (std::size_t c = 0; c < 3; ++c)
-            system.columns[c * rows + system.unknown[hold.sample]] += hold.weight * way[static_cast<int>(c)];
+        Eigen::Map<Vec3d>(system.sides.data() + 3 * system.unknown[hold.sample]) += hold.weight * way;
     }
 }
 
@@ -167,23 +163,24 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
     find_turns(system, state, workers);
     workers.for_each(rows, grain, [&](std::size_t row) {
         const Index i = system.free_sample[row];
-        Vec3d side = Vec3d::Zero();
+        Vec3d given = Vec3d::Zero(); // by handles: Σ w u_j
+        Vec3d edges = Vec3d::Zero(); // Σ w e
+        Vec3d turned = Vec3d::Zero();
         for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
             const Index j = rest.graph.neighbor[link];
-            const Vec3d back = rest.position[i] - rest.position[j];
-            Vec3d part = 0.5 * (system.turn[i] * back + system.turn[j] * back);
-            if (!(system.unknown[j] < rows)) part += state.displacement[j];
-            side += rest.weight[link] * part;
+            edges += system.weighted_edge[link];
+            turned += system.turn[j] * system.weighted_edge[link];
+            if (!(system.unknown[j] < rows)) given += rest.weight[link] * state.displacement[j];
         }
-        for (std::size_t c = 0; c < 3; ++c) system.columns[c * rows + row] = side[static_cast<int>(c)];
+        turned += system.turn[i] * edges;
+        Eigen::Map<Vec3d>(system.sides.data() + 3 * row) = given - 0.5 * turned; // p_i - p_j = -e
     });
     add_pulls(system, handles, state);
-    system.positions.solve({system.columns.data(), 3 * rows}, 3);
+    system.positions.solve({system.sides.data(), 3 * rows}, 3);
 
     double longest = 0;
     for (std::size_t row = 0; row < rows; ++row) {
-        const double* column = system.columns.data() + row;
-        const Vec3d solved(column[0], column[rows], column[2 * rows]);
+        const Eigen::Map<const Vec3d> solved(system.sides.data() + 3 * row);
         Vec3d& displacement = state.displacement[system.free_sample[row]];
         longest = std::max(longest, (solved - displacement).squaredNorm());
         displacement = solved;
@@ -212,11 +209,10 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
     assemble_rotations(
         system, system.smoothing,
         [&](std::size_t row) -> Eigen::Vector4d {
-            return system.confidence[row] *
-                   beyond_one(local_rotation(system.rest, state, system.free_sample[row]));
+            return system.confidence[row] * beyond_one(local_rotation(system, state, row));
         },
         [&](Index s) -> const Quatd& { return state.rotation[s]; }, workers);
-    system.rotations.solve(system.columns, 4);
+    system.rotations.solve(system.sides, 4);
     for_solved_rotations(
         system, [&](Index s, const Quatd& rotation) { state.rotation[s] = rotation; }, workers);
     find_targets(system, state, workers);

@@ -137,14 +137,23 @@ void find_confidence(SampleSystem& system, double square_length) {
 
 void find_surroundings(SampleSystem& system, Workers& workers) {
     const SampleRest& rest = system.rest;
+    system.weighted_edge.resize(rest.graph.neighbor.size());
+    workers.for_each(rest.graph.size(), 256, [&](std::size_t i) {
+        for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link)
+            system.weighted_edge[link] =
+                rest.weight[link] * (rest.position[rest.graph.neighbor[link]] - rest.position[i]);
+    });
+    system.spread.resize(system.free_sample.size());
     system.surroundings.resize(system.free_sample.size());
     workers.for_each(system.free_sample.size(), 256, [&](std::size_t row) {
         const Index i = system.free_sample[row];
         Mat3d spread = Mat3d::Zero();
         for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
             const Vec3d edge = rest.position[rest.graph.neighbor[link]] - rest.position[i];
-            spread += rest.weight[link] * edge * edge.transpose();
+            const Mat3d square = edge * edge.transpose(); // times w afterwards: (w e) eᵀ is not symmetric
+            spread += rest.weight[link] * square;
         }
+        system.spread[row] = spread;
         system.surroundings[row] = surroundings_of(spread);
     });
 }
@@ -166,7 +175,7 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     set_poisson(system, system.rest.poisson);
     system.turn.assign(system.rest.handle.size(), Mat3d::Zero());
     system.free_turn.assign(system.rest.turns_freely.size(), Quatd::Identity());
-    system.columns.assign(4 * system.free_sample.size(), 0);
+    system.sides.assign(4 * system.free_sample.size(), 0);
 
     find_pull(system);
 
@@ -177,7 +186,7 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     system.has_increments = more || !system.pull.empty();
     const SparseMatrix of_all = more ? laplacian(system, rows) : of_moving;
     const std::vector<int> order = more ? minimum_degree_order(of_all) : moving_order;
-    // None knows of the others; SuperLU keeps no state between its calls.
+    // None knows of the others.
     std::array<FactorOutcome, 3> outcomes;
     workers.for_each(system.has_increments ? 3 : 2, 1, [&](std::size_t which) {
         if (which == 0)

@@ -24,7 +24,7 @@
 #include "base/workers.h"
 #include "deform/stretch.h"
 #include "graph/csr.h"
-#include "solve/sparse_lu.h"
+#include "solve/sparse_cholesky.h"
 
 #include <span>
 #include <vector>
@@ -85,12 +85,14 @@ struct SampleSystem {
     bool has_increments = false;
     std::vector<double> pull; // Σ μ of each moving row; empty where nothing is pulled
 
+    std::vector<Vec3d> weighted_edge;       // w e of each link of the graph
+    std::vector<Mat3d> spread;              // Σ w e eᵀ of each row, symmetric to the last bit
     std::vector<Surroundings> surroundings; // of each row
 
     std::vector<Mat3d> turn;      // M - I, of each sample
     std::vector<Quatd> free_turn; // of each handle that `rest.turns_freely` tells of
     std::vector<Mat3d> target;    // S - I, of each row; empty for ν = 0
-    std::vector<double> columns;  // right-hand sides and solutions
+    std::vector<double> sides;    // right-hand sides and solutions, 4 or 3 numbers a row
 };
 
 // Prepares both systems: one ordering, and a factorisation of each; a third (`increments`) where a handle

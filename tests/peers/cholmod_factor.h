@@ -1,7 +1,7 @@
 #pragma once
-// CHOLMOD behind the steps of solve/sparse_lu.h, for two matrices of one pattern.
+// CHOLMOD behind the steps of solve/sparse_cholesky.h, for two matrices of one pattern.
 
-#include "solve/sparse_lu.h"
+#include "solve/sparse_cholesky.h"
 
 #include <cstddef>
 #include <memory>
@@ -24,7 +24,7 @@ public:
     // The number `which` (0 or 1) of the factors, from the analysis.
     void factorize(std::size_t which, const SparseMatrix& matrix);
 
-    // For `columns` right-hand sides one after the other, which become the solutions, as in SparseFactor.
+    // For `columns` right-hand sides one after the other, which become the solutions.
     void solve(std::size_t which, std::span<double> values, std::size_t columns);
 
     bool is_supernodal() const; // after factorize()

@@ -1,7 +1,7 @@
 #pragma once
 // Systems like those of a deformation: weighted graph Laplacians, some with a diagonal added.
 
-#include "solve/sparse_lu.h"
+#include "solve/sparse_cholesky.h"
 
 #include <Eigen/Dense>
 

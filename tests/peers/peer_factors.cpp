@@ -1,4 +1,5 @@
-// knead's factors beside CHOLMOD's, on the two matrices of a handle set, in turns in one run. Prints a table.
+// knead's factors beside CHOLMOD's and SuperLU's, on the two matrices of a handle set, in turns in one run.
+// Prints a table.
 
 #include "base/stopwatch.h"
 #include "bench/data_files.h"
@@ -9,6 +10,7 @@
 #include "bench/statistics.h"
 #include "io/cloud_file.h"
 #include "peers/cholmod_factor.h"
+#include "peers/superlu_factor.h"
 #include "upsample/upsample.h"
 
 #include <CLI/CLI.hpp>
@@ -48,57 +50,86 @@ struct Figures {
     double median(Step step) const { return summarize(seconds[step]).median; }
 };
 
-std::vector<double> right_hand_sides(const SparseMatrix& matrix, std::size_t columns) {
-    std::vector<double> values(columns * static_cast<std::size_t>(matrix.size()));
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(static_cast<double>(i));
+// Where the numbers of a right-hand side stand: one after the other, or beside those of the others row by
+// row.
+enum class Layout { columns, rows };
+
+std::vector<double> right_hand_sides(const SparseMatrix& matrix, std::size_t columns, Layout layout) {
+    const auto size = static_cast<std::size_t>(matrix.size());
+    std::vector<double> values(columns * size);
+    for (std::size_t c = 0; c < columns; ++c)
+        for (std::size_t i = 0; i < size; ++i)
+            values[layout == Layout::rows ? i * columns + c : c * size + i] =
+                std::sin(static_cast<double>(c * size + i));
     return values;
 }
 
-// Of the second of two solves: the first one's memory is new.
-template<typename Solve>
-double solve_seconds(const SparseMatrix& matrix, std::size_t columns, std::vector<double>& solution,
-                     Solve&& solve) {
-    solution = right_hand_sides(matrix, columns);
-    solve(solution);
-    solution = right_hand_sides(matrix, columns);
-    const Stopwatch clock;
-    solve(solution);
-    return clock.seconds();
+// The same solution column by column.
+std::vector<double> by_columns(const std::vector<double>& values, std::size_t columns, Layout layout) {
+    if (layout == Layout::columns) return values;
+    const std::size_t size = values.size() / columns;
+    std::vector<double> result(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) result[i % columns * size + i / columns] = values[i];
+    return result;
+}
+
+// All steps of one solver: order(), factorize(which, matrix), solve(which, values, columns), the rotations'
+// system being number 0.
+template<typename Order, typename Factorize, typename Solve>
+void run_solver(const SystemMatrices& matrices, Layout layout, Figures& figures, Order&& find_order,
+                Factorize&& factorize, Solve&& solve) {
+    Stopwatch clock;
+    find_order();
+    figures.seconds[order].push_back(clock.lap());
+    factorize(0, matrices.rotations);
+    figures.seconds[factorize_rotations].push_back(clock.lap());
+    factorize(1, matrices.positions);
+    figures.seconds[factorize_positions].push_back(clock.lap());
+    const auto timed = [&](std::size_t which, const SparseMatrix& matrix, std::size_t columns, Step step) {
+        std::vector<double> values = right_hand_sides(matrix, columns, layout);
+        solve(which, values, columns); // its memory is new
+        values = right_hand_sides(matrix, columns, layout);
+        const Stopwatch solving;
+        solve(which, values, columns);
+        figures.seconds[step].push_back(solving.seconds());
+        return by_columns(values, columns, layout);
+    };
+    figures.rotations = timed(0, matrices.rotations, rotation_columns, solve_rotations);
+    figures.positions = timed(1, matrices.positions, position_columns, solve_positions);
 }
 
 void run_knead(const SystemMatrices& matrices, Figures& figures) {
-    SparseFactor rotations, positions;
-    Stopwatch clock;
-    const std::vector<int> ordering = minimum_degree_order(matrices.rotations);
-    figures.seconds[order].push_back(clock.lap());
-    const bool rotations_good = rotations.factorize(matrices.rotations, ordering).solved;
-    figures.seconds[factorize_rotations].push_back(clock.lap());
-    const bool positions_good = positions.factorize(matrices.positions, ordering).solved;
-    figures.seconds[factorize_positions].push_back(clock.lap());
-    if (!rotations_good || !positions_good)
-        throw Error(Trouble::numeric, "", "knead cannot factorise the systems");
-    figures.seconds[solve_rotations].push_back(
-        solve_seconds(matrices.rotations, rotation_columns, figures.rotations,
-                      [&](std::vector<double>& values) { rotations.solve(values, rotation_columns); }));
-    figures.seconds[solve_positions].push_back(
-        solve_seconds(matrices.positions, position_columns, figures.positions,
-                      [&](std::vector<double>& values) { positions.solve(values, position_columns); }));
+    std::vector<int> ordering;
+    std::array<SparseFactor, 2> factors;
+    run_solver(
+        matrices, Layout::rows, figures, [&] { ordering = minimum_degree_order(matrices.rotations); },
+        [&](std::size_t which, const SparseMatrix& matrix) {
+            if (!factors.at(which).factorize(matrix, ordering).solved)
+                throw Error(Trouble::numeric, "", "knead cannot factorise the systems");
+        },
+        [&](std::size_t which, std::vector<double>& values, std::size_t columns) {
+            factors.at(which).solve(values, columns);
+        });
+}
+
+void run_superlu(const SystemMatrices& matrices, Figures& figures) {
+    std::vector<int> ordering;
+    std::array<SuperLuFactor, 2> factors;
+    run_solver(
+        matrices, Layout::columns, figures, [&] { ordering = minimum_degree_order(matrices.rotations); },
+        [&](std::size_t which, const SparseMatrix& matrix) { factors.at(which).factorize(matrix, ordering); },
+        [&](std::size_t which, std::vector<double>& values, std::size_t columns) {
+            factors.at(which).solve(values, columns);
+        });
 }
 
 void run_cholmod(const SystemMatrices& matrices, CholmodSystem& system, Figures& figures) {
-    Stopwatch clock;
-    system.analyze(matrices.rotations);
-    figures.seconds[order].push_back(clock.lap());
-    system.factorize(0, matrices.rotations);
-    figures.seconds[factorize_rotations].push_back(clock.lap());
-    system.factorize(1, matrices.positions);
-    figures.seconds[factorize_positions].push_back(clock.lap());
-    figures.seconds[solve_rotations].push_back(
-        solve_seconds(matrices.rotations, rotation_columns, figures.rotations,
-                      [&](std::vector<double>& values) { system.solve(0, values, rotation_columns); }));
-    figures.seconds[solve_positions].push_back(
-        solve_seconds(matrices.positions, position_columns, figures.positions,
-                      [&](std::vector<double>& values) { system.solve(1, values, position_columns); }));
+    run_solver(
+        matrices, Layout::columns, figures, [&] { system.analyze(matrices.rotations); },
+        [&](std::size_t which, const SparseMatrix& matrix) { system.factorize(which, matrix); },
+        [&](std::size_t which, std::vector<double>& values, std::size_t columns) {
+            system.solve(which, values, columns);
+        });
 }
 
 // Over the largest of the first.
@@ -129,25 +160,35 @@ SystemMatrices matrices_of(const DeformationTask& task, std::uint64_t samples, W
     return system_matrices(document->pipeline().system());
 }
 
-// The first is knead's, the others CHOLMOD's.
+std::string name_of(CholmodKind kind, const CholmodSystem& system) {
+    switch (kind) {
+    case CholmodKind::automatic:
+        return std::string("CHOLMOD, its choice: ") + (system.is_supernodal() ? "supernodal" : "simplicial");
+    case CholmodKind::simplicial:
+        return "CHOLMOD, simplicial";
+    case CholmodKind::supernodal:
+        return "CHOLMOD, supernodal";
+    }
+    return {};
+}
+
+// The first is knead's, the last SuperLU's, the others CHOLMOD's.
 std::vector<Figures> measure(const SystemMatrices& matrices, std::size_t repeats) {
     const CholmodKind kinds[] = {CholmodKind::automatic, CholmodKind::simplicial, CholmodKind::supernodal};
-    std::vector<Figures> all(1 + std::size(kinds));
+    std::vector<Figures> all(2 + std::size(kinds));
+    all.front().name = "knead";
+    all.back().name = "SuperLU";
     for (std::size_t r = 0; r <= repeats; ++r) {
         if (r == 1) // the first was to warm up
             for (Figures& figures : all)
                 for (auto& seconds : figures.seconds) seconds.clear();
-        run_knead(matrices, all[0]);
-        all[0].name = "knead";
+        run_knead(matrices, all.front());
         for (std::size_t k = 0; k < std::size(kinds); ++k) {
             CholmodSystem system(kinds[k]);
             run_cholmod(matrices, system, all[1 + k]);
-            all[1 + k].name = kinds[k] == CholmodKind::automatic
-                                  ? std::string("CHOLMOD, its choice: ") +
-                                        (system.is_supernodal() ? "supernodal" : "simplicial")
-                              : kinds[k] == CholmodKind::simplicial ? "CHOLMOD, simplicial"
-                                                                    : "CHOLMOD, supernodal";
+            all[1 + k].name = name_of(kinds[k], system);
         }
+        run_superlu(matrices, all.back());
     }
     return all;
 }
@@ -180,11 +221,11 @@ void run(const Arguments& arguments) {
     TextTable table{
         {machine_text(this_machine())},
         {"CHOLMOD " + CholmodSystem(CholmodKind::automatic).version() +
-         " and knead in turns, one thread and one OpenBLAS; medians of " + std::to_string(arguments.repeats) +
-         " after a warm-up."},
+         ", SuperLU and knead in turns, one thread and one OpenBLAS; medians of " +
+         std::to_string(arguments.repeats) + " after a warm-up."},
         {"One ordering for both matrices (CHOLMOD's with its symbolic analysis), 4 right-hand sides for "
          "rotations, 3 for positions."},
-        {"knead over CHOLMOD: below 1 knead is faster. Apart: the solutions, over the largest."},
+        {"knead over the others: below 1 knead is faster. Apart: the solutions, over the largest."},
         {""},
         {"", "order", "factor r", "factor p", "solve 4 r", "solve 3 p", "set-up ÷", "solve ÷", "apart"}};
     for (const std::string& name : arguments.clouds) {
@@ -206,7 +247,7 @@ void run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app{"knead's sparse factors and CHOLMOD's, side by side.", "peer_cholmod"};
+    CLI::App app{"knead's sparse factors beside CHOLMOD's and SuperLU's.", "peer_factors"};
     app.add_option(
         "clouds", arguments.clouds,
         "Scans without .ply (of KNEAD_SCANS), or \"plane\", which is made (default: dragon plane)");
@@ -218,7 +259,7 @@ int main(int argc, char** argv) {
     try {
         run(arguments);
     } catch (const Error& error) {
-        std::cerr << "peer_cholmod: " << error.what() << "\n";
+        std::cerr << "peer_factors: " << error.what() << "\n";
         return static_cast<int>(error.trouble());
     }
     return 0;

@@ -1,9 +1,11 @@
 #pragma once
-// Sparse symmetric positive definite systems by SuperLU: ordered once, factorised once, solved many times.
+// Sparse symmetric positive definite systems by Cholesky's factors A = L D Lᵀ: ordered once, factorised once,
+// solved many times.
 //
-// SuperLU is called directly and in its symmetric mode (diagonal pivots, no equilibration, no refinement),
-// with an approximate minimum degree ordering of the symmetric matrix applied beforehand: 3 to 6 times faster
-// than through its expert driver, and the fill is that of a Cholesky factor.
+// Eigen orders (approximate minimum degree) and factorises (up-looking, row by row). The systems of a surface
+// leave so little fill that this is several times faster than the dense blocks of a supernodal solver;
+// tests/peers/peer_factors prints the figures. The solving is knead's own, since it is what every frame waits
+// for: all right-hand sides at once and side by side, so that each number of L is read once for all of them.
 
 #include <cstddef>
 #include <memory>
@@ -40,15 +42,16 @@ public:
     SparseFactor(SparseFactor&&) noexcept;
     SparseFactor& operator=(SparseFactor&&) noexcept;
 
-    // Factorises `matrix`, replacing what was here. A singular or badly scaled matrix, or too little memory,
-    // is an outcome with words; solve() may be called only after a good one. An empty matrix is fine.
+    // Factorises `matrix`, replacing what was here. A matrix that is not positive definite, singular or badly
+    // scaled, or too little memory, is an outcome with words; solve() may be called only after a good one. An
+    // empty matrix is fine.
     FactorOutcome factorize(const SparseMatrix& matrix, std::span<const int> order);
 
-    // Solves for `columns` right-hand sides at once; `values` holds them one after the other, `size` numbers
-    // each, and receives the solutions.
+    // Solves for `columns` right-hand sides at once: `values` holds, row by row, `columns` numbers each, and
+    // receives the solutions in the same places. Allocates nothing for up to 4 columns.
     void solve(std::span<double> values, std::size_t columns);
 
-    // Numbers in the two factors: the measure of an ordering.
+    // Numbers in the factors L and D: the measure of an ordering.
     std::size_t fill() const;
 
 private:

@@ -75,6 +75,8 @@ void forget(Acceleration& memory) {
     memory.remembered = memory.next = 0;
     memory.result.clear();
     memory.residual.clear();
+    memory.alone = false;
+    memory.last_way = 0;
 }
 
 double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,

@@ -19,6 +19,11 @@ struct Acceleration {
     std::vector<double> residual_steps;   // likewise of G(u) - u
     std::vector<double> result, residual; // of the last iteration; empty before the first
     std::vector<double> now, before;      // work space
+
+    // With a coarse level (coarse_level.h): how it did so far.
+    bool alone = false;      // it did not help any more: iterations go on without
+    double last_way = 0;     // of the iteration before; 0 before the first
+    SampleState uncorrected; // where that one led to by itself
 };
 
 // Forgets everything, and keeps the memory: the poses change.

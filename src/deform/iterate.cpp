@@ -180,7 +180,8 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
 
     double longest = 0;
     for (std::size_t row = 0; row < rows; ++row) {
-        const Eigen::Map<const Vec3d> solved(system.sides.data() + 3 * row);
+        Vec3d solved = Eigen::Map<const Vec3d>(system.sides.data() + 3 * row);
+        if (!system.shift.empty()) solved += system.shift[row];
         Vec3d& displacement = state.displacement[system.free_sample[row]];
         longest = std::max(longest, (solved - displacement).squaredNorm());
         displacement = solved;

@@ -84,6 +84,7 @@ struct SampleSystem {
     SparseFactor increments;        // L of all rows, where that is not what `positions` holds
     bool has_increments = false;
     std::vector<double> pull; // Σ μ of each moving row; empty where nothing is pulled
+    std::vector<Vec3d> shift; // τ of coarse_level.h, of each moving row: added to what step 3 finds; or empty
 
     std::vector<Vec3d> weighted_edge;       // w e of each link of the graph
     std::vector<Mat3d> spread;              // Σ w e eᵀ of each row, symmetric to the last bit

@@ -70,7 +70,10 @@ void Pipeline::note_changes(const Settings& settings) {
     stale_.bridges |= (settings.strays == knead::Strays::bridge) != (before.strays == knead::Strays::bridge);
     stale_.influences |= settings.weights != before.weights || settings.strays != before.strays;
     stale_.systems |= settings.stiffness != before.stiffness;
-    if (settings.poisson != before.poisson) set_poisson(system_, settings.poisson);
+    if (settings.poisson != before.poisson) {
+        set_poisson(system_, settings.poisson);
+        set_poisson(coarse_.system, settings.poisson);
+    }
     input_.settings = settings;
 }
 
@@ -173,6 +176,8 @@ void Pipeline::prepare_handles(Progress& progress) {
         sample_graph_ = sample_graph_of_all(*graph_);
         seconds_.sampling += clock.lap();
         find_pulled();
+        choose_coarse_samples();
+        seconds_.geodesic += clock.lap();
         return;
     }
     const VertexShape shape{order_.code, vertex_positions_, *graph_, *components_};
@@ -187,7 +192,20 @@ void Pipeline::prepare_handles(Progress& progress) {
     stale_.samples = false;
     sample_graph_ = knead::sample_graph(nearest_, samples_, *graph_, workers_);
     find_pulled();
+    choose_coarse_samples();
     seconds_.geodesic += clock.lap();
+}
+
+void Pipeline::choose_coarse_samples() {
+    coarse_.samples = {};
+    if (!wants_coarse_level(samples_.size())) return;
+    std::vector<Vec3d> position;
+    std::vector<Index> handle;
+    for (const Index v : samples_) {
+        position.push_back(point_at(vertex_positions_, v));
+        handle.push_back(labels_.vertex[v]);
+    }
+    coarse_.samples = coarse_samples(sample_graph_.graph, position, handle, workers_);
 }
 
 // Who holds what, and which components hold a handle.
@@ -280,6 +298,8 @@ void Pipeline::prepare_systems() {
     for (const Handle& handle : input_.handles) rest.turns_freely.push_back(handle.free_rotation);
     rest.pulled = soft_holds(input_.handles, pulled_, rest);
     const FactorOutcome outcome = build_system(std::move(rest), system_, workers_);
+    has_coarse_ = outcome.solved && !coarse_.samples.sample.empty() &&
+                  build_coarse_level(system_, coarse_, workers_).solved;
     seconds_.factorize += clock.lap();
     if (!outcome.solved)
         throw Error(Trouble::numeric, "",

@@ -5,10 +5,11 @@
 //     neighbors                 → order, graph, components
 //     strays: bridge or not     → bridges between components, outliers, components again (graph/bridges.h)
 //     samples                   → base samples and their flood
-//     handle set                → labels, handle samples (which flood only what they reach), sample graph
+//     handle set                → labels, handle samples (which flood only what they reach), sample graph,
+//                                 coarse samples
 //     weights, strays           → influences; what carries the parts without a handle (edit/carried_parts.h)
 //     rest shape                → the weights of the sample graph's links
-//     rest shape, stiffness     → both systems, ordered and factorised
+//     rest shape, stiffness     → both systems, ordered and factorised; that of the coarse samples
 //     poses                     → iterations, then upsampling
 //
 // Which points are samples and what they influence is decided on the shape as it was opened, so a commit
@@ -22,6 +23,7 @@
 
 #include "base/progress.h"
 #include "deform/acceleration.h"
+#include "deform/coarse_level.h"
 #include "deform/sample_system.h"
 #include "edit/carried_parts.h"
 #include "edit/falloffs.h"
@@ -60,7 +62,7 @@ struct StageSeconds {
     double order = 0;     // Morton order, duplicates
     double neighbors = 0; // graph, components, bridges if `strays` asks for them
     double sampling = 0;  // base samples, labels, handle samples
-    double geodesic = 0;  // floods, sample graph, influences
+    double geodesic = 0;  // floods, sample graph, influences, coarse samples
     double factorize = 0; // ordering and factorisation of both systems
     double device = 0;    // the kernel's build and first touch
 };
@@ -140,6 +142,7 @@ private:
     void prepare_samples(Progress& progress);
     void prepare_handles(Progress& progress);
     void find_pulled();
+    void choose_coarse_samples();
     void label_vertices();
     void prepare_influences();
     void prepare_carried(std::span<const Index> row_of_label);
@@ -193,6 +196,8 @@ private:
     CarriedParts carried_;
 
     SampleSystem system_;
+    CoarseLevel coarse_;
+    bool has_coarse_ = false;                  // its system stands
     std::vector<HandleMotion> handle_motions_; // those of the handles, and the identity for what is outside
     std::vector<Motion> motions_; // of the samples, the handles, what is outside, and the carried parts
     RestShape posed_;

@@ -46,6 +46,8 @@ void Pipeline::follow_handles(const std::vector<HandleMotion>& motions, SampleSt
 
 double Pipeline::iterate(const std::vector<HandleMotion>& motions, SampleState& state,
                          Acceleration& acceleration) {
+    if (has_coarse_)
+        return knead::iterate(system_, coarse_, all_motions(motions), state, acceleration, workers_);
     return knead::iterate(system_, all_motions(motions), state, acceleration, workers_);
 }
 

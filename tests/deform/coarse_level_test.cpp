@@ -1,0 +1,149 @@
+#include "deform/coarse_level.h"
+
+#include "deform/sample_rest.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace knead {
+namespace {
+
+using test::degrees;
+
+// A bar bent far by its end: the slow case, since all of it has to come round.
+struct Bar {
+    SampleSystem system;
+    CoarseLevel coarse;
+    Workers workers{2};
+    std::vector<HandleMotion> handles{
+        {}, test::motion_about(Vec3d(1, 0, 0), 100 * degrees, Vec3d(0, 0, 0), Vec3d(0.3, -1, 0.2))};
+
+    explicit Bar(SampleRest rest = test::bar(1200)) {
+        EXPECT_TRUE(test::built(std::move(rest), system).solved);
+        coarse.samples = coarse_samples(system.rest.graph, system.rest.position, system.rest.handle, workers);
+        EXPECT_TRUE(build_coarse_level(system, coarse, workers).solved);
+    }
+
+    SampleState started() {
+        SampleState state = rest_state(system);
+        follow_handles(system, handles, state, workers);
+        return state;
+    }
+
+    SampleState alone(int iterations) {
+        SampleState state = started();
+        Acceleration memory;
+        for (int i = 0; i < iterations; ++i) iterate(system, handles, state, memory, workers);
+        return state;
+    }
+
+    SampleState helped(int iterations) {
+        SampleState state = started();
+        Acceleration memory;
+        for (int i = 0; i < iterations; ++i) iterate(system, coarse, handles, state, memory, workers);
+        return state;
+    }
+
+    double between(const SampleState& a, const SampleState& b) const {
+        double largest = 0;
+        for (std::size_t s = 0; s < a.displacement.size(); ++s)
+            largest = std::max(largest, (a.displacement[s] - b.displacement[s]).norm());
+        return largest / system.rest.cloud_size;
+    }
+};
+
+TEST(CoarseLevel, IsOfFewSamplesThatTheHandlesHoldAsTheyHoldTheOthers) {
+    const Bar bar;
+    EXPECT_LT(bar.coarse.samples.sample.size(), bar.system.rest.handle.size() / 2);
+    std::vector<bool> held(bar.handles.size(), false);
+    for (std::size_t c = 0; c < bar.coarse.samples.sample.size(); ++c) {
+        const Index handle = bar.system.rest.handle[bar.coarse.samples.sample[c]];
+        EXPECT_EQ(bar.coarse.system.rest.handle[c], handle);
+        EXPECT_EQ(bar.coarse.system.rest.position[c], bar.system.rest.position[bar.coarse.samples.sample[c]]);
+        if (handle != no_index) held[handle] = true;
+    }
+    EXPECT_EQ(held, std::vector<bool>(bar.handles.size(), true));
+    for (std::size_t s = 0; s < bar.system.rest.handle.size(); ++s) {
+        float sum = 0;
+        for (std::size_t k = 0; k < influences_per_row; ++k)
+            sum += bar.coarse.samples.weight[influences_per_row * s + k];
+        EXPECT_NEAR(sum, 1, 1e-6); // rounding
+    }
+}
+
+TEST(CoarseLevel, ComesToTheSameShapeInFewerIterations) {
+    Bar bar;
+    const SampleState settled = bar.alone(300);
+    EXPECT_LT(bar.between(bar.helped(30), settled), 1e-6);
+    for (const int iterations : {1, 2, 3, 5})
+        EXPECT_LT(bar.between(bar.helped(iterations), settled),
+                  0.4 * bar.between(bar.alone(iterations), settled))
+            << iterations;
+}
+
+TEST(CoarseLevel, LeavesASettledShapeAsItIs) {
+    Bar bar;
+    SampleState state = bar.alone(300);
+    const SampleState settled = state;
+    Acceleration memory;
+    for (int i = 0; i < 5; ++i) iterate(bar.system, bar.coarse, bar.handles, state, memory, bar.workers);
+    EXPECT_LT(bar.between(state, settled), 1e-9); // what was left
+}
+
+TEST(CoarseLevel, LeavesRestAtRest) {
+    Bar bar;
+    bar.handles = {{}, {}};
+    const SampleState state = bar.helped(5);
+    for (const Vec3d& way : state.displacement) ASSERT_EQ(way, Vec3d::Zero());
+    for (const Quatd& rotation : state.rotation) ASSERT_EQ(rotation.coeffs(), Quatd::Identity().coeffs());
+}
+
+TEST(CoarseLevel, IsGivenUpWhereItDoesNotHelp) {
+    // A coarse level that pushes all samples aside: each iteration goes as far as the one before.
+    Bar bar;
+    const SampleState settled = bar.alone(300);
+    for (double& weight : bar.coarse.system.rest.weight) weight *= 40; // no longer what was factorised
+    for (Vec3d& edge : bar.coarse.system.weighted_edge) edge *= 40;
+    SampleState state = bar.started();
+    Acceleration memory;
+    for (int i = 0; i < 120; ++i) iterate(bar.system, bar.coarse, bar.handles, state, memory, bar.workers);
+    EXPECT_TRUE(memory.alone);
+    EXPECT_LT(bar.between(state, settled), 1e-6);
+    forget(memory);
+    EXPECT_FALSE(memory.alone);
+}
+
+TEST(CoarseLevel, GivesTheSameBitsAgainAndForAnyNumberOfThreads) {
+    std::vector<SampleState> results;
+    for (const unsigned threads : {1U, 2U, 3U, 2U}) {
+        Bar bar;
+        Workers workers(threads);
+        SampleState state = bar.started();
+        Acceleration memory;
+        for (int i = 0; i < 4; ++i) iterate(bar.system, bar.coarse, bar.handles, state, memory, workers);
+        results.push_back(state);
+    }
+    for (const SampleState& result : results)
+        for (std::size_t s = 0; s < result.displacement.size(); ++s)
+            ASSERT_EQ(std::memcmp(result.displacement[s].data(), results[0].displacement[s].data(),
+                                  3 * sizeof(double)),
+                      0);
+}
+
+TEST(CoarseLevel, CarriesAllKindsOfHandles) {
+    // Beside a handle that gives positions only, and one that pulls what is around it.
+    SampleRest rest = test::bar(1200);
+    rest.turns_freely = {false, true};
+    for (Index s = 0; s < rest.handle.size(); s += 3)
+        if (rest.handle[s] == no_index && rest.position[s].z() > 0.5)
+            rest.pulled.push_back({s, 1, 0.5, rest.position[s]});
+    Bar bar(std::move(rest));
+    ASSERT_FALSE(bar.coarse.system.rest.pulled.empty());
+    const SampleState settled = bar.alone(600);
+    EXPECT_LT(bar.between(bar.helped(60), settled), 1e-5);
+}
+
+} // namespace
+} // namespace knead

@@ -170,6 +170,7 @@ DragBenchmark measure_drag(const DragBenchmarkOptions& options) {
     Artist artist(options);
     EditorOptions editor = options.editor;
     editor.observer = &artist;
+    if (!editor.settings.samples) editor.settings.samples = Settings{}.samples; // not what the machine suits
     run_editor(editor);
     const DragBenchmark result = artist.result();
     if (result.pictures == 0)

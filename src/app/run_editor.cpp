@@ -399,7 +399,9 @@ void run_editor(const EditorOptions& options) {
     Loop loop(options);
     set_scale(loop);
     loop.state.recent = read_recent_files();
-    loop.state.display.up = read_up_axis();
+    const Remembered remembered = read_remembered();
+    loop.state.display.up = remembered.up;
+    loop.state.choose_samples = remembered.choose_samples;
     loop.state.lost = find_lost_work(default_journal_folder());
     if (!options.file.empty()) loop.wishes.emplace_back(WishOpen{options.file});
     bool news = true;

@@ -45,8 +45,8 @@ public:
     virtual void set_widths(std::span<const std::uint8_t> widths) = 0;
     virtual void set_tinted(std::span<const std::uint32_t> tinted) = 0;
 
-    // Draws points subset, subset + stride, … of these ranges into the layer, over what is there, or first
-    // clears it. Returns how many.
+    // Draws one of `stride` subsets of these ranges, a chunk each, into the layer, over what is there, or
+    // first clears it. Every subset is spread evenly, and together they are all points. Returns how many.
     virtual std::size_t draw(std::span<const PointRange> ranges, std::size_t subset, std::size_t stride,
                              const SplatView& view, Layer& layer, bool clear) = 0;
 

@@ -20,7 +20,7 @@ namespace {
 
 // Of a splat's diameter over the spacing of the points: what closes most scans' surfaces.
 constexpr double closing_factor = 2.0;
-// A subset of one in k is drawn √k larger: so many times at most, or so many pixels wide. (Where the points
+// A splat of one in k is drawn √k larger: so many times at most, or so many pixels wide. (Where the points
 // lie far closer together than pixels, a surface of a few of them would be full of holes.)
 constexpr double largest_enlargement = 4, widest_enlarged = 5;
 constexpr double most_wider = 4;    // where points lie farther apart than usual
@@ -147,13 +147,13 @@ SplatView PointRenderer::State::view_of(double enlargement) const {
     view.to_clip = glm::mat4(to_clip);
     view.fixed = static_cast<float>(fixed);
     view.by_distance = static_cast<float>(by_distance);
+    view.grown_to = static_cast<float>(widest_enlarged) * look.pixel_scale;
+    view.grown = static_cast<float>(std::min(1.0, largest_enlargement / enlargement));
     view.smallest = look.pixel_scale;
     view.largest = largest_splat * look.pixel_scale;
     view.curved = widest_flat * look.pixel_scale;
-    view.widest =
-        std::clamp(static_cast<float>(fixed + by_distance * std::exp2(widest_width / widths_in_double) /
-                                                  in_view.nearest),
-                   view.smallest, view.largest);
+    const double widest = fixed + by_distance * std::exp2(widest_width / widths_in_double) / in_view.nearest;
+    view.widest = diameter_of(view, static_cast<float>(widest));
     view.pixel_size = static_cast<float>(1 / pixels_a_unit);
     const glm::mat3 axes = glm::mat3_cast(glm::quat(scene.camera.orientation));
     view.forward = -axes[2];

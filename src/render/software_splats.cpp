@@ -88,8 +88,7 @@ bool project(const Points& points, std::size_t i, const SplatView& view, const P
     splat.x = (0.5f + 0.5f * clip.x * part) * width;
     splat.y = (0.5f - 0.5f * clip.y * part) * height;
     const float wider = points.widths.empty() ? 1 : width_of(points.widths[i]);
-    const float diameter =
-        std::clamp(view.fixed + view.by_distance * wider * part, view.smallest, view.largest);
+    const float diameter = diameter_of(view, view.fixed + view.by_distance * wider * part);
     splat.radius = 0.5f * diameter;
     if (!(splat.x > -splat.radius && splat.x < width + splat.radius && splat.y > -splat.radius &&
           splat.y < height + splat.radius))

@@ -6,6 +6,7 @@
 #include "render/screen_pass.h"
 #include "render/software_lines.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -17,6 +18,8 @@ struct SplatView {
     Viewport viewport;
     glm::mat4 to_clip{1.0f};
     float fixed = 0, by_distance = 0; // diameter in pixels: fixed + by_distance / w
+    // That is of a subset's splats, which grew: to so many pixels, and beyond keep only a part of it.
+    float grown_to = 0, grown = 1;
     float smallest = 1, largest = 64; // pixels
     float widest = 64;                // no splat in view is wider
     float curved = 8;                 // beyond that they are curved, and part between their middles
@@ -25,6 +28,12 @@ struct SplatView {
     glm::vec3 key{0, 0, 1};           // towards the light
     bool shaded = false;              // by the normals
 };
+
+// The diameter of a splat, from what it would be with all its growth.
+inline float diameter_of(const SplatView& view, float full) {
+    return std::clamp(std::min(full, std::max(view.grown_to, view.grown * full)), view.smallest,
+                      view.largest);
+}
 
 // Lines over the points.
 struct Overlay {

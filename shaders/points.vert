@@ -9,6 +9,7 @@ layout(location = 3) in float width; // where size is by distance: times 2^(widt
 
 uniform mat4 to_clip;
 uniform vec2 size;     // pixels: size.x + size.y / w
+uniform vec2 growth;   // pixels to which a splat may grow, and how much of what it grew to it keeps beyond
 uniform vec2 extremes; // smallest and largest diameter in pixels
 uniform vec3 forward;  // where the camera looks
 uniform vec3 key;      // towards the light, in the half space of the viewer
@@ -20,7 +21,8 @@ flat out vec2 splat_depth;
 
 void main() {
     gl_Position = to_clip * vec4(position, 1.0);
-    float diameter = clamp(size.x + size.y * exp2(width * (255.0 / 64.0)) / gl_Position.w, extremes.x, extremes.y);
+    float grown = size.x + size.y * exp2(width * (255.0 / 64.0)) / gl_Position.w;
+    float diameter = clamp(min(grown, max(growth.x, growth.y * grown)), extremes.x, extremes.y);
     gl_PointSize = diameter;
 #ifdef SHADED
     // Both sides are lit: a normal that faces away is turned round.

@@ -13,16 +13,20 @@ constexpr const char* settings_name = "window";
 
 } // namespace
 
-UpAxis read_up_axis() {
+Remembered read_remembered() {
+    Remembered choices;
     std::ifstream in(kept_file(settings_name));
     std::string name, value;
-    while (in >> name >> value)
-        if (name == "up") return value == "y" ? UpAxis::y : UpAxis::z;
-    return UpAxis::z;
+    while (in >> name >> value) {
+        if (name == "up") choices.up = value == "y" ? UpAxis::y : UpAxis::z;
+        if (name == "samples") choices.choose_samples = value != "by-hand";
+    }
+    return choices;
 }
 
-void remember_up_axis(UpAxis up) {
-    keep_text(settings_name, up == UpAxis::y ? "up y\n" : "up z\n");
+void remember(const Remembered& choices) {
+    const std::string up = choices.up == UpAxis::y ? "up y\n" : "up z\n";
+    keep_text(settings_name, up + (choices.choose_samples ? "samples automatic\n" : "samples by-hand\n"));
 }
 
 } // namespace knead

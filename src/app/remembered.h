@@ -5,9 +5,14 @@
 
 namespace knead {
 
-// The upward axis that was chosen last; z where none was, or where it cannot be read.
-UpAxis read_up_axis();
-// A choice that cannot be written is silently not kept.
-void remember_up_axis(UpAxis up);
+struct Remembered {
+    UpAxis up = UpAxis::z;      // that was chosen last
+    bool choose_samples = true; // by themselves, of a cloud that is opened afresh
+};
+
+// What was never chosen, or cannot be read, is as above.
+Remembered read_remembered();
+// Choices that cannot be written are silently not kept.
+void remember(const Remembered& choices);
 
 } // namespace knead

@@ -26,6 +26,10 @@ namespace {
 // How long nothing has to move until the picture is drawn as finely as it can be.
 constexpr double rest_seconds = 0.15;
 
+// How long the processor fills the picture of something that rests with points that are missing, until events
+// are looked at again.
+constexpr double filling_seconds = 0.02;
+
 struct Loop {
     explicit Loop(const EditorOptions& chosen)
         : options(chosen), window(chosen.width, chosen.height), editor(chosen.threads) {}
@@ -316,12 +320,19 @@ DrawResult draw_scene(Loop& loop, int window_height) {
     PointLook look = loop.state.display.look;
     look.pixel_scale = loop.state.scale * loop.state.pixel_ratio;
     const DrawBudget& budget = budget_of(loop);
-    loop.is_coarse = moves(loop) && budget.coarse();
+    const bool moving = moves(loop);
+    loop.is_coarse = moving && budget.coarse();
     const Rectangle& view = loop.state.view;
     const auto left = static_cast<int>(view.x * loop.state.pixel_ratio);
     const auto top = static_cast<int>(view.y * loop.state.pixel_ratio);
-    return loop.scene.draw(loop.editor, look, budget.points(), loop.is_coarse, left,
-                           window_height - top - loop.editor.viewport.height);
+    const Stopwatch clock;
+    DrawResult result;
+    do
+        result = loop.scene.draw(loop.editor, look, budget.points(), loop.is_coarse, left,
+                                 window_height - top - loop.editor.viewport.height);
+    while (!moving && !result.complete && loop.scene.is_drawn_in_software() &&
+           clock.seconds() < filling_seconds);
+    return result;
 }
 
 void measure(Loop& loop, const DrawResult& result, double seconds) {
@@ -399,7 +410,9 @@ void run_editor(const EditorOptions& options) {
     Loop loop(options);
     set_scale(loop);
     loop.state.recent = read_recent_files();
-    loop.state.display.up = read_up_axis();
+    const Remembered remembered = read_remembered();
+    loop.state.display.up = remembered.up;
+    loop.state.choose_samples = remembered.choose_samples;
     loop.state.lost = find_lost_work(default_journal_folder());
     if (!options.file.empty()) loop.wishes.emplace_back(WishOpen{options.file});
     bool news = true;

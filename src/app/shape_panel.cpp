@@ -84,11 +84,42 @@ std::string sample_words(const DocumentView& document) {
     return grouped(*asked) + " asked: " + used + " used, handle borders included.";
 }
 
+// What decided an automatic number, in words.
+std::string words_about(const SampleChoice& choice) {
+    const std::string many = choice.samples ? grouped(*choice.samples) + " samples" : "Every point a sample";
+    switch (choice.reason) {
+    case SampleReason::few_points:
+        return many + ": there are no more points than that.";
+    case SampleReason::points:
+        return many + ": a good part of the points.";
+    case SampleReason::enough:
+        return many + ": more would hardly show.";
+    case SampleReason::handles:
+        return many + ": the handles are small, many or close together.";
+    default:
+        return many + ": what this machine moves at 40 frames a second.";
+    }
+}
+
+void sample_choice(const Ui& ui, const Settings& settings) {
+    const bool by_themselves = ui.editor.chooses_samples;
+    constexpr int automatic = 0, by_hand = 1, all = 2;
+    const int chosen = by_themselves ? automatic : settings.samples ? by_hand : all;
+    const int clicked = segmented("samples", {"Automatic", "By hand", "All"}, chosen);
+    explain("Automatic: as many as show, as the handles ask for, and as this machine can move while it "
+            "follows the hand. The number changes between edits only, never commits a pose, and is recorded. "
+            "By hand: it stays. (Of these two the choice is remembered for the next cloud.) All: every point "
+            "is a sample; exact, and slow on large clouds.");
+    if (clicked < 0 || clicked == chosen) return;
+    if (clicked != all && (clicked == automatic || settings.samples))
+        return ui.wish(WishChooseSamples{clicked == automatic});
+    SettingsChange wanted;
+    wanted.samples = clicked == all ? std::optional<std::uint64_t>{} : std::optional<std::uint64_t>{1000};
+    ui.tell(ChangeSettings{wanted});
+}
+
 void samples_slider(const Ui& ui, const Settings& settings) {
-    bool all = !settings.samples;
-    const float box = ImGui::GetFrameHeight() + ImGui::CalcTextSize("All").x + ui.scaled(18);
-    ImGui::BeginDisabled(all);
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - box);
+    ImGui::BeginDisabled(!settings.samples);
     int samples = static_cast<int>(std::min<std::uint64_t>(settings.samples.value_or(1000), 1000000));
     if (bar_slider("Samples", samples, 50, 20000, "%d",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
@@ -102,13 +133,11 @@ void samples_slider(const Ui& ui, const Settings& settings) {
             "Changing it while handles are posed commits the pose first.\n" +
             sample_words(*ui.editor.document) +
             " Up to a fifth more than asked for lie along the borders of the handles.");
-    ImGui::SameLine();
-    if (ImGui::Checkbox("All", &all)) {
-        SettingsChange wanted;
-        wanted.samples = all ? std::optional<std::uint64_t>{} : std::optional<std::uint64_t>{1000};
-        ui.tell(ChangeSettings{wanted});
-    }
-    explain("Every point is a sample: exact, and slow on large clouds");
+    sample_choice(ui, settings);
+    if (!ui.editor.chooses_samples) return;
+    const SampleChoice& suited = ui.editor.document->suited;
+    const bool waits = suited.samples != settings.samples && ui.editor.document->posed;
+    faint_text(waits ? "From the next commit on: " + words_about(suited) : words_about(suited));
 }
 
 void iterations_slider(const Ui& ui, const Settings& settings) {

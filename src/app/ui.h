@@ -72,6 +72,9 @@ struct WishOrbiting {
 struct WishUpAxis { // of the camera and the ground; remembered for the next cloud
     UpAxis up = UpAxis::z;
 };
+struct WishChooseSamples { // or leave their number alone; remembered for the next cloud
+    bool by_themselves = false;
+};
 struct WishBrowseLabels {}; // the dialog that makes handles of an attribute
 struct WishLabelHandles {
     std::string column;
@@ -83,10 +86,11 @@ struct WishTakeHandles { // of a session
 struct WishForgetRecent {};
 struct WishClose {}; // the window; asks about unsaved work first
 
-using Wish = std::variant<WishOpen, WishRestore, WishDeleteLost, WishCancelOpening, WishBrowse,
-                          WishSaveSession, WishSaveTo, WishDiscard, WishDemonstration, WishPress,
-                          WishSelectTool, WishThrough, WishMovePivot, WishLocalAxes, WishOrbiting, WishUpAxis,
-                          WishBrowseLabels, WishLabelHandles, WishTakeHandles, WishForgetRecent, WishClose>;
+using Wish =
+    std::variant<WishOpen, WishRestore, WishDeleteLost, WishCancelOpening, WishBrowse, WishSaveSession,
+                 WishSaveTo, WishDiscard, WishDemonstration, WishPress, WishSelectTool, WishThrough,
+                 WishMovePivot, WishLocalAxes, WishOrbiting, WishUpAxis, WishChooseSamples, WishBrowseLabels,
+                 WishLabelHandles, WishTakeHandles, WishForgetRecent, WishClose>;
 
 // --- What the panels remember ---
 
@@ -140,7 +144,8 @@ struct UiState {
     bool show_help = false;
     bool show_about = false;
     bool show_panels = true;
-    bool ask_unsaved = false; // the dialog is to be opened
+    bool ask_unsaved = false;   // the dialog is to be opened
+    bool choose_samples = true; // by themselves, of the next cloud; remembered
     AfterSaving after;
     std::optional<WishSaveTo> overwriting; // the dialog asks whether to overwrite this
 

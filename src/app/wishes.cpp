@@ -17,6 +17,7 @@ void begin_opening(Work& work, OpenRequest request) {
     request.device = work.options.device;
     request.threads = work.options.threads;
     request.settings = work.options.settings;
+    request.choose_samples = work.state.choose_samples;
     work.state.opening_demonstration = false;
     open(work.editor, std::move(request));
 }
@@ -150,7 +151,12 @@ void fulfil(Work& work, const WishOrbiting& wish) {
 void fulfil(Work& work, const WishUpAxis& wish) {
     work.state.display.up = wish.up;
     set_up(work.editor.camera, wish.up);
-    remember_up_axis(wish.up);
+    remember({wish.up, work.state.choose_samples});
+}
+void fulfil(Work& work, const WishChooseSamples& wish) {
+    work.state.choose_samples = wish.by_themselves;
+    remember({work.state.display.up, wish.by_themselves});
+    apply(work.editor, ChooseSamples{wish.by_themselves});
 }
 void fulfil(Work& work, const WishBrowseLabels&) {
     if (!work.editor.document) return;

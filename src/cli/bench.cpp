@@ -104,8 +104,8 @@ void add_bench(CLI::App& app, Job& job) {
             ->check(CLI::ExistingDirectory);
     CLI::Option* window = command->add_option(
         "--window", arguments->window,
-        "Instead: open this cloud in the window, drag a handle of it for some seconds, and tell "
-        "how old the pose on the screen is");
+        "Instead: open this cloud in the window, look round it, drag a handle of it, and tell how many "
+        "pictures a second there are and how old the pose on the screen is");
     CLI::Option* files =
         command
             ->add_option(

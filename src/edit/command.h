@@ -89,6 +89,9 @@ struct SetPivot {     // of the gizmo; nothing: the handle's middle
 struct ChangeSettings {
     SettingsChange change;
 };
+struct ChooseSamples { // by themselves (edit/sample_choice.h), or as many as there are now
+    bool by_itself = false;
+};
 struct CommitPose {};
 struct UndoStep {};
 struct RedoStep {};
@@ -117,10 +120,11 @@ struct SetPivotUnder { // a double click: the point under the cursor becomes the
     glm::dvec2 pixel{0.0};
 };
 
-using Command = std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints,
-                             ChangeHidden, MakeHandle, ChooseHandle, RenameHandle, ChangeRole, ChangeHold,
-                             DeleteHandle, ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag,
-                             SetPivot, ChangeSettings, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying,
-                             AdvancePlaying, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
+using Command =
+    std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
+                 MakeHandle, ChooseHandle, RenameHandle, ChangeRole, ChangeHold, DeleteHandle, ResetPose,
+                 MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag, SetPivot, ChangeSettings,
+                 ChooseSamples, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying, AdvancePlaying,
+                 MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
 
 } // namespace knead

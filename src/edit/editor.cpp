@@ -50,6 +50,7 @@ void take_over(Editor& editor) {
     editor.live = std::move(editor.opening);
     editor.opened = editor.live->opened();
     editor.document = editor.live->view();
+    editor.chooses_samples = editor.document->chooses_samples;
     editor.frame = {};
     editor.live->take_frame(editor.frame);
     editor.drag.reset();
@@ -93,6 +94,7 @@ void forget_refused(Editor& editor) {
         if (found->before) restore_selection(editor, *found->before);
         if (found->chosen_before && found->chosen_after == editor.chosen)
             choose(editor, *found->chosen_before);
+        if (found->choosing_before) choose_samples(editor, *found->choosing_before);
         editor.past.erase(found);
     }
 }
@@ -237,19 +239,38 @@ void carry_out(Editor& editor, const ChangeHidden& command) {
 
 // --- The document ----------------------------------------------------------------------------------------
 
+// A slider that goes on being moved is one step. A number of samples of the user's own ends the choosing, and
+// taking it back takes that back.
 void carry_out(Editor& editor, const ChangeSettings& command) {
     if (!needs_document(editor)) return;
-    // A slider that goes on being moved is one step.
+    const bool ends_choosing = command.change.samples && editor.chooses_samples;
+    if (ends_choosing) choose_samples(editor, false);
     const auto now = std::chrono::steady_clock::now();
-    if (!editor.past.empty() && editor.future.empty()) {
-        auto& changed = editor.past.back().settings_changed;
-        if (changed && now - *changed < one_gesture) {
-            changed = now;
-            return editor.live->post(++editor.last_step, {SetLine{command.change}}, true);
-        }
-    }
-    post_step(editor, {SetLine{command.change}});
-    editor.past.back().settings_changed = now;
+    const auto goes_on = [&](const EditorStep& step) {
+        return step.settings_changed && now - *step.settings_changed < one_gesture;
+    };
+    if (!editor.past.empty() && editor.future.empty() && goes_on(editor.past.back()))
+        editor.live->post(++editor.last_step, {SetLine{command.change}}, true);
+    else
+        post_step(editor, {SetLine{command.change}});
+    EditorStep& step = editor.past.back();
+    step.settings_changed = now;
+    if (!ends_choosing) return;
+    if (!step.choosing_before) step.choosing_before = true;
+    step.choosing_after = false;
+}
+
+void carry_out(Editor& editor, const ChooseSamples& command) {
+    if (!needs_document(editor) || command.by_itself == editor.chooses_samples) return;
+    choose_samples(editor, command.by_itself);
+    const SampleChoice& suited = editor.document->suited;
+    const bool changes = command.by_itself && suited.samples != editor.document->settings.samples;
+    if (!changes || editor.document->posed || editor.drag) return; // the document does, when it can
+    SettingsChange change;
+    change.samples = suited.samples;
+    post_step(editor, {SetLine{change}});
+    editor.past.back().choosing_before = false;
+    editor.past.back().choosing_after = true;
 }
 
 void carry_out(Editor& editor, const CommitPose& /*command*/) {

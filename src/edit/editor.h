@@ -35,6 +35,8 @@ struct EditorStep {
     std::shared_ptr<const std::vector<std::uint8_t>> after = {};
     // Of settings: when they were changed last. Those that change within a second join it.
     std::optional<std::chrono::steady_clock::time_point> settings_changed = {};
+    // Whether the number of samples was chosen by itself before and after; nothing: it stays as it is.
+    std::optional<bool> choosing_before = {}, choosing_after = {};
     // The chosen handle before and after a step of the document; nothing: it stays as it is.
     std::optional<std::string> chosen_before = {}, chosen_after = {};
 };
@@ -63,7 +65,8 @@ struct Editor {
     PosedFrame frame;                             // the points as they are now
     LiveDocument::Status status;                  // of `live`, or of `opening` while there is one
     LiveDocument::Saved saved;
-    std::vector<Index> ordered; // of each point of the file: its place in the order; no_index: left out
+    bool chooses_samples = false; // by itself, as the document was told last
+    std::vector<Index> ordered;   // of each point of the file: its place in the order; no_index: left out
 
     // --- Choosing ---
     std::vector<std::uint8_t> marks; // of each point

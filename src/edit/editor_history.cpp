@@ -39,6 +39,11 @@ void choose_with_step(Editor& editor, const std::string& handle) {
     if (!editor.past.empty()) editor.past.back().chosen_after = handle;
 }
 
+void choose_samples(Editor& editor, bool by_itself) {
+    editor.chooses_samples = by_itself;
+    editor.live->choose_samples(by_itself);
+}
+
 void restore_selection(Editor& editor, const std::vector<std::uint8_t>& from) {
     for (std::size_t i = 0; i < editor.marks.size(); ++i)
         editor.marks[i] =
@@ -59,6 +64,7 @@ void carry_out(Editor& editor, const UndoStep& /*command*/) {
     editor.past.pop_back();
     if (step.before) restore_selection(editor, *step.before);
     if (step.document) editor.live->undo(step.document);
+    if (step.choosing_before) choose_samples(editor, *step.choosing_before);
     if (step.chosen_before) choose(editor, *step.chosen_before);
     editor.drag.reset();
     editor.future.push_back(std::move(step));
@@ -71,6 +77,7 @@ void go_forward(Editor& editor, void (LiveDocument::*redo)(StepNumber)) {
     EditorStep step = std::move(editor.future.back());
     editor.future.pop_back();
     if (step.document) (editor.live.get()->*redo)(step.document);
+    if (step.choosing_after) choose_samples(editor, *step.choosing_after);
     if (step.after) restore_selection(editor, *step.after);
     if (step.chosen_after) choose(editor, *step.chosen_after);
     editor.past.push_back(std::move(step));

@@ -27,6 +27,9 @@ StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
 void choose(Editor& editor, const std::string& handle);
 void choose_with_step(Editor& editor, const std::string& handle);
 
+// Whether the number of samples is chosen by itself from here on; no step of its own.
+void choose_samples(Editor& editor, bool by_itself);
+
 // Selection and hiding as in `from`; the bits of the handles stay.
 void restore_selection(Editor& editor, const std::vector<std::uint8_t>& from);
 

@@ -53,7 +53,7 @@ void LiveWork::carry_out(task::Lines& lines) {
         throw;
     }
     last_step_ = lines.step;
-    ahead_ = true;
+    ahead_ = may_choose_ = true;
     // New settings show at once on a pose that stands; nothing else leaves one.
     converge_ = document_->is_posed();
     show_document();
@@ -83,6 +83,7 @@ void LiveWork::carry_out(task::ResetPose& task) {
 
 void LiveWork::carry_out(task::Undo& task) {
     finish_settling();
+    may_choose_ = false;
     if (refused_.contains(task.step) || !recording_->can_undo()) return;
     take_back_step();
     show_where_it_rests();
@@ -146,6 +147,7 @@ void LiveWork::carry_out(task::SaveSession& task) {
     look_for_others(task.target);
     recording_->save(task.target);
     take_note(known_files_, task.target);
+    may_choose_ = false;   // or it would be unsaved again at once
     recording_->discard(); // the journal: a crash loses nothing of this any more
     saved_.session_state = recording_->state();
     session_file_ = std::filesystem::absolute(task.target);

@@ -47,6 +47,10 @@ void LiveDocument::post(StepNumber step, std::vector<SessionAction> lines, bool 
     put(*shared_, task::Lines{step, std::move(lines), joins_last});
 }
 
+void LiveDocument::choose_samples(bool by_itself) {
+    put(*shared_, task::ChooseSamples{by_itself});
+}
+
 void LiveDocument::begin_drag(StepNumber step, std::string handle, Vec3d pivot) {
     put(*shared_, task::BeginDrag{step, std::move(handle), pivot});
 }

@@ -15,6 +15,7 @@
 #include "edit/command.h"
 #include "edit/document.h"
 #include "edit/journal.h"
+#include "edit/sample_choice.h"
 #include "edit/session.h"
 #include "upsample/devices.h"
 
@@ -42,7 +43,9 @@ struct DocumentView {
     StepNumber last_step = 0; // the newest that was carried out
     std::string last_words;   // what the newest act does, such as "pose committed"; empty at the beginning
     std::size_t undoable_steps = 0, redoable_steps = 0;
-    std::size_t samples = 0; // 0: not chosen yet
+    std::size_t samples = 0;      // 0: not chosen yet
+    bool chooses_samples = false; // by itself
+    SampleChoice suited;          // what it would choose, or does
     Pipeline::Strays strays;
     std::shared_ptr<const Graph> graph;           // of the vertices; null until it was built
     std::shared_ptr<const Components> components; // and what hangs together in it; null as long
@@ -102,6 +105,9 @@ struct OpenRequest {
     unsigned threads = 0;
     UpsamplerMaker make_upsampler = knead::make_upsampler; // another one, for tests of failing devices
     SettingsChange settings;
+    // Whether the number of samples is chosen, and chosen anew after acts, as edit/sample_choice.h says: of a
+    // cloud; a session keeps its number, and so do `settings`.
+    bool choose_samples = false;
 };
 
 struct LiveShared; // what both threads see (edit/live_shared.h)
@@ -144,6 +150,11 @@ public:
     // commit is put before it. A refused step is told by take_refused(), and leaves no trace.
     // `joins_last`: it is undone together with the step before it (a slider that goes on being moved).
     void post(StepNumber step, std::vector<SessionAction> lines, bool joins_last = false);
+
+    // Whether the number of samples is chosen by itself from here on. That happens after an act that leaves
+    // nothing posed, and belongs to its step: never in a drag, never where it would take a commit, and never
+    // after an undo. It is recorded like any setting.
+    void choose_samples(bool by_itself);
 
     // A drag of a moving handle: frames go on until end_drag(), the newest pose first. `pivot` is in the
     // file's coordinates.

@@ -7,13 +7,14 @@ namespace knead {
 
 struct LiveDrag {
     StepNumber step = 0;
-    DragLine line;                         // what was computed so far
-    HandleMotion base;                     // the pose when it began
-    Vec3d origin = Vec3d::Zero();          // the cloud's
-    std::optional<WantedPose> wanted = {}; // the newest pose of the hand
-    Transform shown = {};                  // how far it was followed
-    std::size_t repeats = 0;               // frames since the last new pose
-    bool rests = true;                     // nothing changes until the hand moves
+    DragLine line;                                     // what was computed so far
+    HandleMotion base;                                 // the pose when it began
+    Vec3d origin = Vec3d::Zero();                      // the cloud's
+    std::optional<WantedPose> wanted = {};             // the newest pose of the hand
+    Transform shown = {};                              // how far it was followed
+    std::size_t repeats = 0;                           // frames since the last new pose
+    bool rests = true;                                 // nothing changes until the hand moves
+    std::vector<double> solving = {}, upsampling = {}; // seconds of every frame
 
     // Whether frames only repeat a pose, and the shape converges.
     bool repeats_pose() const { return wanted && shown == wanted->transform; }

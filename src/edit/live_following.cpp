@@ -71,6 +71,7 @@ void LiveWork::carry_out(task::EndDrag& task) {
 }
 
 void LiveWork::finish_drag() {
+    learn_cost(drag_->solving, drag_->upsampling);
     drag_.reset();
     converge_ = true;
     publish_view();
@@ -118,6 +119,8 @@ void LiveWork::follow() {
     drag.repeats = new_pose ? 0 : drag.repeats + 1;
     drag.rests = next == drag.wanted->transform && (way < still || drag.repeats >= most_repeats);
     solve_seconds_ = clock.seconds();
+    drag.upsampling.push_back(document_->log().upsample.back());
+    drag.solving.push_back(solve_seconds_ - drag.upsampling.back());
     publish_shape(document_->pipeline().posed(), true);
 }
 
@@ -151,7 +154,7 @@ void LiveWork::finish_settling() {
     converge_ = false;
     if (!std::exchange(settling_, false)) return;
     const SettleLine line = document_->end_settling();
-    record([&] { recording_->add(line, true); });
+    record([&] { recording_->add_to_last(line); });
     publisher_.demand(document_->demand(progress_));
     publish_view();
 }

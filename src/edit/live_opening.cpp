@@ -47,7 +47,10 @@ void replay_session(const Session& session, Document& document, LiveRecording& r
             recording.note(CheckLine{session.resolve(check->positions), check->tolerance});
         } else {
             carry_out_act(document, line.action, place, progress);
-            recording.add(line.action, std::holds_alternative<SettleLine>(line.action));
+            if (std::holds_alternative<SettleLine>(line.action))
+                recording.add_to_last(line.action);
+            else
+                recording.add(line.action, false);
         }
     }
 }

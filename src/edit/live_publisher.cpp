@@ -46,6 +46,8 @@ void LivePublisher::view(const Document& document, const LiveRecording& recordin
     view->undoable_steps = recording.undoable_steps();
     view->redoable_steps = recording.redoable_steps();
     view->samples = pipeline.samples().size();
+    view->chooses_samples = facts.chooses_samples;
+    view->suited = facts.suited;
     view->strays = pipeline.strays();
     view->graph = pipeline.shared_graph();
     view->components = pipeline.shared_components();

@@ -28,6 +28,8 @@ public:
         std::string device;
         std::filesystem::path session;
         LiveDocument::Saved saved;
+        bool chooses_samples = false;
+        SampleChoice suited;
     };
     void view(const Document& document, const LiveRecording& recording, const ViewFacts& facts);
 

@@ -67,13 +67,15 @@ void LiveRecording::discard() {
 }
 
 void LiveRecording::add(const SessionAction& act, bool joins_step) {
-    // A settling goes on with what the act before it did.
-    std::string words = std::holds_alternative<SettleLine>(act) ? last_words() : words_about(act);
-    const bool joins = joins_step && !past_.empty();
-    // What settles after a setting still belongs to it, and another movement of its slider joins both.
-    const bool of_settings = std::holds_alternative<SetLine>(act) ||
-                             (joins && std::holds_alternative<SettleLine>(act) && last_is_settings());
-    past_.push_back({joins, of_settings, ++last_number_, std::move(words)});
+    past_.push_back({joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), ++last_number_,
+                     words_about(act)});
+    future_.clear();
+    write_down(act);
+}
+
+void LiveRecording::add_to_last(const SessionAction& act) {
+    // Another movement of a slider still joins what settled after it.
+    past_.push_back({!past_.empty(), last_is_settings(), ++last_number_, last_words()});
     future_.clear();
     write_down(act);
 }

@@ -35,6 +35,9 @@ public:
     // An act that the document has carried out: of the step before it, or the first of a new one. What could
     // be redone is forgotten.
     void add(const SessionAction& act, bool joins_step);
+    // One that follows from the step before it, and goes by its name: what settles, and what is chosen by
+    // itself.
+    void add_to_last(const SessionAction& act);
     // A line that is no act of the document (`check`).
     void note(const SessionAction& line);
     // The last act was undone, the next one redone.

@@ -15,6 +15,9 @@ struct WantedPose {
 };
 
 namespace task {
+struct ChooseSamples {
+    bool by_itself = false;
+};
 struct Lines {
     StepNumber step = 0;
     std::vector<SessionAction> lines;
@@ -52,8 +55,9 @@ struct SaveSession {
     bool anyway = false;
 };
 } // namespace task
-using LiveTask = std::variant<task::Lines, task::BeginDrag, task::EndDrag, task::CancelDrag, task::ResetPose,
-                              task::Undo, task::Redo, task::Play, task::SaveCloud, task::SaveSession>;
+using LiveTask =
+    std::variant<task::ChooseSamples, task::Lines, task::BeginDrag, task::EndDrag, task::CancelDrag,
+                 task::ResetPose, task::Undo, task::Redo, task::Play, task::SaveCloud, task::SaveSession>;
 
 // How a step is played.
 struct PlayPace {

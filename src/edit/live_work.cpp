@@ -46,6 +46,8 @@ void LiveWork::open() {
     if (!choice.warning.empty()) say(Notice::Kind::warning, choice.warning);
     upsampler_ = std::move(choice.upsampler);
     session.points = cloud.size();
+    choosing_ = is_plain_cloud && !request_.restore && request_.choose_samples && !request_.settings.samples;
+    if (choosing_) session.settings.samples = knead::choose_samples({cloud.size(), {}, {}}).samples;
     document_ = std::make_unique<Document>(std::move(cloud), session.settings, workers_, *upsampler_);
     recording_ = std::make_unique<LiveRecording>(session, request_.restore);
     if (!request_.restore && !is_plain_cloud) session_file_ = std::filesystem::absolute(request_.file);
@@ -164,6 +166,7 @@ void LiveWork::go_on() {
     if (ahead_) {
         ahead_ = false;
         document_->prepare_ahead(progress_);
+        choose_samples();
         return publish_view();
     }
     if (converge_) settle();
@@ -223,7 +226,8 @@ void LiveWork::publish_shape(const RestShape& shape, bool of_drag) {
 
 void LiveWork::publish_view() {
     publisher_.view(*document_, *recording_,
-                    {drag_.has_value(), last_step_, upsampler_->device(), session_file_, saved_});
+                    {drag_.has_value(), last_step_, upsampler_->device(), session_file_, saved_, choosing_,
+                     choose_samples_again(sample_needs(), document_->settings().samples)});
 }
 
 void LiveWork::refuse(StepNumber step) {

@@ -71,6 +71,15 @@ private:
     void stop_settling();
     void finish_settling();
 
+    // --- The number of samples (live_samples.cpp) ---
+
+    void carry_out(task::ChooseSamples& task);
+    SampleNeeds sample_needs() const;
+    void choose_samples();
+    void look_at_handles();
+    void measure_frame();
+    void learn_cost(std::vector<double> solving, std::vector<double> upsampling);
+
     // --- Playing (live_playing.cpp) ---
 
     void carry_out(task::Play& task);
@@ -104,7 +113,12 @@ private:
     bool converge_ = false; // a released pose
     bool settling_ = false; // begun in the document
     unsigned settled_ = 0;
-    bool ahead_ = true; // stages could be prepared before they are needed
+    bool ahead_ = true;       // stages could be prepared before they are needed
+    bool choosing_ = false;   // the number of samples, by itself
+    bool may_choose_ = false; // since the last act
+    HandleSpread spread_;     // of the handles as they were prepared last
+    std::optional<FrameCost> cost_;
+    unsigned cost_iterations_ = 0; // that the frames had
     Stopwatch since_frame_;
     double solve_seconds_ = 0;
     StepNumber last_step_ = 0;

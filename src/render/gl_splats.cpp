@@ -17,7 +17,7 @@ enum class Shape { square, round, curved };
 
 struct PointProgram {
     GlProgram program;
-    GLint to_clip, size, extremes, forward, key, pixel_size;
+    GLint to_clip, size, growth, extremes, forward, key, pixel_size;
 };
 
 PointProgram make_point_program(bool shaded, Shape shape) {
@@ -27,9 +27,10 @@ PointProgram make_point_program(bool shaded, Shape shape) {
     if (shape == Shape::curved) defines += "#define CURVED\n";
     GlProgram program = make_program(embedded::points_vert, embedded::points_frag, defines.c_str());
     const auto find = [&](const char* name) { return glGetUniformLocation(program, name); };
-    const GLint to_clip = find("to_clip"), size = find("size"), extremes = find("extremes"),
-                forward = find("forward"), key = find("key"), pixel_size = find("pixel_size");
-    return {std::move(program), to_clip, size, extremes, forward, key, pixel_size};
+    const GLint to_clip = find("to_clip"), size = find("size"), growth = find("growth"),
+                extremes = find("extremes"), forward = find("forward"), key = find("key"),
+                pixel_size = find("pixel_size");
+    return {std::move(program), to_clip, size, growth, extremes, forward, key, pixel_size};
 }
 
 void set_vector(GLint location, const glm::vec3& v) {
@@ -123,6 +124,7 @@ private:
         glUseProgram(with->program);
         glUniformMatrix4fv(with->to_clip, 1, GL_FALSE, &view.to_clip[0][0]);
         glUniform2f(with->size, view.fixed, view.by_distance);
+        glUniform2f(with->growth, view.grown_to, view.grown);
         glUniform2f(with->extremes, view.smallest, view.largest);
         glUniform1f(with->pixel_size, view.pixel_size);
         set_vector(with->forward, view.forward);

@@ -20,8 +20,9 @@ namespace {
 
 // Of a splat's diameter over the spacing of the points: what closes most scans' surfaces.
 constexpr double closing_factor = 2.0;
-// A subset of one in k is drawn √k larger, up to this.
-constexpr double largest_enlargement = 4;
+// A splat of one in k is drawn √k larger: so many times at most, or so many pixels wide. (Where the points
+// lie far closer together than pixels, a surface of a few of them would be full of holes.)
+constexpr double largest_enlargement = 4, widest_enlarged = 5;
 constexpr double most_wider = 4;    // where points lie farther apart than usual
 constexpr float largest_splat = 96; // pixels
 constexpr float widest_flat = 8;    // pixels; wider splats are curved, which costs
@@ -84,6 +85,8 @@ struct PointRenderer::State {
     void project_onto(Box3 box);
     void begin(const Scene& next, std::size_t budget);
     SplatView view_of(double enlargement) const;
+    double usual_width(const SplatView& view) const; // of a splat at the pivot, pixels
+    double enlargement() const;                      // of the splats of the first subset
     std::size_t draw_subset(std::size_t subset, double enlargement, Layer& layer, bool clear);
     ScreenPass screen_pass() const;
     Overlay overlay() const;
@@ -144,13 +147,13 @@ SplatView PointRenderer::State::view_of(double enlargement) const {
     view.to_clip = glm::mat4(to_clip);
     view.fixed = static_cast<float>(fixed);
     view.by_distance = static_cast<float>(by_distance);
+    view.grown_to = static_cast<float>(widest_enlarged) * look.pixel_scale;
+    view.grown = static_cast<float>(std::min(1.0, largest_enlargement / enlargement));
     view.smallest = look.pixel_scale;
     view.largest = largest_splat * look.pixel_scale;
     view.curved = widest_flat * look.pixel_scale;
-    view.widest =
-        std::clamp(static_cast<float>(fixed + by_distance * std::exp2(widest_width / widths_in_double) /
-                                                  in_view.nearest),
-                   view.smallest, view.largest);
+    const double widest = fixed + by_distance * std::exp2(widest_width / widths_in_double) / in_view.nearest;
+    view.widest = diameter_of(view, static_cast<float>(widest));
     view.pixel_size = static_cast<float>(1 / pixels_a_unit);
     const glm::mat3 axes = glm::mat3_cast(glm::quat(scene.camera.orientation));
     view.forward = -axes[2];
@@ -159,13 +162,23 @@ SplatView PointRenderer::State::view_of(double enlargement) const {
     return view;
 }
 
+double PointRenderer::State::usual_width(const SplatView& view) const {
+    const double w = scene.camera.orthographic ? 1 : scene.camera.distance;
+    return view.fixed + view.by_distance / w;
+}
+
+double PointRenderer::State::enlargement() const {
+    const double plain = usual_width(view_of(1));
+    const double most = std::max(largest_enlargement, widest_enlarged * scene.look.pixel_scale / plain);
+    return std::min(std::sqrt(static_cast<double>(one_in)), most);
+}
+
 // Draws subset number `subset` of those in view; returns how many points it has.
 std::size_t PointRenderer::State::draw_subset(std::size_t subset, double enlargement, Layer& layer,
                                               bool clear) {
     const SplatView view = view_of(enlargement);
-    const double w = scene.camera.orthographic ? 1 : scene.camera.distance;
     widest_splat = std::max<double>(widest_splat, view.widest);
-    usual_splat = std::clamp<double>(view.fixed + view.by_distance / w, view.smallest, view.largest);
+    usual_splat = std::clamp<double>(usual_width(view), view.smallest, view.largest);
     return splats->draw(in_view.ranges, subset, one_in, view, layer, clear);
 }
 
@@ -216,8 +229,7 @@ DrawResult PointRenderer::State::draw(const Scene& next, std::size_t budget) {
     const Stopwatch clock;
     if (!matches(next)) {
         begin(next, budget);
-        const double enlargement = std::min(std::sqrt(static_cast<double>(one_in)), largest_enlargement);
-        result.drawn = draw_subset(0, enlargement, shown, true);
+        result.drawn = draw_subset(0, enlargement(), shown, true);
         next_subset = one_in == 1 ? 1 : 0;
         is_drawn = true;
     } else if (next_subset < one_in) {

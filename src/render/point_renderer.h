@@ -7,9 +7,9 @@
 // darkens it), the patterns of the handles and the background; overlay lines come last, and the finished
 // picture is copied into the caller's framebuffer.
 //
-// Points must come in an order that keeps neighbours together (the pipeline's Morton order). Then every k-th
-// point is an evenly spread subset, which is what is drawn where the whole cloud would take too long, and
-// ranges of points that lie outside the view are skipped.
+// Points must come in an order that keeps neighbours together (the pipeline's Morton order). Then one in k of
+// them, evenly spread along it, is a subset of the surface, with larger splats, which is what is drawn where
+// the whole cloud would take too long; and ranges of points that lie outside the view are skipped.
 
 #include "view/camera.h"
 #include "view/marks.h"

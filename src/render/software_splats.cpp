@@ -1,3 +1,4 @@
+#include "render/scattered.h"
 #include "render/software_pixels.h"
 #include "render/splats.h"
 
@@ -36,13 +37,15 @@ struct Group {
     }
 };
 
-// What is seen of a range of points.
+// What is seen of a chunk.
 struct Batch {
-    std::size_t first = 0, count = 0; // of the splats
-    float top = 0, bottom = 0;        // the rows that they reach
-    std::array<Group, points_in_chunk / splats_in_group> groups;
+    std::span<const std::uint16_t> slots; // that belong to the subset
+    std::size_t first = 0, count = 0;     // of the splats
+    std::size_t first_group = 0;
+    float top = 0, bottom = 0; // the rows that they reach
 };
 
+// In every chunk in scattered order.
 struct Points {
     std::vector<float> positions, normals;
     std::vector<std::uint32_t> tinted;
@@ -85,8 +88,7 @@ bool project(const Points& points, std::size_t i, const SplatView& view, const P
     splat.x = (0.5f + 0.5f * clip.x * part) * width;
     splat.y = (0.5f - 0.5f * clip.y * part) * height;
     const float wider = points.widths.empty() ? 1 : width_of(points.widths[i]);
-    const float diameter =
-        std::clamp(view.fixed + view.by_distance * wider * part, view.smallest, view.largest);
+    const float diameter = diameter_of(view, view.fixed + view.by_distance * wider * part);
     splat.radius = 0.5f * diameter;
     if (!(splat.x > -splat.radius && splat.x < width + splat.radius && splat.y > -splat.radius &&
           splat.y < height + splat.radius))
@@ -198,18 +200,17 @@ public:
     explicit SoftwareSplats(Workers& workers) : workers_(workers) {}
 
     void set_points(std::size_t n) override {
+        last_order_ = scattered_order(n % points_in_chunk);
         points_.positions.resize(3 * n);
         points_.tinted.resize(n);
         points_.widths.clear();
     }
-    void set_positions(std::span<const float> positions) override { copy(positions, points_.positions); }
-    void set_normals(std::span<const float> normals) override { copy(normals, points_.normals); }
-    void set_widths(std::span<const std::uint8_t> widths) override {
-        points_.widths.assign(widths.begin(), widths.end());
+    void set_positions(std::span<const float> positions) override {
+        scatter<3>(positions, points_.positions);
     }
-    void set_tinted(std::span<const std::uint32_t> tinted) override {
-        points_.tinted.assign(tinted.begin(), tinted.end());
-    }
+    void set_normals(std::span<const float> normals) override { scatter<3>(normals, points_.normals); }
+    void set_widths(std::span<const std::uint8_t> widths) override { scatter<1>(widths, points_.widths); }
+    void set_tinted(std::span<const std::uint32_t> tinted) override { scatter<1>(tinted, points_.tinted); }
 
     // The result does not depend on the number of threads: every band of rows belongs to one, who draws all
     // splats in their order.
@@ -217,9 +218,7 @@ public:
                      const SplatView& view, Layer& /*layer*/, bool clear) override {
         if (clear) clear_pixels(view.viewport);
         const std::size_t drawn = make_room(ranges, subset, stride);
-        workers_.for_each(ranges.size(), 4, [&](std::size_t r) {
-            see(ranges[r], elements_of(ranges[r], subset, stride), subset, stride, view, batches_[r]);
-        });
+        workers_.for_each(ranges.size(), 4, [&](std::size_t r) { see(ranges[r].first, view, batches_[r]); });
         const auto bands = static_cast<std::size_t>((pixels_.height + rows_in_band - 1) / rows_in_band);
         workers_.for_each(bands, 1,
                           [&](std::size_t band) { draw_band(static_cast<int>(band) * rows_in_band); });
@@ -243,10 +242,20 @@ public:
     bool by_processor() const override { return true; }
 
 private:
-    void copy(std::span<const float> from, std::vector<float>& to) {
+    std::span<const std::uint16_t> order_of(std::size_t chunk, std::size_t points) const {
+        return (chunk + 1) * points_in_chunk <= points ? order_ : last_order_;
+    }
+
+    // `size` numbers a point.
+    template<std::size_t size, typename Number>
+    void scatter(std::span<const Number> from, std::vector<Number>& to) {
         to.resize(from.size());
-        workers_.for_chunks(from.size(), std::size_t{1} << 16U, [&](std::size_t begin, std::size_t end) {
-            std::copy(from.data() + begin, from.data() + end, to.data() + begin);
+        const std::size_t points = from.size() / size;
+        workers_.for_each((points + points_in_chunk - 1) / points_in_chunk, 16, [&](std::size_t chunk) {
+            const Number* const own = from.data() + size * chunk * points_in_chunk;
+            Number* next = to.data() + size * chunk * points_in_chunk;
+            for (const std::uint16_t place : order_of(chunk, points))
+                for (std::size_t i = 0; i < size; ++i) *next++ = own[size * place + i];
         });
     }
 
@@ -262,36 +271,47 @@ private:
         });
     }
 
-    // Room for a splat of every point; returns how many.
+    // Room for a splat of every point of the subset; returns how many.
     std::size_t make_room(std::span<const PointRange> ranges, std::size_t subset, std::size_t stride) {
+        const PartOfChunk own = part_of_chunk(subset, stride);
+        slots_ = slots_of_part(order_, own.part, own.parts);
+        last_slots_ = slots_of_part(last_order_, own.part, own.parts);
         batches_.resize(ranges.size());
-        std::size_t room = 0;
+        std::size_t room = 0, groups = 0;
         for (std::size_t r = 0; r < ranges.size(); ++r) {
-            const Elements elements = elements_of(ranges[r], subset, stride);
-            batches_[r].first = room;
-            room += elements.end - elements.first;
+            Batch& batch = batches_[r];
+            const bool whole = ranges[r].end - ranges[r].first == points_in_chunk;
+            batch.slots = whole ? slots_ : last_slots_;
+            if (ranges[r].first / points_in_chunk % own.step != own.rest) batch.slots = {};
+            batch.first = room;
+            batch.first_group = groups;
+            room += batch.slots.size();
+            groups += (batch.slots.size() + splats_in_group - 1) / splats_in_group;
         }
         if (splats_.size() < room) splats_.resize(room);
+        groups_.resize(groups);
         return room;
     }
 
-    void see(const PointRange& range, const Elements& elements, std::size_t subset, std::size_t stride,
-             const SplatView& view, Batch& batch) {
-        const std::span<Splat> seen(splats_.data() + batch.first, elements.end - elements.first);
+    void see(std::size_t first_point, const SplatView& view, Batch& batch) {
+        Splat* const seen = splats_.data() + batch.first;
         batch.count = 0;
-        batch.groups.fill({});
-        for (std::size_t i = subset + elements.first * stride; i < range.end; i += stride) {
-            Splat& next = seen[batch.count];
-            if (!project(points_, i, view, pixels_, next)) continue;
-            batch.groups[batch.count / splats_in_group].add(next);
-            ++batch.count;
-        }
         batch.top = static_cast<float>(pixels_.height);
         batch.bottom = 0;
-        for (const Group& group : batch.groups) {
+        Group group;
+        const auto finish_group = [&] {
+            groups_[batch.first_group + (batch.count - 1) / splats_in_group] = group;
             batch.top = std::min(batch.top, group.top);
             batch.bottom = std::max(batch.bottom, group.bottom);
+            group = {};
+        };
+        for (const std::uint16_t slot : batch.slots) {
+            Splat& next = seen[batch.count];
+            if (!project(points_, first_point + slot, view, pixels_, next)) continue;
+            group.add(next);
+            if (++batch.count % splats_in_group == 0) finish_group();
         }
+        if (batch.count % splats_in_group != 0) finish_group();
     }
 
     void draw_band(int first) {
@@ -301,17 +321,22 @@ private:
             const std::span<const Splat> splats(splats_.data() + batch.first, batch.count);
             for (std::size_t s = 0; s < splats.size(); s += splats_in_group) {
                 const std::size_t count = std::min(splats_in_group, splats.size() - s);
-                draw_group(batch.groups[s / splats_in_group], splats.subspan(s, count), first, end, pixels_);
+                draw_group(groups_[batch.first_group + s / splats_in_group], splats.subspan(s, count), first,
+                           end, pixels_);
             }
         }
     }
 
     Workers& workers_;
+    const std::vector<std::uint16_t> order_ = scattered_order(points_in_chunk);
+    std::vector<std::uint16_t> last_order_; // of the last chunk, if that is smaller
     Points points_;
     Pixels pixels_;
     SoftwareScreen screen_;
+    std::vector<std::uint16_t> slots_, last_slots_; // of a chunk that are drawn
     std::vector<Splat> splats_;
     std::vector<Batch> batches_;
+    std::vector<Group> groups_;
 };
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "render/screen_pass.h"
 #include "render/software_lines.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -17,6 +18,8 @@ struct SplatView {
     Viewport viewport;
     glm::mat4 to_clip{1.0f};
     float fixed = 0, by_distance = 0; // diameter in pixels: fixed + by_distance / w
+    // That is of a subset's splats, which grew: to so many pixels, and beyond keep only a part of it.
+    float grown_to = 0, grown = 1;
     float smallest = 1, largest = 64; // pixels
     float widest = 64;                // no splat in view is wider
     float curved = 8;                 // beyond that they are curved, and part between their middles
@@ -25,6 +28,12 @@ struct SplatView {
     glm::vec3 key{0, 0, 1};           // towards the light
     bool shaded = false;              // by the normals
 };
+
+// The diameter of a splat, from what it would be with all its growth.
+inline float diameter_of(const SplatView& view, float full) {
+    return std::clamp(std::min(full, std::max(view.grown_to, view.grown * full)), view.smallest,
+                      view.largest);
+}
 
 // Lines over the points.
 struct Overlay {
@@ -45,8 +54,8 @@ public:
     virtual void set_widths(std::span<const std::uint8_t> widths) = 0;
     virtual void set_tinted(std::span<const std::uint32_t> tinted) = 0;
 
-    // Draws points subset, subset + stride, … of these ranges into the layer, over what is there, or first
-    // clears it. Returns how many.
+    // Draws one of `stride` subsets of these ranges, a chunk each, into the layer, over what is there, or
+    // first clears it. Every subset is spread evenly, and together they are all points. Returns how many.
     virtual std::size_t draw(std::span<const PointRange> ranges, std::size_t subset, std::size_t stride,
                              const SplatView& view, Layer& layer, bool clear) = 0;
 

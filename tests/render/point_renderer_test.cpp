@@ -1,4 +1,5 @@
 #include "headless_scene.h"
+#include "render/splats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -181,6 +182,51 @@ TEST_P(Drawing, a_budget_is_kept_and_the_rest_follows) {
         EXPECT_EQ(renderer->draw(camera, screen, look, 3000, to).drawn, 0U);
         EXPECT_EQ(read(screen), at_once);
     }
+}
+
+// The even bits of a number, pushed together.
+unsigned even_bits(unsigned number) {
+    unsigned result = 0;
+    for (unsigned bit = 0; bit < 16; ++bit) result |= (number >> 2 * bit & 1U) << bit;
+    return result;
+}
+
+TEST_P(Drawing, a_few_points_of_a_dense_surface_close_it) {
+    constexpr unsigned side = 512; // of a square, along the curve that the pipeline's order follows
+    constexpr std::size_t n = std::size_t{side} * side;
+    std::vector<float> positions;
+    for (unsigned i = 0; i < n; ++i) {
+        const auto place = [](unsigned along) { return static_cast<float>(2 * along) / side - 1; };
+        positions.insert(positions.end(), {place(even_bits(i)), place(even_bits(i >> 1U)), 0});
+    }
+    renderer->set_points(n, 2.0 / side);
+    renderer->set_positions(positions);
+    renderer->set_colors(std::vector(n, rgba(255, 255, 255)));
+    flat.size_by_distance = true;
+    Camera camera = some_camera(true);
+    look_at_side(camera, Side::top);
+    for (const std::size_t budget : {n / 10, n / 40, n / 80}) {
+        camera.distance *= 1.001; // another picture
+        const GLuint to = target(screen);
+        EXPECT_LE(renderer->draw(camera, screen, flat, budget, to).drawn, budget);
+        const std::vector<Pixel> pixels = read(screen);
+        std::size_t holes = 0;
+        for (int y = 80; y < 120; ++y)
+            for (int x = 140; x < 180; ++x) holes += at(pixels, screen, {x, y}) == black ? 1 : 0;
+        EXPECT_LE(holes, 16U) << budget << ": one in a hundred";
+    }
+}
+
+TEST(Splats, WhatGrewBeyondAFewPixelsKeepsAPartOfIt) {
+    SplatView view;
+    view.grown_to = 5;
+    view.grown = 0.5F;
+    EXPECT_FLOAT_EQ(diameter_of(view, 0.3F), 1) << "the smallest";
+    EXPECT_FLOAT_EQ(diameter_of(view, 3), 3);
+    EXPECT_FLOAT_EQ(diameter_of(view, 8), 5);
+    EXPECT_FLOAT_EQ(diameter_of(view, 20), 10);
+    EXPECT_FLOAT_EQ(diameter_of(view, 1000), 64) << "the largest";
+    EXPECT_FLOAT_EQ(diameter_of(SplatView{}, 20), 20) << "nothing grew";
 }
 
 TEST_P(Drawing, any_change_starts_again) {

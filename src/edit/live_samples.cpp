@@ -1,0 +1,102 @@
+// How the document's thread chooses the number of samples by itself.
+
+#include "edit/live_work.h"
+
+#include <algorithm>
+
+namespace knead {
+
+namespace {
+
+// Frames that are tried where no drag has been measured yet; the first, which meets cold memory, and a kernel
+// that was never run, does not count.
+constexpr int tried_frames = 4;
+
+// A drag of fewer frames than this says nothing about the machine.
+constexpr std::size_t telling_frames = 3;
+
+// From so many samples on, how far apart the handles are is not asked.
+constexpr std::size_t most_looked_at = 100'000;
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+} // namespace
+
+void LiveWork::carry_out(task::ChooseSamples& task) {
+    choosing_ = task.by_itself;
+    publish_view();
+}
+
+// A frame's start costs about what an iteration does.
+SampleNeeds LiveWork::sample_needs() const {
+    const PointOrder& order = document_->pipeline().order();
+    SampleNeeds needs{order.vertices(), spread_, cost_};
+    if (needs.cost)
+        needs.cost->solving *= (1.0 + document_->settings().iterations) / (1.0 + cost_iterations_);
+    return needs;
+}
+
+// After the stages are prepared. What is chosen is part of the act that led to it, and undone with it.
+void LiveWork::choose_samples() {
+    look_at_handles();
+    const bool now = choosing_ && may_choose_ && !document_->is_posed() && recording_->can_undo();
+    if (!now) return;
+    if (!cost_) measure_frame();
+    may_choose_ = false;
+    const auto samples = choose_samples_again(sample_needs(), document_->settings().samples).samples;
+    if (samples == document_->settings().samples) return;
+    SettingsChange change;
+    change.samples = samples;
+    document_->change_settings(change, "");
+    record([&] { recording_->add_to_last(SetLine{change}); });
+    ahead_ = true;
+}
+
+void LiveWork::look_at_handles() {
+    const Pipeline& pipeline = document_->pipeline();
+    spread_ = {};
+    if (document_->handles().empty() || pipeline.samples().size() > most_looked_at) return;
+    spread_ =
+        spread_of(pipeline.labels(), pipeline.graph(), pipeline.samples(), pipeline.sample_graph().graph);
+}
+
+// A handle that is dragged to where it is, and never was.
+void LiveWork::measure_frame() {
+    const auto& handles = document_->handles();
+    const auto moving = std::ranges::find(handles, HandleRole::moving, &Handle::role);
+    if (moving == handles.end()) return;
+    std::vector<double> solving, upsampling;
+    document_->begin_drag(moving->name, Vec3d::Zero(), "", progress_);
+    try {
+        const auto undisturbed = [&] {
+            return shared_.with([](const LiveShared& s) { return s.inbox.empty() && !s.stop; });
+        };
+        for (int frame = 0; frame < tried_frames && undisturbed(); ++frame) {
+            const Stopwatch clock;
+            document_->drag_frame({}, "", progress_);
+            const double upsample = document_->log().upsample.back();
+            if (frame == 0) continue;
+            upsampling.push_back(upsample);
+            solving.push_back(clock.seconds() - upsample);
+        }
+    } catch (...) {
+        document_->abandon();
+        throw;
+    }
+    document_->abandon();
+    learn_cost(std::move(solving), std::move(upsampling));
+}
+
+void LiveWork::learn_cost(std::vector<double> solving, std::vector<double> upsampling) {
+    if (solving.size() < telling_frames) return;
+    const std::uint64_t points = document_->pipeline().order().vertices();
+    const std::uint64_t samples = std::min(document_->settings().samples.value_or(points), points);
+    cost_ = FrameCost{samples, median(std::move(solving)), median(std::move(upsampling))};
+    cost_iterations_ = document_->settings().iterations;
+}
+
+} // namespace knead

@@ -23,7 +23,13 @@ public:
             for (const Item& item : block) visit(item);
     }
 
-    // The same, and forgets and frees them on the way.
+    // All of them, as the threads handed them over.
+    std::vector<std::vector<Item>> take_blocks() {
+        size_ = 0;
+        return std::exchange(blocks_, {});
+    }
+
+    // Calls visit(item) for all of them, and forgets and frees them on the way.
     template<typename Visit>
     void take(Visit&& visit) {
         for (std::vector<Item>& block : blocks_)

@@ -210,8 +210,8 @@ void Pipeline::label_vertices() {
     held_component_ = std::move(held);
     strays_ = {};
     strays_.parts = static_cast<std::size_t>(std::ranges::count(held_component_, false));
-    for (const Index vertex : order_.vertex)
-        if (!held_component_[components_->component[vertex]]) ++strays_.points;
+    for (std::size_t i = 0; i < order_.points(); ++i)
+        if (!held_component_[components_->component[order_.vertex[i]]]) ++strays_.points;
 }
 
 void Pipeline::prepare_influences() {

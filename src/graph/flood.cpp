@@ -125,12 +125,7 @@ public:
     }
 
     // Hands over the rows as they were before.
-    std::vector<Old> take_old_rows() {
-        std::vector<Old> rows;
-        rows.reserve(old_rows_.size());
-        old_rows_.take([&](const Old& old) { rows.push_back(old); });
-        return rows;
-    }
+    OldRows<Places> take_old_rows() { return old_rows_.take_blocks(); }
 
 private:
     // What arrives at a tile.
@@ -229,8 +224,9 @@ auto flooded(const Graph& graph, std::span<const std::uint8_t> lengths, std::spa
 
 // Puts old rows back.
 template<typename Places>
-void put_back(const std::vector<OldRow<Places>>& old_rows, std::vector<Places>& rows) {
-    for (const OldRow<Places>& old : old_rows) rows[old.vertex] = {old.sample, old.distance};
+void put_back(const OldRows<Places>& blocks, std::vector<Places>& rows) {
+    for (const auto& block : blocks)
+        for (const OldRow<Places>& old : block) rows[old.vertex] = {old.sample, old.distance};
 }
 
 double length_of(const Graph& graph, std::span<const float> positions, std::size_t v, std::size_t link) {
@@ -295,10 +291,6 @@ std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t>
         });
 }
 
-std::size_t FloodPatch::size() const {
-    return std::visit([](const auto& kind) { return kind.size(); }, rows);
-}
-
 FloodPatch add_samples(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
                        std::span<const Index> added, Index first_new, Workers& workers, Progress& progress) {
     auto* narrow = std::get_if<std::vector<NarrowRow>>(&nearest.rows);
@@ -317,11 +309,9 @@ FloodPatch add_samples(InfluenceRows& nearest, const Graph& graph, std::span<con
 }
 
 void revert(InfluenceRows& nearest, const FloodPatch& patch) {
-    require(nearest.rows.index() == patch.rows.index(), "a patch belongs to the rows that it was made of");
+    require(nearest.rows.index() == patch.blocks.index(), "a patch belongs to the rows that it was made of");
     std::visit(
-        [&]<typename Row>(std::vector<Row>& rows) {
-            put_back(std::get<std::vector<OldRow<Row>>>(patch.rows), rows);
-        },
+        [&]<typename Row>(std::vector<Row>& rows) { put_back(std::get<OldRows<Row>>(patch.blocks), rows); },
         nearest.rows);
 }
 

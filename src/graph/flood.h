@@ -46,17 +46,19 @@ InfluenceRows flood(const Graph& graph, std::span<const std::uint8_t> lengths, s
 std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t> lengths,
                                std::span<const Index> samples, Workers& workers, Progress& progress);
 
-// What add_samples() changed: whole rows as they were before, each vertex once, in no particular order.
+// What add_samples() changed: whole rows as they were before, each vertex once, in no particular order, block
+// after block: these are many, and to put them into one array would need room for both.
 template<typename Row>
 struct OldRow {
     Index vertex;
     decltype(Row::sample) sample; // not a Row, which would be padded here
     decltype(Row::distance) distance;
 };
-struct FloodPatch {
-    std::variant<std::vector<OldRow<NarrowRow>>, std::vector<OldRow<WideRow>>> rows;
+template<typename Row>
+using OldRows = std::vector<std::vector<OldRow<Row>>>;
 
-    std::size_t size() const;
+struct FloodPatch {
+    std::variant<OldRows<NarrowRow>, OldRows<WideRow>> blocks;
 };
 
 // Adds the samples number first_new, first_new + 1, … at the vertices `added`, which hold no sample yet, as

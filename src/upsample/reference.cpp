@@ -6,6 +6,7 @@
 #include <cfloat>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 namespace knead {
@@ -37,8 +38,11 @@ Vector cross(Vector a, Vector b) {
 }
 
 // Four floats that the compiler keeps in one vector register (GCC and Clang, any processor). Left to itself
-// it does not find them in the loop below, which is most of the work.
+// it does not find them in the loops below, which are most of the work.
 using Four = float __attribute__((vector_size(16)));
+using Eight = float __attribute__((vector_size(32)));
+using EightNarrow = std::uint16_t __attribute__((vector_size(16)));
+using EightWide = std::uint32_t __attribute__((vector_size(32)));
 
 Four load_four(const float* from) {
     Four four;
@@ -81,20 +85,19 @@ Blend blended(const SampleRow<Number>& row, InfluenceWeights weights, const floa
     const Number nearest = row.distance.front(), farthest = row.distance.back();
     if (row.sample.back() == row.none || nearest == 0 || nearest == farthest)
         return rarely_blended(row, weights, motions);
-    // weights_of() a row without exceptions, in a form that compilers turn into vectors.
-    std::array<float, influences_per_row> weight;
+    // weights_of() a row without exceptions, all places at once.
+    using Numbers = std::conditional_t<sizeof(Number) == 2, EightNarrow, EightWide>;
+    Numbers distance;
+    std::memcpy(&distance, row.distance.data(), sizeof distance);
     const bool paper = weights == InfluenceWeights::paper;
-    for (std::size_t k = 0; k < weight.size(); ++k)
-        weight[k] =
-            static_cast<float>(paper ? row.distance[k] : static_cast<Number>(farthest - row.distance[k]));
-    for (float& w : weight) w *= w;
-    if (paper)
-        for (float& w : weight) w = 1.0F / w;
+    Eight weight = __builtin_convertvector(paper ? distance : farthest - distance, Eight);
+    weight *= weight;
+    if (paper) weight = 1.0F / weight;
     const Blend first = one_motion(motions + packed_motion_floats * row.sample[0]);
     Blend sum = {weight[0] * first.a0, weight[0] * first.a1, weight[0] * first.a2, weight[0] * first.b};
     for (std::size_t k = 1; k < influences_per_row - 1; ++k)
         add(weight[k], motions + packed_motion_floats * row.sample[k], sum);
-    if (paper) add(weight.back(), motions + packed_motion_floats * row.sample.back(), sum);
+    if (paper) add(weight[7], motions + packed_motion_floats * row.sample.back(), sum);
     return sum;
 }
 

@@ -50,7 +50,7 @@ namespace {
 std::vector<float> part_numbers(const Editor& editor) {
     std::vector<float> numbers;
     if (!editor.document->components) return numbers;
-    const std::vector<Index>& vertex = editor.opened.order->vertex;
+    const Numbering& vertex = editor.opened.order->vertex;
     numbers.resize(vertex.size());
     for (std::size_t i = 0; i < vertex.size(); ++i) {
         // Spread over the scale, so that parts next to each other in number differ in colour.

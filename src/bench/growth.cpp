@@ -24,6 +24,14 @@ std::vector<std::size_t> sizes(std::size_t first, std::size_t last) {
     return result;
 }
 
+// The plane as a file with positions and colours has it.
+PointCloud colored_plane(std::size_t points, Workers& workers, Progress& progress) {
+    PointCloud cloud = make_cloud(made_cloud(Shape::plane, points, workers, progress).positions);
+    const std::vector<std::uint8_t> gray(points, 128);
+    for (const char* color : {"red", "green", "blue"}) add_attribute(cloud, color, gray);
+    return cloud;
+}
+
 } // namespace
 
 std::span<const Stage> growth_stages() {
@@ -48,10 +56,8 @@ Growth measure_growth(std::size_t most_points, const Table1Options& options, Pro
         return measure_row(cloud, samples, options, workers, progress, growth.warnings);
     };
     for (const std::size_t points : sizes(fewest_points, most_points))
-        growth.by_points.push_back(
-            measure(made_cloud(Shape::plane, points, workers, progress), samples_by_points));
-    const PointCloud cloud =
-        made_cloud(Shape::plane, std::min(points_by_samples, most_points), workers, progress);
+        growth.by_points.push_back(measure(colored_plane(points, workers, progress), samples_by_points));
+    const PointCloud cloud = colored_plane(std::min(points_by_samples, most_points), workers, progress);
     for (const std::size_t samples : sizes(fewest_samples, std::min(most_samples, cloud.size() / 10)))
         growth.by_samples.push_back(measure(cloud, samples));
     return growth;

@@ -1,5 +1,6 @@
 #pragma once
-// How the stages grow with the number of points and of samples, on the plane.
+// How the stages, and the memory that they take, grow with the number of points and of samples: on the plane,
+// with a colour at every point and no normals.
 
 #include "bench/table1.h"
 

@@ -12,10 +12,10 @@ void add_rows(std::span<const RowFigures> rows, std::size_t RowFigures::*size, T
     for (const RowFigures& row : rows) {
         std::vector<std::string> line{count_text(row.points), count_text(row.samples)};
         for (const Stage& stage : growth_stages()) line.push_back(duration_text((row.*stage.seconds).median));
-        line.push_back(
-            row.memory == 0
-                ? unknown_text
-                : digits_text(static_cast<double>(row.memory) / static_cast<double>(row.points), 0));
+        for (const std::uint64_t memory : {row.memory_held, row.memory_peak})
+            line.push_back(
+                memory == 0 ? unknown_text
+                            : digits_text(static_cast<double>(memory) / static_cast<double>(row.points), 0));
         table.push_back(line);
     }
     std::vector<std::string> exponents{"exponent", ""};
@@ -38,7 +38,8 @@ ReportJson json_of(std::span<const RowFigures> rows, std::size_t RowFigures::*si
         json["rows"].push_back({{"points", row.points},
                                 {"samples", row.samples},
                                 {"seconds", seconds},
-                                {"memory_bytes", row.memory}});
+                                {"held_bytes", row.memory_held},
+                                {"peak_bytes", row.memory_peak}});
     }
     for (const Stage& stage : growth_stages()) {
         const std::optional<double> exponent = fitted_exponent(rows, size, stage);
@@ -52,13 +53,14 @@ ReportJson json_of(std::span<const RowFigures> rows, std::size_t RowFigures::*si
 std::string growth_text(const Growth& growth) {
     std::vector<std::string> heading{"points", "samples"};
     for (const Stage& stage : growth_stages()) heading.emplace_back(stage.name);
-    heading.emplace_back("bytes a point");
+    for (const char* name : {"B/point", "at most"}) heading.emplace_back(name);
     TextTable table{
         {machine_text(growth.machine)},
         {std::to_string(growth.threads) + (growth.threads == 1 ? " thread" : " threads") + " and " +
          growth.device},
-        {"Bytes a point: what the set-up held at most, beyond the cloud. Exponent: of the power law that "
-         "fits best."},
+        {"B/point: bytes a point that set-up and frames hold, and held at most, beyond the file's own bytes. "
+         "Exponent: of the"},
+        {"power law that fits best."},
         {""},
         heading};
     add_rows(growth.by_points, &RowFigures::points, table);

@@ -43,13 +43,13 @@ std::vector<PageLine> sample_lines(const Pipeline& pipeline, std::span<const flo
 
 // How much of each point's motion is this sample's; n.
 std::vector<float> influence_of(const Pipeline& pipeline, Index sample) {
-    const InfluenceRows& rows = pipeline.influences();
     std::vector<float> values;
-    for (const Index v : pipeline.order().vertex) {
+    for (std::size_t i = 0; i < pipeline.order().points(); ++i) {
+        const Index v = pipeline.order().vertex[i];
+        const Influence influence = pipeline.influence(v);
         float value = 0;
-        for (std::size_t k = 0; k < influences_per_row; ++k)
-            if (rows.sample[v * influences_per_row + k] == sample)
-                value += rows.weight[v * influences_per_row + k];
+        for (std::size_t k = 0; k < influence.count; ++k)
+            if (influence.motion[k] == sample) value += influence.weight[k];
         values.push_back(pipeline.labels().vertex[v] == no_index ? value : 0);
     }
     return values;

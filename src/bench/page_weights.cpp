@@ -36,7 +36,8 @@ std::vector<float> stretches(const PageShape& shape) {
         if (!row.empty()) of_vertex[v] = static_cast<float>(sum / static_cast<double>(row.size()));
     }
     std::vector<float> values;
-    for (const Index v : shape.order->vertex) values.push_back(of_vertex[v]);
+    for (std::size_t i = 0; i < shape.order->points(); ++i)
+        values.push_back(of_vertex[shape.order->vertex[i]]);
     return values;
 }
 

@@ -32,7 +32,8 @@ std::vector<bool> held_points(const Pipeline& pipeline) {
     for (std::size_t v = 0; v < components.component.size(); ++v)
         if (pipeline.labels().vertex[v] != no_index) held[components.component[v]] = true;
     std::vector<bool> result;
-    for (const Index vertex : pipeline.order().vertex) result.push_back(held[components.component[vertex]]);
+    const Numbering& vertex = pipeline.order().vertex;
+    for (std::size_t i = 0; i < vertex.size(); ++i) result.push_back(held[components.component[vertex[i]]]);
     return result;
 }
 

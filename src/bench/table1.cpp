@@ -58,19 +58,39 @@ BendingPipelineInput bending_input(const PointCloud& cloud, std::size_t samples)
     return result;
 }
 
-// The set-up, again and again from nothing. Leaves `pipeline` prepared.
+// How much memory was taken since it was made.
+class MemoryTaken {
+public:
+    std::uint64_t held() const { return since(resident_memory()); }
+    std::uint64_t peak() const { return since(peak_memory()); }
+
+private:
+    std::uint64_t since(std::uint64_t now) const { return is_known_ ? now - std::min(before_, now) : 0; }
+
+    bool is_known_ = forget_peak_memory();
+    std::uint64_t before_ = resident_memory();
+};
+
+// What a row holds without its pipeline having any part in it.
+std::uint64_t bytes_beside_pipeline(const PointCloud& cloud, const PipelineInput& input) {
+    std::uint64_t bytes = cloud.positions.size() * sizeof(float);
+    for (const Handle& handle : input.handles) bytes += handle.points->size() * sizeof(Index);
+    return bytes;
+}
+
+// The set-up, again and again from nothing. Leaves `pipeline` prepared, and `memory` from before any of that
+// was there.
 void measure_set_up(const PointCloud& cloud, const PipelineInput& input, std::size_t repeats,
                     UpsamplerProbe& probe, Workers& workers, Progress& progress,
-                    std::unique_ptr<Pipeline>& pipeline, RowFigures& figures) {
+                    std::unique_ptr<Pipeline>& pipeline, std::optional<MemoryTaken>& memory,
+                    RowFigures& figures) {
     std::vector<double> order, neighbors, sampling, geodesic, set_up, factorize;
     for (std::size_t r = 0; r <= repeats; ++r) {
         pipeline.reset();
         const bool warms_up = r == 0;
-        const bool counts = warms_up && forget_peak_memory();
-        const std::uint64_t before = resident_memory();
+        if (r == 1) memory.emplace(); // the device is open by now
         pipeline = std::make_unique<Pipeline>(cloud, workers, probe);
         pipeline->prepare(input, progress);
-        if (counts) figures.memory = peak_memory() - std::min(before, peak_memory());
         if (warms_up) continue;
         const StageSeconds& seconds = pipeline->seconds();
         order.push_back(seconds.order);
@@ -161,11 +181,16 @@ RowFigures measure_with(UpsamplerProbe& probe, const PointCloud& cloud, std::siz
     const BendingPipelineInput bending = bending_input(cloud, samples);
     RowFigures figures;
     std::unique_ptr<Pipeline> pipeline;
-    measure_set_up(cloud, bending.input, repeats, probe, workers, progress, pipeline, figures);
+    std::optional<MemoryTaken> memory;
+    measure_set_up(cloud, bending.input, repeats, probe, workers, progress, pipeline, memory, figures);
     figures.points = cloud.size();
     figures.vertices = pipeline->order().vertices();
     figures.samples = pipeline->samples().size();
     measure_frames(cloud, bending, *pipeline, progress, figures);
+    if (memory && memory->peak() > 0) {
+        figures.memory_held = memory->held() + bytes_beside_pipeline(cloud, bending.input);
+        figures.memory_peak = memory->peak() + bytes_beside_pipeline(cloud, bending.input);
+    }
     figures.upsampling = compare_upsamplers(probe, workers, progress);
     return figures;
 }

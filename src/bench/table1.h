@@ -67,8 +67,10 @@ struct RowFigures {
     Summary solve;    // an iteration: local step, assembly, both solves
     Summary upsample; // a frame: the samples' motions made and all points moved
     UpsampleFigures upsampling;
-    std::uint64_t memory =
-        0; // bytes that the set-up held at most, beyond the cloud; 0 where that is not known
+    // Bytes that set-up and frames hold in the end, and held at most, beyond the file's own: the pipeline,
+    // the handles, and the positions that are computed with; not the cloud's columns, nor the program and its
+    // device, which are there already. 0 where that is not known.
+    std::uint64_t memory_held = 0, memory_peak = 0;
 };
 
 // Sets the cloud up afresh `repeats` times, then bends it by 30° in as many frames with automatic_handles().

@@ -16,8 +16,8 @@ void UpsamplerProbe::run(std::span<const Motion> motions, std::span<float> posit
 
 std::size_t bytes_a_frame(const UpsampleInput& input) {
     const std::size_t floats = 2 * (input.positions.size() + input.normals.size());
-    const std::size_t row_bytes = influences_per_row * (sizeof(Index) + sizeof(float));
-    return floats * sizeof(float) + input.row.size_bytes() + input.rows->size() * row_bytes;
+    const std::size_t row_bytes = input.rows->are_wide() ? sizeof(WideRow) : sizeof(NarrowRow);
+    return floats * sizeof(float) + input.mover.size_bytes() + input.rows->size() * row_bytes;
 }
 
 } // namespace knead

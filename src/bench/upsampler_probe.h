@@ -31,9 +31,9 @@ private:
     std::vector<Motion> motions_;
 };
 
-// The fewest bytes that a frame moves: each point's rest position and number of its row in, its position out,
-// normals in and out where there are any, and the row of each distinct vertex in, a number and a weight for
-// each of its influences. The motions stay in cache.
+// The fewest bytes that a frame moves: each point's rest position and the number of what moves it in, its
+// position out, normals in and out where there are any, and the row of each distinct vertex in, a sample and
+// a distance for each of its influences. The motions stay in cache.
 std::size_t bytes_a_frame(const UpsampleInput& input);
 
 } // namespace knead

@@ -86,7 +86,7 @@ void count_components(const PointCloud& cloud, Progress& progress, Facts& facts)
     const std::vector<float> positions = vertex_positions(order, ordered, workers);
     const auto largest = [&](const Components& components) {
         std::vector<std::size_t> points(components.size.size());
-        for (const Index vertex : order.vertex) ++points[components.component[vertex]];
+        for (std::size_t i = 0; i < order.points(); ++i) ++points[components.component[order.vertex[i]]];
         return *std::ranges::max_element(points);
     };
     Stopwatch clock;

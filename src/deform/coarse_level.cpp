@@ -27,8 +27,6 @@ constexpr int most_iterations = 12;
 // An iteration may go so much as far as the one before.
 constexpr double helps = 0.8;
 
-constexpr std::size_t width = influences_per_row;
-
 // The samples and their graph in the order of the Morton curve: floods go through near memory then, which
 // samples in their own scrambled order are not.
 struct OrderedSamples {
@@ -98,30 +96,14 @@ std::vector<Index> choose(const Graph& graph, std::span<const Index> handle, con
     return shuffled(std::move(chosen));
 }
 
-// (1 - d/d_max)² of each, as points follow samples.
-void find_followed(const OrderedSamples& ordered, std::span<const NearestSamples> nearest,
-                   CoarseSamples& coarse) {
-    coarse.around.assign(width * nearest.size(), 0);
-    coarse.weight.assign(width * nearest.size(), 0);
+// As points follow samples.
+void find_followed(const OrderedSamples& ordered, const InfluenceRows& nearest, CoarseSamples& coarse) {
+    coarse.followed.resize(nearest.size());
     coarse.nearest.resize(nearest.size());
-    for (std::size_t at = 0; at < nearest.size(); ++at) {
-        const NearestSamples& row = nearest[at];
-        const std::size_t count = row.count();
-        coarse.nearest[ordered.sample[at]] = row.sample[0];
-        if (count == 0) continue;
-        const double farthest = row.distance[count - 1];
-        double raw[width] = {};
-        double sum = 0;
-        for (std::size_t k = 0; k < count; ++k) {
-            const double nearness = farthest > 0 ? 1 - row.distance[k] / farthest : 1;
-            sum += raw[k] = row.distance[0] == 0 ? (k == 0 ? 1 : 0) : nearness * nearness;
-        }
-        const std::size_t first = width * ordered.sample[at];
-        for (std::size_t k = 0; k < count; ++k) {
-            coarse.around[first + k] = row.sample[k];
-            coarse.weight[first + k] =
-                static_cast<float>(sum > 0 ? raw[k] / sum : 1 / static_cast<double>(count));
-        }
+    for (Index at = 0; at < nearest.size(); ++at) {
+        const Index s = ordered.sample[at];
+        coarse.followed[s] = influence_of(nearest, InfluenceWeights::smooth, at);
+        coarse.nearest[s] = coarse.followed[s].count > 0 ? coarse.followed[s].motion[0] : no_index;
     }
 }
 
@@ -214,12 +196,12 @@ void follow_coarse(const SampleSystem& fine, const CoarseLevel& coarse, SampleSt
         const Index s = fine.free_sample[row];
         Eigen::Matrix<double, 3, 4> motion = Eigen::Matrix<double, 3, 4>::Zero();
         Eigen::Vector4d turn = Eigen::Vector4d::Zero();
-        for (std::size_t k = width * s; k < width * (s + 1) && coarse.samples.weight[k] > 0; ++k) {
-            const Index c = coarse.samples.around[k];
-            motion += static_cast<double>(coarse.samples.weight[k]) * coarse.motion[c];
+        const Influence& followed = coarse.samples.followed[s];
+        for (std::size_t k = 0; k < followed.count; ++k) {
+            const Index c = followed.motion[k];
+            motion += static_cast<double>(followed.weight[k]) * coarse.motion[c];
             const Quatd one = coarse.state.rotation[c] * coarse.turned[c].conjugate();
-            turn +=
-                static_cast<double>(coarse.samples.weight[k]) * std::copysign(1.0, one.w()) * one.coeffs();
+            turn += static_cast<double>(followed.weight[k]) * std::copysign(1.0, one.w()) * one.coeffs();
         }
         if (!(turn.norm() > 1e-6)) return; // nothing is around it
         const Vec3d at = fine.rest.position[s] + state.displacement[s];
@@ -242,7 +224,7 @@ CoarseSamples coarse_samples(const Graph& graph, std::span<const Vec3d> position
     CoarseSamples result;
     for (const Index at : chosen) result.sample.push_back(places.sample[at]);
     SilentProgress progress;
-    const std::vector<NearestSamples> nearest = flood(places.graph, lengths, chosen, workers, progress);
+    const InfluenceRows nearest = flood(places.graph, lengths, chosen, workers, progress);
     find_followed(places, nearest, result);
     result.between = sample_graph(nearest, chosen, places.graph, workers);
     return result;

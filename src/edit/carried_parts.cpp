@@ -77,7 +77,8 @@ Contacts find_contacts(std::span<const float> positions, const Components& compo
     return result;
 }
 
-CarriedParts carried_parts(const Contacts& contacts, const InfluenceRows& rows, std::span<const Index> row) {
+CarriedParts carried_parts(const Contacts& contacts, const InfluenceRows& rows, InfluenceWeights weights,
+                           std::span<const Index> mover) {
     CarriedParts result;
     result.first.push_back(0);
     std::vector<std::pair<Index, double>> shares;
@@ -85,10 +86,10 @@ CarriedParts carried_parts(const Contacts& contacts, const InfluenceRows& rows, 
         shares.clear();
         double sum = 0;
         for (Index at = contacts.first[p]; at < contacts.first[p + 1]; ++at) {
-            const std::size_t place = influences_per_row * std::size_t{row[contacts.vertex[at]]};
-            for (std::size_t k = place; k < place + influences_per_row; ++k) {
-                const auto weight = static_cast<double>(rows.weight[k]);
-                if (weight > 0) shares.emplace_back(rows.sample[k], weight);
+            const Influence influence = influence_of(rows, weights, mover[contacts.vertex[at]]);
+            for (std::size_t k = 0; k < influence.count; ++k) {
+                const auto weight = static_cast<double>(influence.weight[k]);
+                if (weight > 0) shares.emplace_back(influence.motion[k], weight);
                 sum += weight;
             }
         }

@@ -41,8 +41,9 @@ struct CarriedParts {
     std::size_t size() const { return anchor.size(); }
 };
 
-// `row`: of each vertex, its row in `rows`. Anchors are left at zero.
-CarriedParts carried_parts(const Contacts& contacts, const InfluenceRows& rows, std::span<const Index> row);
+// `mover`: of each vertex, what moves it, as influence_of() reads it. Anchors are left at zero.
+CarriedParts carried_parts(const Contacts& contacts, const InfluenceRows& rows, InfluenceWeights weights,
+                           std::span<const Index> mover);
 
 // One part's motion, from those of samples and handles. Allocates nothing.
 Motion carried_motion(const CarriedParts& parts, std::size_t part, std::span<const Motion> motions);

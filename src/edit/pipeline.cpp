@@ -106,16 +106,21 @@ void Pipeline::prepare_order(Progress& progress) {
     const std::vector<float> normals = read_normals(cloud_);
     opened.normals.resize(normals.empty() ? 0 : 3 * order_.points());
     if (!normals.empty()) gather(order_, normals, 3, opened.normals, workers_);
-    vertex_positions_ = vertex_positions(order_, opened.positions, workers_);
+    if (order_.vertices() < order_.points())
+        merged_positions_ = knead::vertex_positions(order_, opened.positions, workers_);
     opened_ = std::move(opened);
     seconds_.order += clock.seconds();
+}
+
+std::span<const float> Pipeline::vertex_positions() const {
+    return merged_positions_.empty() ? opened_.positions : merged_positions_;
 }
 
 void Pipeline::prepare_points(Progress& progress) {
     prepare_order(progress);
     const Stopwatch clock;
     neighbors_ = std::make_shared<const Graph>(
-        neighbor_graph(vertex_positions_, input_.settings.neighbors, workers_, progress));
+        neighbor_graph(vertex_positions(), input_.settings.neighbors, workers_, progress));
     seconds_.neighbors += clock.seconds();
 }
 
@@ -124,12 +129,12 @@ void Pipeline::prepare_bridges(Progress& progress) {
     graph_ = neighbors_;
     hanging_.clear();
     if (input_.settings.strays == knead::Strays::bridge) {
-        BridgedGraph joined = bridged(*neighbors_, vertex_positions_, workers_, progress);
+        BridgedGraph joined = bridged(*neighbors_, vertex_positions(), workers_, progress);
         graph_ = std::make_shared<const Graph>(std::move(joined.graph));
         if (joined.outliers > 0) hanging_ = std::move(joined.hanging);
     }
     components_ = std::make_shared<const Components>(find_components(*graph_));
-    link_lengths_ = link_lengths(*graph_, vertex_positions_, workers_);
+    link_lengths_ = link_lengths(*graph_, vertex_positions(), workers_);
     seconds_.neighbors += clock.seconds();
 }
 
@@ -143,8 +148,8 @@ void Pipeline::prepare_samples(Progress& progress) {
     if (!every_point_) {
         if (!hanging_.empty()) std::erase_if(samples_, [&](Index v) { return hanging_[v] != 0; });
         const auto chosen =
-            octree_samples(order_.code, vertex_positions_, samples_, *input_.settings.samples);
-        samples_ = relaxed(shuffled(chosen), *graph_, link_lengths_, vertex_positions_, relaxing_rounds,
+            octree_samples(order_.code, vertex_positions(), samples_, *input_.settings.samples);
+        samples_ = relaxed(shuffled(chosen), *graph_, link_lengths_, vertex_positions(), relaxing_rounds,
                            workers_, progress);
         // A sample that was moved to an outlier goes on to where that hangs: no other sample has it nearest.
         if (!hanging_.empty())
@@ -155,14 +160,14 @@ void Pipeline::prepare_samples(Progress& progress) {
     seconds_.sampling += clock.lap();
 
     handle_flood_.reset();
-    nearest_ = every_point_ ? std::vector<NearestSamples>{}
-                            : flood(*graph_, link_lengths_, samples_, workers_, progress);
+    nearest_ = {}; // before the next are made
+    if (!every_point_) nearest_ = flood(*graph_, link_lengths_, samples_, workers_, progress);
     seconds_.geodesic += clock.lap();
 }
 
 void Pipeline::find_pulled() {
     pulled_ =
-        pulled_samples(input_.handles, labels_.vertex, samples_, *graph_, vertex_positions_, cloud_size_);
+        pulled_samples(input_.handles, labels_.vertex, samples_, *graph_, vertex_positions(), cloud_size_);
 }
 
 void Pipeline::prepare_handles(Progress& progress) {
@@ -180,7 +185,7 @@ void Pipeline::prepare_handles(Progress& progress) {
         seconds_.geodesic += clock.lap();
         return;
     }
-    const VertexShape shape{order_.code, vertex_positions_, *graph_, *components_};
+    const VertexShape shape{order_.code, vertex_positions(), *graph_, *components_};
     const auto budget = static_cast<std::size_t>(handle_share * static_cast<double>(base_samples_));
     const std::vector<Index> added = shuffled(handle_samples(shape, labels_.vertex, samples_, budget));
     samples_.insert(samples_.end(), added.begin(), added.end());
@@ -202,7 +207,7 @@ void Pipeline::choose_coarse_samples() {
     std::vector<Vec3d> position;
     std::vector<Index> handle;
     for (const Index v : samples_) {
-        position.push_back(point_at(vertex_positions_, v));
+        position.push_back(point_at(vertex_positions(), v));
         handle.push_back(labels_.vertex[v]);
     }
     coarse_.samples = coarse_samples(sample_graph_.graph, position, handle, workers_);
@@ -223,58 +228,53 @@ void Pipeline::label_vertices() {
     held_component_ = std::move(held);
     strays_ = {};
     strays_.parts = static_cast<std::size_t>(std::ranges::count(held_component_, false));
-    for (const Index vertex : order_.vertex)
-        if (!held_component_[components_->component[vertex]]) ++strays_.points;
+    for (std::size_t i = 0; i < order_.points(); ++i)
+        if (!held_component_[components_->component[order_.vertex[i]]]) ++strays_.points;
 }
 
 void Pipeline::prepare_influences() {
     Stopwatch clock;
-    rows_ = every_point_ ? own_rows(order_.vertices())
-                         : influence_rows(nearest_, input_.settings.weights, workers_);
-
     // A held point is moved by its handle alone, whatever samples are near, and a point of a stray part by
-    // nothing.
+    // nothing. Where every point is a sample there are no rows, and each is moved by the motion of its own.
     const auto samples = static_cast<Index>(samples_.size());
+    const auto first_motion = static_cast<Index>(nearest_.size());
     const Index outside = labels_.outside;
-    std::vector<Index> row_of_label(outside + 1);
-    for (Index label = 0; label <= outside; ++label)
-        row_of_label[label] = append_single(rows_, samples + label);
-    const auto first_carried = static_cast<Index>(rows_.size());
-    prepare_carried(row_of_label);
-    row_of_point_.resize(order_.points());
+    std::vector<Index> mover_of_label(outside + 1);
+    std::iota(mover_of_label.begin(), mover_of_label.end(), first_motion + samples);
+    const Index first_carried = mover_of_label.back() + 1;
+    prepare_carried(mover_of_label);
+    mover_of_point_.resize(order_.points());
     workers_.for_each(order_.points(), 1 << 14, [&](std::size_t i) {
         const Index vertex = order_.vertex[i];
         const Index component = components_->component[vertex];
         const Index label = labels_.point[i];
-        Index& row = row_of_point_[i];
+        Index& mover = mover_of_point_[i];
         if (label != no_index)
-            row = row_of_label[label];
+            mover = mover_of_label[label];
         else if (held_component_[component])
-            row = vertex;
+            mover = vertex;
         else if (carried_.size() > 0)
-            row = first_carried + contacts_.part[component];
+            mover = first_carried + contacts_.part[component];
         else
-            row = row_of_label[outside];
+            mover = mover_of_label[outside];
     });
     motions_.assign(samples + outside + 1 + carried_.size(), Motion{});
     seconds_.geodesic += clock.lap();
 }
 
-// What carries the parts that hold no handle, and a row for each of them.
-void Pipeline::prepare_carried(std::span<const Index> row_of_label) {
+// What carries the parts that hold no handle.
+void Pipeline::prepare_carried(std::span<const Index> mover_of_label) {
     strays_.fate = input_.settings.strays;
     carried_ = {};
     if (strays_.fate == knead::Strays::freeze || strays_.parts == 0) return;
     if (stale_.contacts)
-        contacts_ = find_contacts(vertex_positions_, *components_, held_component_, workers_);
+        contacts_ = find_contacts(vertex_positions(), *components_, held_component_, workers_);
     stale_.contacts = false;
-    std::vector<Index> row_of_vertex(order_.vertices());
-    for (Index v = 0; v < row_of_vertex.size(); ++v)
-        row_of_vertex[v] = labels_.vertex[v] == no_index ? v : row_of_label[labels_.vertex[v]];
-    carried_ = carried_parts(contacts_, rows_, row_of_vertex);
+    std::vector<Index> mover_of_vertex(order_.vertices());
+    for (Index v = 0; v < mover_of_vertex.size(); ++v)
+        mover_of_vertex[v] = labels_.vertex[v] == no_index ? v : mover_of_label[labels_.vertex[v]];
+    carried_ = carried_parts(contacts_, nearest_, input_.settings.weights, mover_of_vertex);
     if (carried_.size() == 0) strays_.fate = knead::Strays::freeze; // there is nothing to carry them
-    const auto first = static_cast<Index>(samples_.size() + labels_.outside + 1);
-    for (Index part = 0; part < carried_.size(); ++part) append_single(rows_, first + part);
 }
 
 void Pipeline::prepare_systems() {
@@ -319,7 +319,8 @@ void Pipeline::prepare_upsampler() {
     }
     posed_.positions.resize(rest.positions.size());
     posed_.normals.resize(rest.normals.size());
-    upsampler_.prepare({rest.positions, rest.normals, row_of_point_, &rows_}, motions_.size());
+    upsampler_.prepare({rest.positions, rest.normals, mover_of_point_, &nearest_, input_.settings.weights},
+                       motions_.size());
     seconds_.device += clock.lap();
 }
 

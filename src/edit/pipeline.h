@@ -7,7 +7,8 @@
 //     samples                   → base samples and their flood
 //     handle set                → labels, handle samples (which flood only what they reach), sample graph,
 //                                 coarse samples
-//     weights, strays           → influences; what carries the parts without a handle (edit/carried_parts.h)
+//     weights, strays           → what moves each point; what carries the parts without a handle
+//                                 (edit/carried_parts.h)
 //     rest shape                → the weights of the sample graph's links
 //     rest shape, stiffness     → both systems, ordered and factorised; that of the coarse samples
 //     poses                     → iterations, then upsampling
@@ -118,8 +119,10 @@ public:
     // Counts how often samples() and sample_graph() changed together; 0: never yet.
     std::uint64_t samples_version() const { return samples_version_; }
     const HandleLabels& labels() const { return labels_; }
-    // Which samples move a vertex that no handle holds: row v is that of vertex v.
-    const InfluenceRows& influences() const { return rows_; }
+    // Which samples move a vertex that no handle holds.
+    Influence influence(Index vertex) const {
+        return influence_of(nearest_, input_.settings.weights, vertex);
+    }
     const SampleSystem& system() const { return system_; }
     const RestShape& opened() const { return opened_; } // the shape in the file
     double cloud_size() const { return cloud_size_; }
@@ -145,9 +148,10 @@ private:
     void choose_coarse_samples();
     void label_vertices();
     void prepare_influences();
-    void prepare_carried(std::span<const Index> row_of_label);
+    void prepare_carried(std::span<const Index> mover_of_label);
     void prepare_systems();
     void prepare_upsampler();
+    std::span<const float> vertex_positions() const; // as opened
     std::span<const HandleMotion> all_motions(const std::vector<HandleMotion>& motions);
     // Calls visit(sample, handle) for every handle of a single point that leaves rotation free.
     template<typename Visit>
@@ -169,7 +173,7 @@ private:
 
     PointOrder order_;
     RestShape opened_;
-    std::vector<float> vertex_positions_;    // as opened
+    std::vector<float> merged_positions_;    // of the vertices, if they are fewer than the points; else empty
     std::shared_ptr<const Graph> neighbors_; // of the vertices
     std::shared_ptr<const Graph> graph_;     // the same, or bridged
     std::shared_ptr<const Components> components_;
@@ -179,7 +183,7 @@ private:
     bool every_point_ = false;
     std::vector<Index> samples_;
     std::size_t base_samples_ = 0;
-    std::vector<NearestSamples> nearest_; // of each vertex; empty if every point is a sample
+    InfluenceRows nearest_; // of each vertex; empty if every point is a sample
     std::optional<FloodPatch> handle_flood_;
 
     HandleLabels labels_;
@@ -190,8 +194,7 @@ private:
     std::vector<double> link_weights_; // of the links of that
     std::uint64_t samples_version_ = 0;
 
-    InfluenceRows rows_;
-    std::vector<Index> row_of_point_;
+    std::vector<Index> mover_of_point_; // as influence_of() reads it
     Contacts contacts_;
     CarriedParts carried_;
 

@@ -115,7 +115,7 @@ std::vector<float> Pipeline::rotations(const std::vector<HandleMotion>& motions,
     for (std::size_t carried = turns.size() - carried_.size(); carried < turns.size(); ++carried)
         turns[carried] = rotation_in(motions_[carried]);
     const std::span<const float> before = input_.rest ? input_.rest->rotations : std::span<const float>{};
-    return point_rotations(row_of_point_, rows_, turns, before, workers_);
+    return point_rotations(mover_of_point_, nearest_, input_.settings.weights, turns, before, workers_);
 }
 
 } // namespace knead

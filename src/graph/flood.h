@@ -19,10 +19,10 @@
 #include "graph/csr.h"
 #include "graph/influences.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
+#include <variant>
 #include <vector>
 
 namespace knead {
@@ -35,41 +35,38 @@ std::vector<std::uint8_t> link_lengths(const Graph& graph, std::span<const float
 // The same vertices in an order that depends on nothing but their numbers and follows no direction.
 std::vector<Index> shuffled(std::vector<Index> vertices);
 
-// The K nearest samples of a vertex, by (distance, sample number). A vertex whose component has fewer than K
-// keeps the last places empty: sample no_index, the greatest distance.
-struct alignas(64) NearestSamples { // a cache line
-    std::array<Index, influences_per_row> sample;
-    std::array<std::uint32_t, influences_per_row> distance; // in levels
-
-    std::size_t count() const {
-        return static_cast<std::size_t>(std::ranges::find(sample, no_index) - sample.begin());
-    }
-};
-
 // Floods the graph from `samples`, which are different vertices; sample s is the one at samples[s].
 // `lengths`: one entry for every entry of graph.neighbor, 1 … 63, the same in both directions. Returns one
-// row a vertex.
-std::vector<NearestSamples> flood(const Graph& graph, std::span<const std::uint8_t> lengths,
-                                  std::span<const Index> samples, Workers& workers, Progress& progress);
+// row a vertex: narrow ones for fewer than 65,535 samples, unless one of them is met so far away that a
+// narrow row cannot tell its distance; then it starts over with wide ones.
+InfluenceRows flood(const Graph& graph, std::span<const std::uint8_t> lengths, std::span<const Index> samples,
+                    Workers& workers, Progress& progress);
 
 // The same for K = 1: each vertex's nearest sample, no_index in a component without samples.
 std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t> lengths,
                                std::span<const Index> samples, Workers& workers, Progress& progress);
 
-// What add_samples() changed: whole rows as they were before, each vertex once, in no particular order.
+// What add_samples() changed: whole rows as they were before, each vertex once, in no particular order, block
+// after block: these are many, and to put them into one array would need room for both.
+template<typename Row>
+struct OldRow {
+    Index vertex;
+    decltype(Row::sample) sample; // not a Row, which would be padded here
+    decltype(Row::distance) distance;
+};
+template<typename Row>
+using OldRows = std::vector<std::vector<OldRow<Row>>>;
+
 struct FloodPatch {
-    struct Row {
-        Index vertex;
-        NearestSamples nearest;
-    };
-    std::vector<Row> rows;
+    std::variant<OldRows<NarrowRow>, OldRows<WideRow>> blocks;
 };
 
 // Adds the samples number first_new, first_new + 1, … at the vertices `added`, which hold no sample yet, as
-// if they had been in the flood from the start; only what they reach is flooded. revert() takes it back.
-FloodPatch add_samples(std::vector<NearestSamples>& nearest, const Graph& graph,
-                       std::span<const std::uint8_t> lengths, std::span<const Index> added, Index first_new,
-                       Workers& workers, Progress& progress);
-void revert(std::vector<NearestSamples>& nearest, const FloodPatch& patch);
+// if they had been in the flood from the start; only what they reach is flooded. Rows that have become too
+// narrow are made wide. revert() takes it back, while they are as it left them; wide rows stay wide. A flood
+// that is cancelled leaves rows that are good for nothing.
+FloodPatch add_samples(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
+                       std::span<const Index> added, Index first_new, Workers& workers, Progress& progress);
+void revert(InfluenceRows& nearest, const FloodPatch& patch);
 
 } // namespace knead

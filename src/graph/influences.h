@@ -1,44 +1,101 @@
 #pragma once
 // Which samples move a point, and how much each: the w_s of Equations (4) and (5).
+//
+// What is kept are the nearest samples of every vertex and how far they are along the surface. The weights
+// are computed from that where they are used: fetching them from memory would take longer, and neither is the
+// kind of weights anything that a row would have to be made again for.
 
 #include "base/types.h"
-#include "base/workers.h"
 
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <span>
+#include <variant>
 #include <vector>
 
 namespace knead {
 
 inline constexpr std::size_t influences_per_row = 8; // K of the paper
 
-// Rows of K samples with weights that sum to 1, tightly packed: row r holds sample[r K] … sample[r K + K -
-// 1]. Unused places at the end of a row repeat its first sample with weight 0.
-struct InfluenceRows {
-    std::vector<Index> sample;
-    std::vector<float> weight;
+// The K nearest samples of a vertex, by (distance, sample number). A vertex whose component has fewer than K
+// keeps the last places empty: `none` for sample and distance.
+template<typename Number>
+struct alignas(2 * influences_per_row * sizeof(Number)) SampleRow { // within a cache line
+    static constexpr Number none = std::numeric_limits<Number>::max();
 
-    std::size_t size() const { return sample.size() / influences_per_row; }
+    std::array<Number, influences_per_row> sample;
+    std::array<Number, influences_per_row> distance; // in levels, see flood.h
+
+    std::size_t count() const {
+        return static_cast<std::size_t>(std::ranges::find(sample, none) - sample.begin());
+    }
 };
+using NarrowRow = SampleRow<std::uint16_t>;
+using WideRow = SampleRow<Index>;
+
+// One row a vertex. They are narrow where all samples and distances are below 65,535, which halves what a
+// flood and a frame have to move, else wide; flood() decides. What they mean is the same.
+struct InfluenceRows {
+    std::variant<std::vector<NarrowRow>, std::vector<WideRow>> rows;
+
+    std::size_t size() const;
+    bool are_wide() const { return rows.index() == 1; }
+
+    // Row v as a wide one, whichever it is.
+    WideRow operator[](std::size_t v) const;
+};
+
+// The same as a wide row.
+WideRow widened(const NarrowRow& row);
+
+// Makes the rows wide if they are narrow.
+void widen(InfluenceRows& rows);
 
 // How a sample's weight falls with its distance d from the point.
 enum class InfluenceWeights {
-    smooth, // (1 - d/d_max)² with d_max the farthest of the K: nothing jumps where the set of the nearest
+    smooth, // (1 - d/d_max)² with d_max the farthest of the row: nothing jumps where the set of the nearest
             // changes
     paper,  // 1/d²
 };
 
-struct NearestSamples;
+// The weight of each place of a row, times the same for all: they are to be divided by their sum, which is 0
+// only for an empty row. Empty places have 0. A sample at d = 0 is taken alone, and equal distances share
+// evenly. kernels/upsample.cl does the same operations, so that both have the same bits: smooth is
+// (d_max - d)², distances being whole numbers, and exact where that is below 2^24.
+template<typename Number>
+std::array<float, influences_per_row> weights_of(const SampleRow<Number>& row, InfluenceWeights weights) {
+    std::array<float, influences_per_row> weight{};
+    const std::size_t count = row.count();
+    if (count == 0) return weight;
+    const Number nearest = row.distance[0], farthest = row.distance[count - 1];
+    if (nearest == 0) {
+        weight[0] = 1;
+    } else if (nearest == farthest) {
+        std::fill_n(weight.begin(), count, 1.0F);
+    } else if (weights == InfluenceWeights::paper) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto distance = static_cast<float>(row.distance[k]);
+            weight[k] = 1.0F / (distance * distance);
+        }
+    } else {
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto nearness = static_cast<float>(static_cast<Number>(farthest - row.distance[k]));
+            weight[k] = nearness * nearness;
+        }
+    }
+    return weight;
+}
 
-// One row a vertex from the flood's samples and distances; d = 0 takes that sample alone, a lone
-// sample and equal distances share evenly. A vertex without samples gets a row of sample 0 with all weights
-// 0.
-InfluenceRows influence_rows(std::span<const NearestSamples> nearest, InfluenceWeights weights,
-                             Workers& workers);
+// What moves a point.
+struct Influence {
+    std::array<Index, influences_per_row> motion;
+    std::array<float, influences_per_row> weight; // they sum to 1; all 0 if nothing moves it
+    std::size_t count = 0;                        // places in use; the others have motion 0 and weight 0
+};
 
-// One row a vertex that is its own sample: sample v at vertex v.
-InfluenceRows own_rows(std::size_t vertices);
-
-// Appends a row of a single sample and returns its number.
-Index append_single(InfluenceRows& rows, Index sample);
+// By the number that a point or vertex has for what moves it: below rows.size() the row of that number, whose
+// samples are motions; from there on one motion alone, the one numbered `number` - rows.size().
+Influence influence_of(const InfluenceRows& rows, InfluenceWeights weights, Index number);
 
 } // namespace knead

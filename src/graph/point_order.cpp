@@ -124,6 +124,39 @@ bool same_position(std::span<const float> positions, Index a, Index b) {
     return true;
 }
 
+// The order of points that are sorted already.
+PointOrder numbered(std::span<const Keyed> items, std::span<const float> positions) {
+    const auto begins_vertex = [&](std::size_t i) {
+        return i == 0 || !same_position(positions, items[i].point, items[i - 1].point);
+    };
+    std::size_t vertices = 0;
+    for (std::size_t i = 0; i < items.size(); ++i) vertices += begins_vertex(i) ? 1 : 0;
+
+    PointOrder order;
+    order.file_index.resize(items.size());
+    std::ranges::transform(items, order.file_index.begin(), &Keyed::point);
+    order.code.reserve(vertices);
+    if (vertices == items.size()) {
+        for (const Keyed& item : items) order.code.push_back(item.code);
+        order.vertex = Numbering::as_they_stand(vertices);
+        order.first_point = Numbering::as_they_stand(vertices + 1);
+        return order;
+    }
+    std::vector<Index> vertex(items.size()), first_point;
+    first_point.reserve(vertices + 1);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (begins_vertex(i)) {
+            first_point.push_back(static_cast<Index>(i));
+            order.code.push_back(items[i].code);
+        }
+        vertex[i] = static_cast<Index>(order.code.size() - 1);
+    }
+    first_point.push_back(static_cast<Index>(items.size()));
+    order.vertex = Numbering(std::move(vertex));
+    order.first_point = Numbering(std::move(first_point));
+    return order;
+}
+
 } // namespace
 
 PointOrder order_points(std::span<const float> positions, Workers& workers, Progress& progress) {
@@ -143,18 +176,7 @@ PointOrder order_points(std::span<const float> positions, Workers& workers, Prog
     progress.step("ordering the points", 0.6);
     sort_within_cells(items, positions);
 
-    PointOrder order;
-    order.file_index.reserve(items.size());
-    order.vertex.reserve(items.size());
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        if (i == 0 || !same_position(positions, items[i].point, items[i - 1].point)) {
-            order.first_point.push_back(static_cast<Index>(i));
-            order.code.push_back(items[i].code);
-        }
-        order.file_index.push_back(items[i].point);
-        order.vertex.push_back(static_cast<Index>(order.code.size() - 1));
-    }
-    order.first_point.push_back(static_cast<Index>(items.size()));
+    PointOrder order = numbered(items, positions);
     progress.report("ordering the points", 1);
     return order;
 }

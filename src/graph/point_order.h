@@ -10,15 +10,38 @@
 #include "base/workers.h"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace knead {
 
+// A number for each of 0, 1, 2 …. Where all are numbered as they stand, which is how it is in a cloud without
+// duplicates, nothing is stored.
+class Numbering {
+public:
+    Numbering() = default;
+    explicit Numbering(std::vector<Index> numbers) : numbers_(std::move(numbers)), size_(numbers_.size()) {}
+
+    static Numbering as_they_stand(std::size_t size) {
+        Numbering result;
+        result.size_ = size;
+        return result;
+    }
+
+    std::size_t size() const { return size_; }
+    Index operator[](std::size_t i) const { return numbers_.empty() ? static_cast<Index>(i) : numbers_[i]; }
+    bool operator==(const Numbering&) const = default;
+
+private:
+    std::vector<Index> numbers_;
+    std::size_t size_ = 0;
+};
+
 struct PointOrder {
     std::vector<Index>
-        file_index; // of each ordered point; points with a coordinate that is not finite are left out
-    std::vector<Index> vertex; // of each ordered point, ascending
-    std::vector<Index>
+        file_index;   // of each ordered point; points with a coordinate that is not finite are left out
+    Numbering vertex; // of each ordered point, ascending
+    Numbering
         first_point; // of each vertex: its first ordered point, that of the lowest file index; and the end
     std::vector<std::uint64_t> code; // of each vertex: its Morton code, 21 bits an axis, ascending
 

@@ -40,11 +40,12 @@ void give_each_one(const VertexShape& shape, std::span<const Index> label, std::
 }
 
 // The pairs of samples whose territories touch, once for every link of the point graph between them, sorted.
-std::vector<std::pair<Index, Index>> touching(std::span<const NearestSamples> nearest, const Graph& points) {
+template<typename Row>
+std::vector<std::pair<Index, Index>> touching(const std::vector<Row>& nearest, const Graph& points) {
     std::vector<std::pair<Index, Index>> pairs;
     for (Index p = 0; p < points.size(); ++p) {
         const Index a = nearest[p].sample[0];
-        if (a == no_index) continue;
+        if (a == Row::none) continue;
         for (const Index q : points.row(p)) {
             if (q > p) break; // rows ascend, and the link is met again from its other end
             const Index b = nearest[q].sample[0];
@@ -99,8 +100,8 @@ std::vector<Index> handle_samples(const VertexShape& shape, std::span<const Inde
     return added;
 }
 
-SampleGraph sample_graph(std::span<const NearestSamples> nearest, std::span<const Index> samples,
-                         const Graph& points, Workers& workers) {
+SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
+                         Workers& workers) {
     std::vector<Index> links(samples.size() * sample_neighbors, no_index);
     workers.for_each(samples.size(), 1024, [&](std::size_t s) {
         std::size_t kept = 0;
@@ -108,7 +109,7 @@ SampleGraph sample_graph(std::span<const NearestSamples> nearest, std::span<cons
             if (other != s && other != no_index && kept < sample_neighbors)
                 links[s * sample_neighbors + kept++] = other;
     });
-    const std::vector<std::pair<Index, Index>> pairs = touching(nearest, points);
+    const auto pairs = std::visit([&](const auto& rows) { return touching(rows, points); }, nearest.rows);
     SampleGraph result;
     result.graph = with_edges(symmetric_graph(links, sample_neighbors, workers), pairs);
     result.contact.assign(result.graph.neighbor.size(), 0.5F);

@@ -50,8 +50,8 @@ struct SampleGraph {
 // of the samples those of the points: where the six nearest leave a neck open, the floods still meet.
 // `samples`: the vertex of each sample; `nearest`: the flood from them over the graph `points`.
 inline constexpr std::size_t sample_neighbors = 6;
-SampleGraph sample_graph(std::span<const NearestSamples> nearest, std::span<const Index> samples,
-                         const Graph& points, Workers& workers);
+SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
+                         Workers& workers);
 
 // The sample graph where every point is a sample: the graph of the points, every contact 1.
 SampleGraph sample_graph_of_all(const Graph& points);

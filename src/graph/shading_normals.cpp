@@ -39,11 +39,11 @@ std::vector<float> shading_normals(const Graph& graph, std::span<const float> po
     return normals;
 }
 
-std::vector<float> spread_to_points(std::span<const float> vertex_normals, std::span<const Index> vertex) {
+std::vector<float> spread_to_points(std::span<const float> vertex_normals, const Numbering& vertex) {
     std::vector<float> normals;
     normals.reserve(3 * vertex.size());
-    for (const Index v : vertex) {
-        const auto normal = vertex_normals.subspan(3 * std::size_t{v}, 3);
+    for (std::size_t i = 0; i < vertex.size(); ++i) {
+        const auto normal = vertex_normals.subspan(3 * std::size_t{vertex[i]}, 3);
         normals.insert(normals.end(), normal.begin(), normal.end());
     }
     return normals;

@@ -3,6 +3,7 @@
 
 #include "base/workers.h"
 #include "graph/csr.h"
+#include "graph/point_order.h"
 
 #include <span>
 #include <vector>
@@ -15,6 +16,6 @@ namespace knead {
 std::vector<float> shading_normals(const Graph& graph, std::span<const float> positions, Workers& workers);
 
 // The points' normals from those of their vertices. `vertex`: of each point (PointOrder).
-std::vector<float> spread_to_points(std::span<const float> vertex_normals, std::span<const Index> vertex);
+std::vector<float> spread_to_points(std::span<const float> vertex_normals, const Numbering& vertex);
 
 } // namespace knead

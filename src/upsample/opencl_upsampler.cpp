@@ -21,10 +21,14 @@ constexpr std::size_t points_per_group = 256;
 struct OpenedDevice {
     DeviceHandle part; // null for the whole device
     ContextHandle context;
-    ProgramHandle program;
+    QueueHandle queue;
+};
+
+// The kernel for one kind of rows.
+struct BuiltKernel {
+    ProgramHandle program; // null: not built yet
     KernelHandle move_positions;
     KernelHandle move_both;
-    QueueHandle queue;
 };
 
 std::string build_log(cl_program program, cl_device_id device) {
@@ -40,8 +44,8 @@ std::string build_log(cl_program program, cl_device_id device) {
 }
 
 // Root and quotient are rounded correctly where the device can do so: then it agrees with C++ to the bit.
-std::string build_options(cl_device_id device) {
-    std::string options = "-D K=" + std::to_string(influences_per_row);
+std::string build_options(cl_device_id device, bool wide) {
+    std::string options = wide ? "-D WIDE" : "";
     cl_device_fp_config floats = 0;
     if (clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof floats, &floats, nullptr) == CL_SUCCESS &&
         (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0)
@@ -49,11 +53,11 @@ std::string build_options(cl_device_id device) {
     return options;
 }
 
-ProgramHandle build(cl_context context, cl_device_id device, const char* text) {
+ProgramHandle build_program(cl_context context, cl_device_id device, const char* text, bool wide) {
     cl_int code = CL_SUCCESS;
     ProgramHandle program(clCreateProgramWithSource(context, 1, &text, nullptr, &code));
     check_opencl(code, "reading the kernel");
-    const std::string options = build_options(device);
+    const std::string options = build_options(device, wide);
     code = clBuildProgram(program.get(), 1, &device, options.c_str(), nullptr, nullptr);
     if (code == CL_BUILD_PROGRAM_FAILURE)
         throw DeviceFailure("the kernel does not compile: " + build_log(program.get(), device));
@@ -68,7 +72,7 @@ KernelHandle kernel_named(cl_program program, const char* name) {
     return kernel;
 }
 
-OpenedDevice open_device(const OpenClDevice& device, unsigned threads, const char* kernel) {
+OpenedDevice open_device(const OpenClDevice& device, unsigned threads) {
     OpenedDevice opened;
     opened.part = limited_to(device, threads);
     cl_device_id id = opened.part ? opened.part.get() : device.id;
@@ -77,10 +81,15 @@ OpenedDevice open_device(const OpenClDevice& device, unsigned threads, const cha
     check_opencl(code, "opening the device");
     opened.queue.reset(clCreateCommandQueue(opened.context.get(), id, 0, &code));
     check_opencl(code, "making a queue");
-    opened.program = build(opened.context.get(), id, kernel);
-    opened.move_positions = kernel_named(opened.program.get(), "upsample_positions");
-    opened.move_both = kernel_named(opened.program.get(), "upsample_positions_and_normals");
     return opened;
+}
+
+BuiltKernel build_kernel(cl_context context, cl_device_id device, const char* text, bool wide) {
+    BuiltKernel built;
+    built.program = build_program(context, device, text, wide);
+    built.move_positions = kernel_named(built.program.get(), "upsample_positions");
+    built.move_both = kernel_named(built.program.get(), "upsample_positions_and_normals");
+    return built;
 }
 
 BufferHandle make_buffer(cl_context context, cl_mem_flags flags, std::size_t bytes, void* host) {
@@ -136,13 +145,16 @@ public:
         motion_count_ = motions;
         moved_positions_ = {};
         moved_normals_ = {};
-        if (!opened_.queue) opened_ = open_device(device_, threads_, kernel_);
-        if (!input.row.empty()) {
+        if (!opened_.queue) opened_ = open_device(device_, threads_);
+        if (!input.mover.empty()) {
+            build_for(*input.rows);
             positions_ = hand_over(input.positions);
-            normals_ = input.normals.empty() ? nullptr : hand_over(input.normals);
-            row_ = hand_over(input.row);
-            sample_ = hand_over(std::span<const Index>(input.rows->sample));
-            weight_ = hand_over(std::span<const float>(input.rows->weight));
+            normals_ = hand_over(input.normals);
+            mover_ = hand_over(input.mover);
+            rows_ =
+                std::visit([&](const auto& rows) { return hand_over(std::span(rows)); }, input.rows->rows);
+            row_count_ = input.rows->size();
+            paper_ = input.weights == InfluenceWeights::paper ? 1 : 0;
             make_motions();
             if (!shares_memory_) make_results(input);
             launch_once(input);
@@ -158,15 +170,26 @@ public:
             wrap(positions, moved_positions_);
             if (!normals.empty()) wrap(normals, moved_normals_);
         }
-        const EventHandle moved = launch(input_.row.size(), input_.row.size(), moved_positions_.buffer.get(),
-                                         moved_normals_.buffer.get(), After(written));
+        const EventHandle moved =
+            launch(input_.mover.size(), input_.mover.size(), moved_positions_.buffer.get(),
+                   moved_normals_.buffer.get(), After(written));
         read(moved_positions_, positions, After(moved));
         if (!normals.empty()) read(moved_normals_, normals, After(moved));
     }
 
 private:
+    void build_for(const InfluenceRows& rows) {
+        if (built_.program && built_for_wide_ == rows.are_wide()) return;
+        built_ = {};
+        cl_device_id id = opened_.part ? opened_.part.get() : device_.id;
+        built_ = build_kernel(opened_.context.get(), id, kernel_, rows.are_wide());
+        built_for_wide_ = rows.are_wide();
+    }
+
+    // Null for no values: OpenCL knows no empty buffer.
     template<typename Value>
     BufferHandle hand_over(std::span<const Value> values) {
+        if (values.empty()) return {};
         const cl_mem_flags how = shares_memory_ ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
         // OpenCL takes no pointer to const, but only reads what is CL_MEM_READ_ONLY.
         return make_buffer(opened_.context.get(), CL_MEM_READ_ONLY | how, values.size_bytes(),
@@ -195,12 +218,12 @@ private:
     void launch_once(const UpsampleInput& input) {
         const std::vector<Motion> unmoved(motion_count_);
         const EventHandle written = write_motions(unmoved);
-        const std::size_t points = std::min(input.row.size(), points_per_group);
+        const std::size_t points = std::min(input.mover.size(), points_per_group);
         const std::size_t bytes = 3 * points * sizeof(float);
         const BufferHandle positions = make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, bytes, nullptr);
         const BufferHandle normals = make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, bytes, nullptr);
         const EventHandle moved =
-            launch(points, input.row.size(), positions.get(), normals.get(), After(written));
+            launch(points, input.mover.size(), positions.get(), normals.get(), After(written));
         check_opencl(clWaitForEvents(1, After(moved).list()), "the first launch");
     }
 
@@ -237,17 +260,17 @@ private:
     EventHandle launch(cl_ulong points, std::size_t grid_points, cl_mem moved_positions, cl_mem moved_normals,
                        const After& after) {
         cl_mem const positions = positions_.get();
-        cl_mem const row = row_.get();
-        cl_mem const sample = sample_.get();
-        cl_mem const weight = weight_.get();
+        cl_mem const mover = mover_.get();
+        cl_mem const rows = rows_.get();
         cl_mem const motions = motions_.get();
         cl_mem const normals = normals_.get();
-        cl_kernel kernel = normals ? opened_.move_both.get() : opened_.move_positions.get();
+        cl_kernel kernel = normals ? built_.move_both.get() : built_.move_positions.get();
         if (normals)
-            set_arguments(kernel, points, positions, row, sample, weight, motions, moved_positions, normals,
-                          moved_normals);
+            set_arguments(kernel, points, positions, mover, row_count_, rows, paper_, motions,
+                          moved_positions, normals, moved_normals);
         else
-            set_arguments(kernel, points, positions, row, sample, weight, motions, moved_positions);
+            set_arguments(kernel, points, positions, mover, row_count_, rows, paper_, motions,
+                          moved_positions);
         const std::size_t items = (grid_points + points_per_group - 1) / points_per_group * points_per_group;
         cl_event moved = nullptr;
         check_opencl(clEnqueueNDRangeKernel(opened_.queue.get(), kernel, 1, nullptr, &items,
@@ -279,11 +302,15 @@ private:
     const char* kernel_;
     bool shares_memory_;
     OpenedDevice opened_;
+    BuiltKernel built_;
+    bool built_for_wide_ = false;
 
     UpsampleInput input_;
     std::size_t motion_count_ = 0;
     std::vector<float> packed_; // the motions on their way to a device with its own memory
-    BufferHandle positions_, normals_, row_, sample_, weight_, motions_;
+    cl_ulong row_count_ = 0;
+    cl_uint paper_ = 0; // whether the weights are those of the paper
+    BufferHandle positions_, normals_, mover_, rows_, motions_;
     Result moved_positions_, moved_normals_;
 };
 

@@ -10,19 +10,17 @@ namespace {
 
 constexpr std::size_t points_per_chunk = 8192;
 
-Quatd mean_turn(const InfluenceRows& rows, std::size_t row, std::span<const Quatd> turns) {
-    const auto first = static_cast<std::ptrdiff_t>(influences_per_row * row);
-    const auto begin = rows.weight.begin() + first;
-    const auto heaviest = std::max_element(begin, begin + influences_per_row) - begin;
-    const Quatd& leader = turns[rows.sample[static_cast<std::size_t>(first + heaviest)]];
+Quatd mean_turn(const Influence& influence, std::span<const Quatd> turns) {
+    const auto heaviest =
+        std::ranges::max_element(influence.weight) - influence.weight.begin(); // the first of equals
+    const Quatd& leader = turns[influence.motion[static_cast<std::size_t>(heaviest)]];
     Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-    for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(first) + influences_per_row;
-         ++k) {
-        const Quatd& turn = turns[rows.sample[k]];
-        const double weight = static_cast<double>(rows.weight[k]);
+    for (std::size_t k = 0; k < influence.count; ++k) {
+        const Quatd& turn = turns[influence.motion[k]];
+        const double weight = static_cast<double>(influence.weight[k]);
         sum += (turn.dot(leader) < 0 ? -weight : weight) * turn.coeffs();
     }
-    // A vertex that nothing moves has a row of weights 0.
+    // A vertex that nothing moves has weights of 0.
     if (!(sum.squaredNorm() > 0)) return Quatd::Identity();
     Quatd mean;
     mean.coeffs() = sum.normalized();
@@ -31,14 +29,14 @@ Quatd mean_turn(const InfluenceRows& rows, std::size_t row, std::span<const Quat
 
 } // namespace
 
-std::vector<float> point_rotations(std::span<const Index> row, const InfluenceRows& rows,
-                                   std::span<const Quatd> turns, std::span<const float> before,
-                                   Workers& workers) {
-    require(before.empty() || before.size() == 4 * row.size(), "a turn before for every point, or none");
-    std::vector<float> result(4 * row.size());
-    workers.for_each(row.size(), points_per_chunk, [&](std::size_t i) {
+std::vector<float> point_rotations(std::span<const Index> mover, const InfluenceRows& rows,
+                                   InfluenceWeights weights, std::span<const Quatd> turns,
+                                   std::span<const float> before, Workers& workers) {
+    require(before.empty() || before.size() == 4 * mover.size(), "a turn before for every point, or none");
+    std::vector<float> result(4 * mover.size());
+    workers.for_each(mover.size(), points_per_chunk, [&](std::size_t i) {
         float* const to = result.data() + 4 * i;
-        Quatd turn = mean_turn(rows, row[i], turns);
+        Quatd turn = mean_turn(influence_of(rows, weights, mover[i]), turns);
         if (!before.empty()) {
             // What does not turn any further keeps every bit.
             if (turn.w() == 1 && turn.vec().isZero(0)) return void(std::copy_n(before.data() + 4 * i, 4, to));

@@ -14,12 +14,12 @@ namespace knead {
 // quaternion, after the turn that the point had made before. A point with one influence takes exactly that
 // one, and turns are given the sign of the heaviest before they are added, so that a turn of more than 180°
 // comes out as it is.
-//     row      n: each point's row in `rows`
-//     turns    of every motion that `rows` names: unit quaternions, from the rest shape to now
+//     mover    n: what moves each point, as influence_of() reads it
+//     turns    of every motion: unit quaternions, from the rest shape to now
 //     before   4n, w x y z: from the shape as opened to the rest shape; or empty, where that is the same
 // Returns 4n floats, w x y z: unit quaternions, from the shape as opened to now.
-std::vector<float> point_rotations(std::span<const Index> row, const InfluenceRows& rows,
-                                   std::span<const Quatd> turns, std::span<const float> before,
-                                   Workers& workers);
+std::vector<float> point_rotations(std::span<const Index> mover, const InfluenceRows& rows,
+                                   InfluenceWeights weights, std::span<const Quatd> turns,
+                                   std::span<const float> before, Workers& workers);
 
 } // namespace knead

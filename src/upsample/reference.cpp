@@ -6,6 +6,7 @@
 #include <cfloat>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 namespace knead {
@@ -37,8 +38,11 @@ Vector cross(Vector a, Vector b) {
 }
 
 // Four floats that the compiler keeps in one vector register (GCC and Clang, any processor). Left to itself
-// it does not find them in the loop below, which is most of the work.
+// it does not find them in the loops below, which are most of the work.
 using Four = float __attribute__((vector_size(16)));
+using Eight = float __attribute__((vector_size(32)));
+using EightNarrow = std::uint16_t __attribute__((vector_size(16)));
+using EightWide = std::uint32_t __attribute__((vector_size(32)));
 
 Four load_four(const float* from) {
     Four four;
@@ -51,15 +55,49 @@ struct Blend {
     Four a0, a1, a2, b;
 };
 
-Blend blended(const Index* sample, const float* weight, const float* motions) {
+Blend one_motion(const float* motion) {
+    return {load_four(motion), load_four(motion + 4), load_four(motion + 8), load_four(motion + 12)};
+}
+
+void add(float weight, const float* motion, Blend& sum) {
+    const Blend one = one_motion(motion);
+    sum.a0 += weight * one.a0;
+    sum.a1 += weight * one.a1;
+    sum.a2 += weight * one.a2;
+    sum.b += weight * one.b;
+}
+
+// Σ_s w_s [A_s | b_s] of a row with empty places, equal distances, or a sample right at the point.
+template<typename Number>
+Blend rarely_blended(const SampleRow<Number>& row, InfluenceWeights weights, const float* motions) {
+    if (row.sample[0] == row.none) return {Four{0, 0, 0, 1}, Four{}, Four{}, Four{}};
+    if (row.distance[0] == 0) return one_motion(motions + packed_motion_floats * row.sample[0]);
+    const auto weight = weights_of(row, weights);
     Blend sum = {};
-    for (std::size_t k = 0; k < influences_per_row; ++k) {
-        const float* motion = motions + packed_motion_floats * sample[k];
-        sum.a0 += weight[k] * load_four(motion);
-        sum.a1 += weight[k] * load_four(motion + 4);
-        sum.a2 += weight[k] * load_four(motion + 8);
-        sum.b += weight[k] * load_four(motion + 12);
-    }
+    for (std::size_t k = 0; k < row.count(); ++k)
+        add(weight[k], motions + packed_motion_floats * row.sample[k], sum);
+    return sum;
+}
+
+// Σ_s w_s [A_s | b_s] of one row, and in a0[3] the sum of the weights, by which it is to be divided.
+template<typename Number>
+Blend blended(const SampleRow<Number>& row, InfluenceWeights weights, const float* motions) {
+    const Number nearest = row.distance.front(), farthest = row.distance.back();
+    if (row.sample.back() == row.none || nearest == 0 || nearest == farthest)
+        return rarely_blended(row, weights, motions);
+    // weights_of() a row without exceptions, all places at once.
+    using Numbers = std::conditional_t<sizeof(Number) == 2, EightNarrow, EightWide>;
+    Numbers distance;
+    std::memcpy(&distance, row.distance.data(), sizeof distance);
+    const bool paper = weights == InfluenceWeights::paper;
+    Eight weight = __builtin_convertvector(paper ? distance : farthest - distance, Eight);
+    weight *= weight;
+    if (paper) weight = 1.0F / weight;
+    const Blend first = one_motion(motions + packed_motion_floats * row.sample[0]);
+    Blend sum = {weight[0] * first.a0, weight[0] * first.a1, weight[0] * first.a2, weight[0] * first.b};
+    for (std::size_t k = 1; k < influences_per_row - 1; ++k)
+        add(weight[k], motions + packed_motion_floats * row.sample[k], sum);
+    if (paper) add(weight[7], motions + packed_motion_floats * row.sample.back(), sum);
     return sum;
 }
 
@@ -74,15 +112,17 @@ float same_or(float rest, float value) {
 }
 
 Vector moved(Vector p, const Blend& map) {
-    const Four d = map.a0 * p.x + map.a1 * p.y + map.a2 * p.z + map.b;
+    const Four d = (map.a0 * p.x + map.a1 * p.y + map.a2 * p.z + map.b) * (1.0F / map.a0[3]);
     return {plus(p.x, d[0]), plus(p.y, d[1]), plus(p.z, d[2])};
 }
 
 // The cofactor matrix of I + A has the cross products of its columns for columns.
 Vector turned(Vector n, const Blend& map) {
-    const Vector a = {map.a0[0] + 1.0F, map.a0[1], map.a0[2]};
-    const Vector b = {map.a1[0], map.a1[1] + 1.0F, map.a1[2]};
-    const Vector c = {map.a2[0], map.a2[1], map.a2[2] + 1.0F};
+    const float share = 1.0F / map.a0[3];
+    const Four a0 = map.a0 * share, a1 = map.a1 * share, a2 = map.a2 * share;
+    const Vector a = {a0[0] + 1.0F, a0[1], a0[2]};
+    const Vector b = {a1[0], a1[1] + 1.0F, a1[2]};
+    const Vector c = {a2[0], a2[1], a2[2] + 1.0F};
     const Vector u = cross(b, c);
     const Vector v = cross(c, a);
     const Vector w = cross(a, b);
@@ -110,16 +150,24 @@ public:
     void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override {
         require_valid_frame(input_, packed_.size() / packed_motion_floats, motions, positions, normals);
         pack_motions(motions, packed_.data());
-        workers_.for_each(input_.row.size(), points_per_chunk, [&](std::size_t i) {
-            const std::size_t first = influences_per_row * input_.row[i];
-            const Blend blend = blended(input_.rows->sample.data() + first,
-                                        input_.rows->weight.data() + first, packed_.data());
+        if (input_.rows)
+            std::visit([&](const auto& rows) { move_all(rows, positions, normals); }, input_.rows->rows);
+    }
+
+private:
+    template<typename Row>
+    void move_all(const std::vector<Row>& rows, std::span<float> positions, std::span<float> normals) {
+        const float* motions = packed_.data();
+        workers_.for_each(input_.mover.size(), points_per_chunk, [&](std::size_t i) {
+            const std::size_t mover = input_.mover[i];
+            const Blend blend = mover < rows.size()
+                                    ? blended(rows[mover], input_.weights, motions)
+                                    : one_motion(motions + packed_motion_floats * (mover - rows.size()));
             store(moved(load(&input_.positions[3 * i]), blend), &positions[3 * i]);
             if (!normals.empty()) store(turned(load(&input_.normals[3 * i]), blend), &normals[3 * i]);
         });
     }
 
-private:
     Workers& workers_;
     UpsampleInput input_;
     std::vector<float> packed_;

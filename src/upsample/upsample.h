@@ -3,7 +3,7 @@
 // paper.
 //
 // In the form that is computed here, a motion displaces a point p by A p + b, and a point is displaced by the
-// weighted mean over its influences,
+// weighted mean over its influences (graph/influences.h),
 //
 //     p' = p + Σ_s w_s (A_s p + b_s),    n' ∥ cof(I + Σ_s w_s A_s) n,    |n'| = |n|.
 //
@@ -39,8 +39,9 @@ struct Motion {
 struct UpsampleInput {
     std::span<const float> positions; // 3n, rest, relative to the cloud's origin
     std::span<const float> normals;   // 3n, rest, any length; or empty
-    std::span<const Index> row;       // n: each point's row of influences
+    std::span<const Index> mover;     // n: what moves each point, as influence_of() reads it
     const InfluenceRows* rows = nullptr;
+    InfluenceWeights weights = InfluenceWeights::smooth;
 };
 
 // An OpenCL device cannot do its work: the words say which call failed, on what, and OpenCL's reason, with
@@ -59,9 +60,9 @@ public:
     virtual std::string device() const = 0;
 
     // Takes the rest shape and the influences; again whenever any of them changed. Motions named by `rows`
-    // are numbered below `motions`. Everything that happens once is done here, so that all frames take the
-    // same time: opening the device and building the kernel (in the first call only), uploading, and a first
-    // small launch.
+    // and `mover` are numbered below `motions`. Everything that happens once is done here, so that all frames
+    // take the same time: opening the device (in the first call only), building the kernel (again only where
+    // rows have become narrow or wide), uploading, and a first small launch.
     virtual void prepare(const UpsampleInput& input, std::size_t motions) = 0;
 
     // One frame: takes all `motions` that prepare() was told of, writes 3n posed positions, and 3n normals if

@@ -39,6 +39,14 @@ TEST(Growth, MeasuresEverySizeAndStage) {
     EXPECT_GT(growth.by_samples[3].samples, 2500U);
     for (const RowFigures& row : growth.by_samples)
         for (const Stage& stage : growth_stages()) EXPECT_GT((row.*stage.seconds).lowest, 0) << stage.name;
+    for (const RowFigures& row : growth.by_points) {
+        EXPECT_FALSE(row.upsampling.with_normals);
+        EXPECT_GE(row.memory_peak, row.memory_held);
+        // Rest, posed, and file-order positions, an order of 12 bytes and a row of 32 are the least there is.
+        if (row.memory_peak > 0) {
+            EXPECT_GT(row.memory_peak, row.points * (3 * 12 + 12 + 32));
+        }
+    }
 
     const json all = json::parse(growth_json(growth));
     EXPECT_EQ(all["by_points"]["rows"].size(), 2U);

@@ -1,6 +1,7 @@
 // One frame of upsampling on every device and on the reference, beside a plain copy of the same number of
 // bytes. The argument is the number of points. GB/s counts what a frame has to touch at least: each point's
-// position, row number, row of influences and result, and its normal in and out where there are normals.
+// position, number of what moves it, row of influences and result, and its normal in and out where there are
+// normals.
 
 #include "base/workers.h"
 #include "upsample/devices.h"
@@ -21,30 +22,33 @@ constexpr std::size_t motion_count = 5000;
 // Points along a line of samples, eight neighbouring samples each, as in a cloud in Morton order.
 struct Scene {
     std::vector<float> positions, normals, moved, turned;
-    std::vector<Index> row;
+    std::vector<Index> mover;
     InfluenceRows rows;
     std::vector<Motion> motions;
 
-    Scene(std::size_t points, bool with_normals) : moved(3 * points), row(points), motions(motion_count) {
+    Scene(std::size_t points, bool with_normals) : moved(3 * points), mover(points), motions(motion_count) {
         for (std::size_t i = 0; i < 3 * points; ++i) positions.push_back(std::sin(static_cast<float>(i)));
         if (with_normals) {
             normals = positions;
             turned.resize(3 * points);
         }
-        std::iota(row.begin(), row.end(), Index{0});
+        std::iota(mover.begin(), mover.end(), Index{0});
+        std::vector<NarrowRow> narrow(points);
         for (std::size_t i = 0; i < points; ++i)
             for (std::size_t k = 0; k < influences_per_row; ++k) {
-                rows.sample.push_back(static_cast<Index>((i * motion_count / points + 7 * k) % motion_count));
-                rows.weight.push_back(static_cast<float>(7 - k) / 28);
+                narrow[i].sample[k] =
+                    static_cast<std::uint16_t>((i * motion_count / points + 7 * k) % motion_count);
+                narrow[i].distance[k] = static_cast<std::uint16_t>(3 + i % 37 + 9 * k);
             }
+        rows.rows = std::move(narrow);
         for (Motion& motion : motions)
             for (float& value : motion.map)
                 value = 0.01F * std::sin(static_cast<float>(&value - motions[0].map));
     }
 
     std::size_t bytes_a_frame() const {
-        return 4 * (positions.size() + normals.size() + moved.size() + turned.size() + row.size()) +
-               8 * influences_per_row * rows.size();
+        return 4 * (positions.size() + normals.size() + moved.size() + turned.size() + mover.size()) +
+               sizeof(NarrowRow) * rows.size();
     }
 };
 
@@ -58,10 +62,10 @@ void count(benchmark::State& state, std::size_t points, std::size_t bytes) {
 
 void run_frames(benchmark::State& state, Upsampler& upsampler) {
     Scene scene(static_cast<std::size_t>(state.range(0)), state.range(1) != 0);
-    upsampler.prepare({scene.positions, scene.normals, scene.row, &scene.rows}, scene.motions.size());
+    upsampler.prepare({scene.positions, scene.normals, scene.mover, &scene.rows}, scene.motions.size());
     upsampler.run(scene.motions, scene.moved, scene.turned);
     while (state.KeepRunning()) upsampler.run(scene.motions, scene.moved, scene.turned);
-    count(state, scene.row.size(), scene.bytes_a_frame());
+    count(state, scene.mover.size(), scene.bytes_a_frame());
 }
 
 // Half of the bytes are read and half are written, on all cores, as many in all as a frame touches.
@@ -77,7 +81,7 @@ void copy_memory(benchmark::State& state) {
         });
         benchmark::ClobberMemory();
     }
-    count(state, scene.row.size(), 2 * bytes);
+    count(state, scene.mover.size(), 2 * bytes);
 }
 
 void upsample_reference(benchmark::State& state) {

@@ -11,21 +11,31 @@ namespace {
 using test::Cloud;
 using test::Machine;
 
-std::vector<NearestSamples> flooded(const Cloud& cloud, std::span<const std::uint8_t> lengths,
-                                    const std::vector<Index>& samples, unsigned threads = 2) {
+InfluenceRows flooded(const Cloud& cloud, std::span<const std::uint8_t> lengths,
+                      const std::vector<Index>& samples, unsigned threads = 2) {
     Machine machine(threads);
     return flood(cloud.graph, lengths, samples, machine.workers, machine.progress);
 }
 
-bool same_row(const NearestSamples& a, const NearestSamples& b) {
-    return a.sample == b.sample && a.distance == b.distance;
+// The same values, be the rows narrow or wide.
+bool same_rows(const InfluenceRows& a, const InfluenceRows& b) {
+    for (std::size_t v = 0; v < a.size() && v < b.size(); ++v)
+        if (a[v].sample != b[v].sample || a[v].distance != b[v].distance) return false;
+    return a.size() == b.size();
 }
 
-bool same_rows(const std::vector<NearestSamples>& a, const std::vector<NearestSamples>& b) {
-    return std::ranges::equal(a, b, same_row);
+// Whose rows a patch keeps.
+std::vector<Index> vertices_of(const FloodPatch& patch) {
+    std::vector<Index> vertices;
+    const auto collect = [&](const auto& blocks) {
+        for (const auto& block : blocks)
+            for (const auto& old : block) vertices.push_back(old.vertex);
+    };
+    std::visit(collect, patch.blocks);
+    return vertices;
 }
 
-void expect_reached(const NearestSamples& row, const std::vector<test::Reached>& expected, Index vertex) {
+void expect_reached(const WideRow& row, const std::vector<test::Reached>& expected, Index vertex) {
     ASSERT_EQ(row.count(), expected.size()) << "at vertex " << vertex;
     for (std::size_t place = 0; place < expected.size(); ++place) {
         ASSERT_EQ(row.sample.at(place), expected[place].sample) << "vertex " << vertex << " place " << place;
@@ -126,9 +136,9 @@ TEST(Flood, AddsSamplesAsIfTheyHadBeenThereAndTakesThemBack) {
                                                  static_cast<Index>(base), machine.workers, machine.progress);
             EXPECT_TRUE(same_rows(nearest, flooded(cloud, cloud.lengths, samples)));
 
-            std::set<Index> patched;
-            for (const auto& row : patch.rows) patched.insert(row.vertex);
-            EXPECT_EQ(patched.size(), patch.rows.size()) << "a row was kept twice";
+            const std::vector<Index> patched = vertices_of(patch);
+            EXPECT_EQ(std::set<Index>(patched.begin(), patched.end()).size(), patched.size())
+                << "a row was kept twice";
             revert(nearest, patch);
             EXPECT_TRUE(same_rows(nearest, before));
         }
@@ -145,8 +155,8 @@ TEST(Flood, LeavesFarRowsAloneWhenASampleIsAdded) {
     const FloodPatch patch =
         add_samples(nearest, cloud.graph, cloud.lengths, added, 500, machine.workers, machine.progress);
     // A sample is among the nearest 8 of about 8 / 501 of the vertices; a tenth leaves room for its place.
-    EXPECT_GT(patch.rows.size(), 0U);
-    EXPECT_LT(patch.rows.size(), cloud.size() / 10);
+    EXPECT_GT(vertices_of(patch).size(), 0U);
+    EXPECT_LT(vertices_of(patch).size(), cloud.size() / 10);
 }
 
 TEST(Flood, IsTheSameForAnyNumberOfThreads) {
@@ -157,7 +167,7 @@ TEST(Flood, IsTheSameForAnyNumberOfThreads) {
         more.erase(more.begin(), more.begin() + 400);
         return more;
     }();
-    std::vector<std::vector<NearestSamples>> results;
+    std::vector<InfluenceRows> results;
     std::vector<std::vector<Index>> nearest_only;
     for (const unsigned threads : {1U, 2U, 5U}) {
         Machine machine(threads);
@@ -186,7 +196,101 @@ TEST(Flood, LeavesComponentsWithoutSamplesEmpty) {
 
 TEST(Flood, AcceptsAnEmptyGraph) {
     const Cloud cloud = test::cloud_of({});
-    EXPECT_TRUE(flooded(cloud, cloud.lengths, {}).empty());
+    EXPECT_EQ(flooded(cloud, cloud.lengths, {}).size(), 0U);
+}
+
+// A chain of so many vertices, every link as long as can be, with samples at its first ones.
+struct Chain {
+    Graph graph;
+    std::vector<std::uint8_t> lengths;
+    std::vector<Index> samples;
+
+    Chain(Index vertices, Index sample_count) {
+        graph.first.push_back(0);
+        for (Index v = 0; v < vertices; ++v) {
+            if (v > 0) graph.neighbor.push_back(v - 1);
+            if (v + 1 < vertices) graph.neighbor.push_back(v + 1);
+            graph.first.push_back(static_cast<Index>(graph.neighbor.size()));
+        }
+        lengths.assign(graph.neighbor.size(), 63);
+        for (Index s = 0; s < sample_count; ++s) samples.push_back(s);
+    }
+
+    // Sample s is |v - s| links away.
+    void expect_exact(const InfluenceRows& nearest) const {
+        for (Index v = 0; v < graph.size(); ++v) {
+            const WideRow row = nearest[v];
+            ASSERT_EQ(row.count(), std::min<std::size_t>(samples.size(), influences_per_row));
+            for (std::size_t k = 0; k < row.count(); ++k) {
+                const Index s = row.sample.at(k);
+                ASSERT_EQ(row.distance.at(k), 63 * (v > s ? v - s : s - v)) << v;
+            }
+        }
+    }
+};
+
+TEST(Flood, WidensRowsForWaysThatNarrowOnesCannotTell) {
+    Machine machine;
+    // 65,535 levels are 1040 links of 63 and a bit.
+    for (const auto& [vertices, wide] :
+         {std::pair{1030U, false}, std::pair{1100U, true}, std::pair{9000U, true}}) {
+        const Chain chain(vertices, 3);
+        const InfluenceRows nearest =
+            flood(chain.graph, chain.lengths, chain.samples, machine.workers, machine.progress);
+        EXPECT_EQ(nearest.are_wide(), wide) << vertices;
+        chain.expect_exact(nearest);
+        const std::vector<Index> all_nearest =
+            territories(chain.graph, chain.lengths, chain.samples, machine.workers, machine.progress);
+        for (Index v = 0; v < vertices; ++v) ASSERT_EQ(all_nearest[v], std::min(v, 2U));
+    }
+}
+
+TEST(Flood, WidensRowsWhenAnAddedSampleIsTooFarForThem) {
+    Machine machine;
+    Chain chain(5000, 0);
+    chain.samples = {0};
+    // Nothing reaches far yet: the only sample stands apart from the chain's rest.
+    chain.lengths.assign(chain.graph.neighbor.size(), 1);
+    InfluenceRows nearest =
+        flood(chain.graph, chain.lengths, chain.samples, machine.workers, machine.progress);
+    const InfluenceRows before = nearest;
+    ASSERT_FALSE(nearest.are_wide());
+    chain.lengths.assign(chain.graph.neighbor.size(), 63);
+    const std::vector<Index> added{4999};
+    const FloodPatch patch =
+        add_samples(nearest, chain.graph, chain.lengths, added, 1, machine.workers, machine.progress);
+    EXPECT_TRUE(nearest.are_wide());
+    for (Index v = 0; v < 5000; ++v) {
+        const WideRow row = nearest[v];
+        ASSERT_EQ(row.count(), 2U);
+        for (std::size_t k = 0; k < 2; ++k)
+            ASSERT_EQ(row.distance.at(k), row.sample.at(k) == 0 ? v : 63 * (4999 - v));
+    }
+    revert(nearest, patch);
+    EXPECT_TRUE(same_rows(nearest, before));
+    EXPECT_TRUE(nearest.are_wide());
+}
+
+TEST(Flood, WidensRowsWhenThereAreMoreSamplesThanNarrowOnesCount) {
+    Machine machine;
+    Chain chain(66'000, 65'534);
+    chain.lengths.assign(chain.graph.neighbor.size(), 5);
+    InfluenceRows nearest =
+        flood(chain.graph, chain.lengths, chain.samples, machine.workers, machine.progress);
+    EXPECT_FALSE(nearest.are_wide());
+    const InfluenceRows before = nearest;
+    const std::vector<Index> added{65'534, 65'535};
+    const FloodPatch patch =
+        add_samples(nearest, chain.graph, chain.lengths, added, 65'534, machine.workers, machine.progress);
+    EXPECT_TRUE(nearest.are_wide());
+    chain.samples.insert(chain.samples.end(), added.begin(), added.end());
+    const InfluenceRows all =
+        flood(chain.graph, chain.lengths, chain.samples, machine.workers, machine.progress);
+    EXPECT_TRUE(all.are_wide());
+    EXPECT_TRUE(same_rows(nearest, all));
+    EXPECT_EQ(all[65'999].sample[0], 65'535U);
+    revert(nearest, patch);
+    EXPECT_TRUE(same_rows(nearest, before));
 }
 
 TEST(LinkLengths, FollowTheLengthOfTheLinks) {

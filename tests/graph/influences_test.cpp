@@ -1,4 +1,5 @@
 #include "graph/clouds.h"
+#include "graph/flood.h"
 #include "graph/influences.h"
 
 #include <cmath>
@@ -10,42 +11,46 @@ using test::Machine;
 
 constexpr InfluenceWeights both_kinds[] = {InfluenceWeights::smooth, InfluenceWeights::paper};
 
-NearestSamples row_of(const std::vector<std::uint32_t>& distances) {
-    NearestSamples row;
-    row.sample.fill(no_index);
-    row.distance.fill(~std::uint32_t{0});
+template<typename Number>
+SampleRow<Number> row_of(const std::vector<std::uint32_t>& distances) {
+    SampleRow<Number> row;
+    row.sample.fill(row.none);
+    row.distance.fill(row.none);
     for (std::size_t place = 0; place < distances.size(); ++place) {
-        row.sample.at(place) = static_cast<Index>(10 + place);
-        row.distance.at(place) = distances[place];
+        row.sample.at(place) = static_cast<Number>(10 + place);
+        row.distance.at(place) = static_cast<Number>(distances[place]);
     }
     return row;
 }
 
-InfluenceRows rows_of(const std::vector<NearestSamples>& nearest, InfluenceWeights weights) {
-    Machine machine;
-    return influence_rows(nearest, weights, machine.workers);
+// Of a narrow row, and of a wide one, which must be the same.
+std::vector<float> weights_of(const std::vector<std::uint32_t>& distances, InfluenceWeights kind) {
+    const InfluenceRows narrow{std::vector{row_of<std::uint16_t>(distances)}};
+    const InfluenceRows wide{std::vector{row_of<Index>(distances)}};
+    const Influence influence = influence_of(narrow, kind, 0);
+    EXPECT_EQ(influence.weight, influence_of(wide, kind, 0).weight);
+    EXPECT_EQ(influence.motion, influence_of(wide, kind, 0).motion);
+    EXPECT_EQ(influence.count, distances.size());
+    for (std::size_t place = 0; place < influences_per_row; ++place)
+        EXPECT_EQ(influence.motion.at(place), place < distances.size() ? 10 + place : 0);
+    return {influence.weight.begin(), influence.weight.end()};
 }
 
-std::vector<float> weights_of(const std::vector<std::uint32_t>& distances, InfluenceWeights weights) {
-    return rows_of({row_of(distances)}, weights).weight;
-}
-
-TEST(InfluenceRows, AreWeightsThatSumToOne) {
+TEST(Influences, AreWeightsThatSumToOne) {
     const test::Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 3000));
     Machine machine;
     for (const std::size_t count : {1U, 3U, 8U, 200U}) {
         const auto samples = test::random_vertices(cloud.size(), count, 1);
         const auto nearest = flood(cloud.graph, cloud.lengths, samples, machine.workers, machine.progress);
+        ASSERT_EQ(nearest.size(), cloud.size());
         for (const InfluenceWeights kind : both_kinds) {
-            const InfluenceRows rows = rows_of(nearest, kind);
-            ASSERT_EQ(rows.size(), cloud.size());
-            for (std::size_t v = 0; v < cloud.size(); ++v) {
+            for (Index v = 0; v < cloud.size(); ++v) {
+                const Influence influence = influence_of(nearest, kind, v);
                 double sum = 0;
                 for (std::size_t place = 0; place < influences_per_row; ++place) {
-                    const float weight = rows.weight[v * influences_per_row + place];
-                    ASSERT_GE(weight, 0.0F);
-                    ASSERT_LT(rows.sample[v * influences_per_row + place], count);
-                    sum += static_cast<double>(weight);
+                    ASSERT_GE(influence.weight.at(place), 0.0F);
+                    ASSERT_LT(influence.motion.at(place), count);
+                    sum += static_cast<double>(influence.weight.at(place));
                 }
                 // Eight floats, each rounded by half of 2^-24 of at most 1.
                 ASSERT_NEAR(sum, nearest[v].count() > 0 ? 1 : 0, 8 * 6e-8);
@@ -54,35 +59,29 @@ TEST(InfluenceRows, AreWeightsThatSumToOne) {
     }
 }
 
-TEST(InfluenceRows, TakeTheSampleThatAPointIs) {
+TEST(Influences, TakeTheSampleThatAPointIs) {
     for (const InfluenceWeights kind : both_kinds)
         EXPECT_EQ(weights_of({0, 1, 1, 2, 3, 4, 5, 6}, kind), (std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0}));
 }
 
-TEST(InfluenceRows, GiveALoneSampleEverything) {
-    for (const InfluenceWeights kind : both_kinds) {
-        const InfluenceRows rows = rows_of({row_of({17})}, kind);
-        EXPECT_EQ(rows.weight, (std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0}));
-        EXPECT_EQ(rows.sample, std::vector<Index>(8, 10)) << "unused places repeat the first sample";
-    }
+TEST(Influences, GiveALoneSampleEverything) {
+    for (const InfluenceWeights kind : both_kinds)
+        EXPECT_EQ(weights_of({17}, kind), (std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0}));
 }
 
-TEST(InfluenceRows, ShareEvenlyAtEqualDistances) {
+TEST(Influences, ShareEvenlyAtEqualDistances) {
     for (const InfluenceWeights kind : both_kinds) {
         EXPECT_EQ(weights_of({5, 5, 5, 5, 5, 5, 5, 5}, kind), std::vector<float>(8, 0.125F));
         EXPECT_EQ(weights_of({5, 5}, kind), (std::vector<float>{0.5, 0.5, 0, 0, 0, 0, 0, 0}));
     }
 }
 
-TEST(InfluenceRows, OfAVertexWithoutSamplesAreZero) {
-    for (const InfluenceWeights kind : both_kinds) {
-        const InfluenceRows rows = rows_of({row_of({})}, kind);
-        EXPECT_EQ(rows.weight, std::vector<float>(8, 0.0F));
-        EXPECT_EQ(rows.sample, std::vector<Index>(8, 0));
-    }
+TEST(Influences, OfAVertexWithoutSamplesAreZero) {
+    for (const InfluenceWeights kind : both_kinds)
+        EXPECT_EQ(weights_of({}, kind), std::vector<float>(8, 0.0F));
 }
 
-TEST(InfluenceRows, OfThePaperFallWithTheSquareOfTheDistance) {
+TEST(Influences, OfThePaperFallWithTheSquareOfTheDistance) {
     const std::vector<std::uint32_t> distances{2, 3, 3, 4, 6, 8, 9, 11};
     const std::vector<float> weight = weights_of(distances, InfluenceWeights::paper);
     for (std::size_t place = 1; place < 8; ++place) {
@@ -91,7 +90,7 @@ TEST(InfluenceRows, OfThePaperFallWithTheSquareOfTheDistance) {
     }
 }
 
-TEST(InfluenceRows, ThatAreSmoothFallToNothingAtTheFarthest) {
+TEST(Influences, ThatAreSmoothFallToNothingAtTheFarthest) {
     const std::vector<std::uint32_t> distances{2, 3, 3, 4, 6, 8, 9, 11};
     const std::vector<float> weight = weights_of(distances, InfluenceWeights::smooth);
     EXPECT_EQ(weight[7], 0.0F);
@@ -101,17 +100,27 @@ TEST(InfluenceRows, ThatAreSmoothFallToNothingAtTheFarthest) {
     }
 }
 
-TEST(InfluenceRows, OwnAndSingleOnesAreOneSample) {
-    InfluenceRows rows = own_rows(3);
-    EXPECT_EQ(append_single(rows, 42), 3U);
-    ASSERT_EQ(rows.size(), 4U);
-    const std::vector<Index> expected{0, 1, 2, 42};
-    for (std::size_t row = 0; row < 4; ++row) {
-        for (std::size_t place = 0; place < influences_per_row; ++place) {
-            EXPECT_EQ(rows.sample[row * influences_per_row + place], expected[row]);
-            EXPECT_EQ(rows.weight[row * influences_per_row + place], place == 0 ? 1.0F : 0.0F);
-        }
+TEST(Influences, BeyondTheRowsAreOneMotion) {
+    const InfluenceRows rows{std::vector(3, row_of<std::uint16_t>({1, 2, 3}))};
+    for (const Index number : {3U, 42U}) {
+        const Influence influence = influence_of(rows, InfluenceWeights::smooth, number);
+        EXPECT_EQ(influence.count, 1U);
+        EXPECT_EQ(influence.motion[0], number - 3);
+        EXPECT_EQ(influence.weight, (std::array<float, influences_per_row>{1}));
     }
+    EXPECT_EQ(influence_of({}, InfluenceWeights::paper, 7).motion[0], 7U); // every point is a sample
+}
+
+TEST(InfluenceRows, MeanTheSameNarrowAndWide) {
+    InfluenceRows rows{std::vector{row_of<std::uint16_t>({0, 9, 65'534}), row_of<std::uint16_t>({})}};
+    const WideRow first = rows[0], second = rows[1];
+    widen(rows);
+    ASSERT_TRUE(rows.are_wide());
+    EXPECT_EQ(rows[0].sample, first.sample);
+    EXPECT_EQ(rows[0].distance,
+              (std::array<Index, 8>{0, 9, 65'534, no_index, no_index, no_index, no_index, no_index}));
+    EXPECT_EQ(rows[1].distance, second.distance);
+    EXPECT_EQ(rows[1].count(), 0U);
 }
 
 } // namespace

@@ -20,7 +20,7 @@ PointOrder ordered(const std::vector<float>& positions, unsigned threads = 2) {
 void expect_consistent(const PointOrder& order) {
     ASSERT_EQ(order.vertex.size(), order.points());
     ASSERT_EQ(order.first_point.size(), order.vertices() + 1);
-    EXPECT_EQ(order.first_point.back(), order.points());
+    EXPECT_EQ(order.first_point[order.vertices()], order.points());
     EXPECT_TRUE(std::ranges::is_sorted(order.code));
     for (std::size_t v = 0; v < order.vertices(); ++v) {
         ASSERT_LT(order.first_point[v], order.first_point[v + 1]);

@@ -14,7 +14,7 @@ using test::Machine;
 
 struct Sampled {
     std::vector<Index> samples;
-    std::vector<NearestSamples> nearest;
+    InfluenceRows nearest;
     SampleGraph graph;
 };
 
@@ -109,7 +109,7 @@ TEST(SampleGraph, LinksTheNearestAndWhatTouches) {
     }
     std::set<std::pair<Index, Index>> expected;
     for (Index s = 0; s < result.samples.size(); ++s) {
-        const NearestSamples& row = result.nearest[result.samples[s]];
+        const WideRow row = result.nearest[result.samples[s]];
         ASSERT_EQ(row.sample[0], s);
         for (std::size_t place = 1; place <= sample_neighbors && row.sample.at(place) != no_index; ++place) {
             expected.insert({s, row.sample.at(place)});

@@ -37,7 +37,7 @@ TEST(ShadingNormals, are_there_for_lone_vertices_too) {
     const Graph lone{{0, 0}, {}};
     EXPECT_EQ(shading_normals(lone, std::vector<float>{1, 2, 3}, workers), (std::vector<float>{0, 0, 1}));
     EXPECT_TRUE(shading_normals({}, {}, workers).empty());
-    EXPECT_EQ(spread_to_points(std::vector<float>{0, 0, 1, 1, 0, 0}, std::vector<Index>{0, 1, 1}),
+    EXPECT_EQ(spread_to_points(std::vector<float>{0, 0, 1, 1, 0, 0}, Numbering({0, 1, 1})),
               (std::vector<float>{0, 0, 1, 1, 0, 0, 1, 0, 0}));
 }
 

@@ -1,6 +1,9 @@
 #include "upsample/scene.h"
 
+#include <algorithm>
+#include <numeric>
 #include <random>
+#include <set>
 
 namespace knead::test {
 
@@ -22,28 +25,51 @@ void append(const Vec3d& v, std::vector<float>& packed) {
     for (int i = 0; i < 3; ++i) packed.push_back(static_cast<float>(v[i]));
 }
 
-void append_row(Random& random, std::size_t number, std::size_t motions, InfluenceRows& rows) {
+NarrowRow random_row(Random& random, std::size_t number, std::size_t motions) {
+    NarrowRow row;
+    row.sample.fill(NarrowRow::none);
+    row.distance.fill(NarrowRow::none);
     const std::size_t used = number % 4 == 3 ? 1 : number % 5 == 4 ? 5 : influences_per_row;
-    double weight[influences_per_row] = {};
-    double sum = 0;
-    for (std::size_t k = 0; k < used; ++k) sum += weight[k] = between(random, 0.01, 1);
-    Index first = 0;
-    for (std::size_t k = 0; k < influences_per_row; ++k) {
-        const auto sample = static_cast<Index>(random() % motions);
-        if (k == 0) first = sample;
-        rows.sample.push_back(k < used ? sample : first);
-        rows.weight.push_back(static_cast<float>(weight[k] / sum));
+    std::multiset<std::uint16_t> distances;
+    for (std::size_t k = 0; k < used; ++k) {
+        row.sample.at(k) = static_cast<std::uint16_t>(random() % motions);
+        distances.insert(static_cast<std::uint16_t>(number % 11 == 5 ? 7 : 1 + random() % 3000));
     }
+    std::ranges::copy(distances, row.distance.begin());
+    if (number % 13 == 6) row.distance[0] = 0;
+    return row;
+}
+
+// What graph/influences.h says of the weights, in double.
+std::vector<double> exact_weights(const WideRow& row, InfluenceWeights kind) {
+    std::vector<double> weight;
+    const double farthest = row.count() > 0 ? row.distance.at(row.count() - 1) : 0;
+    for (std::size_t k = 0; k < row.count(); ++k) {
+        const double d = row.distance.at(k);
+        const double nearness = 1 - d / farthest;
+        weight.push_back(kind == InfluenceWeights::paper ? 1 / (d * d) : nearness * nearness);
+    }
+    if (row.distance[0] == 0) weight = {1};
+    double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
+    if (sum == 0) weight.assign(row.count(), 1), sum = static_cast<double>(row.count());
+    for (double& w : weight) w /= sum;
+    return weight;
 }
 
 Eigen::Matrix<double, 3, 4> exact_blend(const Scene& scene, std::size_t point) {
     Eigen::Matrix<double, 3, 4> sum = Eigen::Matrix<double, 3, 4>::Zero();
-    for (std::size_t k = 0; k < influences_per_row; ++k) {
-        const std::size_t place = influences_per_row * scene.row[point] + k;
-        const Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>> map(
-            scene.motions[scene.rows.sample[place]].map);
-        sum += static_cast<double>(scene.rows.weight[place]) * map.cast<double>();
+    const auto add = [&](double weight, std::size_t motion) {
+        const Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>> map(scene.motions.at(motion).map);
+        sum += weight * map.cast<double>();
+    };
+    const std::size_t mover = scene.mover[point];
+    if (mover >= scene.rows.size()) {
+        add(1, mover - scene.rows.size());
+        return sum;
     }
+    const WideRow row = scene.rows[mover];
+    const std::vector<double> weights = exact_weights(row, scene.weights);
+    for (std::size_t k = 0; k < weights.size(); ++k) add(weights[k], row.sample.at(k));
     return sum;
 }
 
@@ -54,11 +80,13 @@ Scene random_scene(std::size_t points, std::size_t motions, unsigned seed, bool 
     Scene scene;
     const std::size_t rows =
         points == 0 ? 0 : points / 2 + 1; // rows are shared, and not in the points' order
-    for (std::size_t r = 0; r < rows; ++r) append_row(random, r, motions, scene.rows);
+    std::vector<NarrowRow> narrow;
+    for (std::size_t r = 0; r < rows; ++r) narrow.push_back(random_row(random, r, motions));
+    scene.rows.rows = narrow;
     for (std::size_t i = 0; i < points; ++i) {
         append(in_cube(random), scene.positions);
         if (with_normals) append((in_cube(random) + Vec3d(0, 0, 1.5)).normalized(), scene.normals);
-        scene.row.push_back(static_cast<Index>(random() % rows));
+        scene.mover.push_back(static_cast<Index>(i % 7 == 4 ? rows + random() % motions : random() % rows));
     }
     for (std::size_t m = 0; m < motions; ++m) {
         const Vec3d axis = (in_cube(random) + Vec3d(0, 1.5, 0)).normalized();

@@ -10,11 +10,12 @@ namespace knead::test {
 struct Scene {
     std::vector<float> positions;
     std::vector<float> normals;
-    std::vector<Index> row;
+    std::vector<Index> mover;
     InfluenceRows rows;
+    InfluenceWeights weights = InfluenceWeights::smooth;
     std::vector<Motion> motions;
 
-    UpsampleInput input() const { return {positions, normals, row, &rows}; }
+    UpsampleInput input() const { return {positions, normals, mover, &rows, weights}; }
 };
 
 struct Posed {
@@ -25,8 +26,9 @@ struct Posed {
     operator==(const Posed&) const = default; // equal values: for finite ones, all bits but a zero's sign
 };
 
-// Positions in [-1, 1]^3, unit normals, full rows of random weights (every fourth has one influence, every
-// fifth a tail of weight 0), rotations of any angle with a shift of up to 1.
+// Positions in [-1, 1]^3, unit normals, narrow rows of random distances (every fourth with one sample, others
+// with five, with a sample right at the point, or with all of them equally far), every seventh point moved by
+// one motion alone, rotations of any angle with a shift of up to 1.
 Scene random_scene(std::size_t points, std::size_t motions, unsigned seed, bool with_normals = true);
 
 // The motion that takes p to M p + shift.

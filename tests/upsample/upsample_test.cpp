@@ -85,20 +85,22 @@ TEST_P(EveryUpsampler, LeavesEveryBitWhereNothingMoves) {
 
 TEST_P(EveryUpsampler, FollowsTheFormulas) {
     for (const std::size_t points : {std::size_t{1}, std::size_t{2}, std::size_t{255}, std::size_t{256},
-                                     std::size_t{257}, std::size_t{20'011}}) {
-        const Scene scene = random_scene(points, 50, 2);
-        for (const auto& upsampler : all()) {
-            const Posed posed = upsampled(*upsampler, scene);
-            for (std::size_t i = 0; i < points; ++i) {
-                ASSERT_LT((at(posed.positions, i) - exact_position(scene, i)).norm(), position_tolerance)
-                    << i;
-                ASSERT_NEAR(at(posed.normals, i).norm(), 1, 10 * epsilon) << i;
-                const Vec3d turned = exact_turned(scene, i);
-                if (turned.norm() < least_length) continue;
-                ASSERT_LT((at(posed.normals, i) - turned.normalized()).norm(), normal_tolerance) << i;
+                                     std::size_t{257}, std::size_t{20'011}})
+        for (const InfluenceWeights weights : {InfluenceWeights::smooth, InfluenceWeights::paper}) {
+            Scene scene = random_scene(points, 50, 2);
+            scene.weights = weights;
+            for (const auto& upsampler : all()) {
+                const Posed posed = upsampled(*upsampler, scene);
+                for (std::size_t i = 0; i < points; ++i) {
+                    ASSERT_LT((at(posed.positions, i) - exact_position(scene, i)).norm(), position_tolerance)
+                        << i;
+                    ASSERT_NEAR(at(posed.normals, i).norm(), 1, 10 * epsilon) << i;
+                    const Vec3d turned = exact_turned(scene, i);
+                    if (turned.norm() < least_length) continue;
+                    ASSERT_LT((at(posed.normals, i) - turned.normalized()).norm(), normal_tolerance) << i;
+                }
             }
         }
-    }
 }
 
 TEST_P(EveryUpsampler, MovesEverythingRigidlyByOneMotion) {
@@ -108,7 +110,7 @@ TEST_P(EveryUpsampler, MovesEverythingRigidlyByOneMotion) {
     scene.motions.assign(30, motion_of(turn, shift));
     for (const auto& upsampler : all()) {
         const Posed posed = upsampled(*upsampler, scene);
-        for (std::size_t i = 0; i < scene.row.size(); ++i) {
+        for (std::size_t i = 0; i < scene.mover.size(); ++i) {
             ASSERT_LT((at(posed.positions, i) - (turn * at(scene.positions, i) + shift)).norm(),
                       position_tolerance);
             ASSERT_LT((at(posed.normals, i) - turn * at(scene.normals, i)).norm(), position_tolerance);
@@ -123,7 +125,7 @@ TEST_P(EveryUpsampler, KeepsNormalsPerpendicularUnderScaling) {
     scene.motions.assign(1, motion_of(linear, Vec3d::Zero()));
     for (const auto& upsampler : all()) {
         const Posed posed = upsampled(*upsampler, scene);
-        for (std::size_t i = 0; i < scene.row.size(); ++i) {
+        for (std::size_t i = 0; i < scene.mover.size(); ++i) {
             const Vec3d normal = at(scene.normals, i);
             const Vec3d tangent = linear * normal.unitOrthogonal();
             ASSERT_NEAR(at(posed.normals, i).dot(tangent.normalized()), 0, position_tolerance);
@@ -139,7 +141,7 @@ TEST_P(EveryUpsampler, KeepsTheLengthOfNormals) {
     for (std::size_t i = 30; i < 33; ++i) scene.normals[i] = 0;
     for (const auto& upsampler : all()) {
         const Posed posed = upsampled(*upsampler, scene);
-        for (std::size_t i = 0; i < scene.row.size(); ++i) {
+        for (std::size_t i = 0; i < scene.mover.size(); ++i) {
             const double length = at(scene.normals, i).norm();
             ASSERT_NEAR(at(posed.normals, i).norm(), length, 10 * epsilon * length);
         }
@@ -192,18 +194,82 @@ TEST_P(EveryUpsampler, GivesTheSameBytesAgainAndOnAnyNumberOfThreads) {
 // Five steps of a float, for devices that round quotients and roots less exactly or flush tiny numbers to
 // zero; PoCL differs from the reference in no bit.
 TEST_P(EveryUpsampler, AgreesWithTheReference) {
-    const Scene scene = random_scene(50'021, 300, 9);
+    for (const InfluenceWeights weights : {InfluenceWeights::smooth, InfluenceWeights::paper}) {
+        Scene scene = random_scene(50'021, 300, 9);
+        scene.weights = weights;
+        Workers workers(2);
+        const Posed expected = upsampled(*make_reference_upsampler(workers), scene);
+        for (const auto& upsampler : all()) {
+            const Posed posed = upsampled(*upsampler, scene);
+            for (std::size_t i = 0; i < posed.positions.size(); ++i) {
+                ASSERT_NEAR(posed.positions[i], expected.positions[i], 5 * epsilon) << i;
+                ASSERT_NEAR(posed.normals[i], expected.normals[i], 5 * epsilon) << i;
+            }
+            if (upsampler->device().find("pthread") != std::string::npos) {
+                EXPECT_TRUE(same_bits(posed, expected));
+            }
+        }
+    }
+}
+
+TEST_P(EveryUpsampler, ReadsNarrowAndWideRowsAlike) {
+    for (const InfluenceWeights weights : {InfluenceWeights::smooth, InfluenceWeights::paper}) {
+        Scene narrow = random_scene(10'007, 300, 13);
+        narrow.weights = weights;
+        Scene wide = narrow;
+        widen(wide.rows);
+        ASSERT_TRUE(wide.rows.are_wide() && !narrow.rows.are_wide());
+        for (const auto& upsampler : all()) { // one after the other, so that it has to change
+            const Posed first = upsampled(*upsampler, narrow);
+            EXPECT_TRUE(same_bits(upsampled(*upsampler, wide), first));
+            EXPECT_TRUE(same_bits(upsampled(*upsampler, narrow), first));
+        }
+    }
+}
+
+TEST_P(EveryUpsampler, TakesDistancesAndSamplesThatOnlyWideRowsHold) {
+    Scene scene = random_scene(2000, 70'000, 14);
+    widen(scene.rows);
+    auto& rows = std::get<std::vector<WideRow>>(scene.rows.rows);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+        for (std::size_t k = 0; k < rows[r].count(); ++k) {
+            rows[r].sample.at(k) = static_cast<Index>(69'999 - (r + k) % 4000);
+            if (rows[r].distance.at(k) != 0) rows[r].distance.at(k) *= 1'000'003; // up to 2^31.5
+        }
     Workers workers(2);
     const Posed expected = upsampled(*make_reference_upsampler(workers), scene);
     for (const auto& upsampler : all()) {
         const Posed posed = upsampled(*upsampler, scene);
-        for (std::size_t i = 0; i < posed.positions.size(); ++i) {
-            ASSERT_NEAR(posed.positions[i], expected.positions[i], 5 * epsilon) << i;
-            ASSERT_NEAR(posed.normals[i], expected.normals[i], 5 * epsilon) << i;
-        }
+        for (std::size_t i = 0; i < scene.mover.size(); ++i)
+            ASSERT_LT((at(posed.positions, i) - exact_position(scene, i)).norm(), position_tolerance) << i;
         if (upsampler->device().find("pthread") != std::string::npos) {
             EXPECT_TRUE(same_bits(posed, expected));
         }
+    }
+}
+
+TEST_P(EveryUpsampler, MovesEveryPointByAMotionOfItsOwnWithoutRows) {
+    Scene scene = random_scene(3000, 3000, 15);
+    scene.rows = {};
+    for (Index i = 0; i < 3000; ++i) scene.mover[i] = 2999 - i;
+    for (const auto& upsampler : all()) {
+        const Posed posed = upsampled(*upsampler, scene);
+        for (std::size_t i = 0; i < 3000; ++i)
+            ASSERT_LT((at(posed.positions, i) - exact_position(scene, i)).norm(), position_tolerance) << i;
+    }
+}
+
+TEST_P(EveryUpsampler, LeavesEveryBitOfAPointWhoseRowIsEmpty) {
+    Scene scene = random_scene(500, 20, 16);
+    std::get<std::vector<NarrowRow>>(scene.rows.rows)[3] = {
+        {65535, 65535, 65535, 65535, 65535, 65535, 65535, 65535},
+        {65535, 65535, 65535, 65535, 65535, 65535, 65535, 65535}};
+    scene.mover.assign(500, 3);
+    scene.positions[1] = -0.0F;
+    for (int kind = 0; kind < 2; ++kind) {
+        for (const auto& upsampler : all())
+            EXPECT_TRUE(same_bits(upsampled(*upsampler, scene), Posed{scene.positions, scene.normals}));
+        widen(scene.rows);
     }
 }
 
@@ -227,9 +293,12 @@ TEST_P(EveryUpsampler, RefusesRowsAndSamplesThatDoNotExist) {
     for (const auto& upsampler : all()) {
         Scene scene = random_scene(10, 5, 12);
         EXPECT_THROW(upsampler->prepare(scene.input(), 0), BrokenInvariant);
-        scene.row[3] = static_cast<Index>(scene.rows.size());
+        scene.mover[3] = static_cast<Index>(scene.rows.size() + 5);
         EXPECT_THROW(upsampler->prepare(scene.input(), 5), BrokenInvariant);
-        scene.row[3] = 0;
+        scene.mover[3] = 0;
+        std::get<std::vector<NarrowRow>>(scene.rows.rows)[1].sample[0] = 5;
+        EXPECT_THROW(upsampler->prepare(scene.input(), 5), BrokenInvariant);
+        std::get<std::vector<NarrowRow>>(scene.rows.rows)[1].sample[0] = 4;
         upsampler->prepare(scene.input(), 5);
         std::vector<float> places(30);
         EXPECT_THROW(upsampler->run(scene.motions, places, {}), BrokenInvariant);

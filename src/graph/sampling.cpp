@@ -1,5 +1,6 @@
 #include "graph/sampling.h"
 
+#include "base/gathered.h"
 #include "graph/octree.h"
 #include "graph/symmetric_graph.h"
 
@@ -40,17 +41,22 @@ void give_each_one(const VertexShape& shape, std::span<const Index> label, std::
 }
 
 // The pairs of samples whose territories touch, once for every link of the point graph between them, sorted.
-std::vector<std::pair<Index, Index>> touching(std::span<const NearestSamples> nearest, const Graph& points) {
-    std::vector<std::pair<Index, Index>> pairs;
-    for (Index p = 0; p < points.size(); ++p) {
-        const Index a = nearest[p].sample[0];
-        if (a == no_index) continue;
-        for (const Index q : points.row(p)) {
-            if (q > p) break; // rows ascend, and the link is met again from its other end
-            const Index b = nearest[q].sample[0];
-            if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
+std::vector<std::pair<Index, Index>> touching(std::span<const NearestSamples> nearest, const Graph& points,
+                                              Workers& workers) {
+    Gathered<std::pair<Index, Index>> gathered;
+    workers.for_chunks(points.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        Gathered<std::pair<Index, Index>>::Block pairs(gathered);
+        for (std::size_t p = begin; p < end; ++p) {
+            const Index a = nearest[p].sample[0];
+            if (a == no_index) continue;
+            for (const Index q : points.row(p)) {
+                if (q > p) break; // rows ascend, and the link is met again from its other end
+                const Index b = nearest[q].sample[0];
+                if (a != b) pairs.push({std::min(a, b), std::max(a, b)});
+            }
         }
-    }
+    });
+    std::vector<std::pair<Index, Index>> pairs(gathered.items().begin(), gathered.items().end());
     std::ranges::sort(pairs);
     return pairs;
 }
@@ -108,7 +114,7 @@ SampleGraph sample_graph(std::span<const NearestSamples> nearest, std::span<cons
             if (other != s && other != no_index && kept < sample_neighbors)
                 links[s * sample_neighbors + kept++] = other;
     });
-    const std::vector<std::pair<Index, Index>> pairs = touching(nearest, points);
+    const std::vector<std::pair<Index, Index>> pairs = touching(nearest, points, workers);
     SampleGraph result;
     result.graph = with_edges(symmetric_graph(links, sample_neighbors, workers), pairs);
     result.contact.assign(result.graph.neighbor.size(), 0.5F);

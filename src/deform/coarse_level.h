@@ -27,9 +27,8 @@ namespace knead {
 struct CoarseSamples {
     std::vector<Index> sample; // of each coarse sample, the sample that it is
     SampleGraph between;       // the coarse samples
-    std::vector<Index>
-        around; // of each sample, `influences_per_row` coarse ones around it, the nearest first,
-    std::vector<float> weight;  // and how much it follows each; all 0 where there is none
+    std::vector<Influence>
+        followed;               // of each sample: the coarse ones around it, and how much it follows each
     std::vector<Index> nearest; // of each sample, the coarse one nearest to it, or no_index
 };
 

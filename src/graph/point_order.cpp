@@ -32,42 +32,9 @@ std::uint64_t spread(std::uint64_t bits) {
     return bits;
 }
 
-struct Cube {
-    Vec3d lowest = Vec3d::Zero();
-    double edge = 1;
-};
-
 bool finite_at(std::span<const float> positions, std::size_t i) {
     return std::isfinite(positions[3 * i]) && std::isfinite(positions[3 * i + 1]) &&
            std::isfinite(positions[3 * i + 2]);
-}
-
-Vec3d position_at(std::span<const float> positions, std::size_t i) {
-    return {static_cast<double>(positions[3 * i]), static_cast<double>(positions[3 * i + 1]),
-            static_cast<double>(positions[3 * i + 2])};
-}
-
-Cube cube_around(std::span<const float> positions, std::span<const Keyed> points) {
-    if (points.empty()) return {};
-    Vec3d lowest = position_at(positions, points[0].point);
-    Vec3d highest = lowest;
-    for (const Keyed& keyed : points) {
-        const Vec3d p = position_at(positions, keyed.point);
-        lowest = lowest.cwiseMin(p);
-        highest = highest.cwiseMax(p);
-    }
-    const double edge = (highest - lowest).maxCoeff();
-    return {lowest, edge > 0 ? edge : 1};
-}
-
-std::uint64_t morton_code(const Vec3d& p, const Cube& cube) {
-    constexpr double cells = 1 << bits_an_axis;
-    std::uint64_t code = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double cell = std::clamp((p[axis] - cube.lowest[axis]) / cube.edge * cells, 0.0, cells - 1);
-        code |= spread(static_cast<std::uint64_t>(cell)) << (2 - axis);
-    }
-    return code;
 }
 
 // One stable pass of a radix sort, by the digit at `shift`, across the workers: a histogram a chunk, then
@@ -159,6 +126,30 @@ PointOrder numbered(std::span<const Keyed> items, std::span<const float> positio
 
 } // namespace
 
+MortonCube morton_cube(std::span<const float> positions) {
+    Vec3d lowest = Vec3d::Constant(std::numeric_limits<double>::infinity());
+    Vec3d highest = -lowest;
+    for (std::size_t i = 0; i < positions.size() / 3; ++i) {
+        if (!finite_at(positions, i)) continue;
+        lowest = lowest.cwiseMin(point_at(positions, i));
+        highest = highest.cwiseMax(point_at(positions, i));
+    }
+    const double edge = (highest - lowest).maxCoeff();
+    if (edge < 0) return {}; // there is no finite point
+    return {lowest, edge > 0 ? edge : 1};
+}
+
+std::uint64_t morton_code(const Vec3d& position, const MortonCube& cube) {
+    constexpr double cells = 1 << bits_an_axis;
+    std::uint64_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double cell =
+            std::clamp((position[axis] - cube.lowest[axis]) / cube.edge * cells, 0.0, cells - 1);
+        code |= spread(static_cast<std::uint64_t>(cell)) << (2 - axis);
+    }
+    return code;
+}
+
 PointOrder order_points(std::span<const float> positions, Workers& workers, Progress& progress) {
     const std::size_t points = positions.size() / 3;
     require(points < no_index, "a cloud has at most 2^32 - 2 points");
@@ -168,9 +159,9 @@ PointOrder order_points(std::span<const float> positions, Workers& workers, Prog
     for (std::size_t i = 0; i < points; ++i)
         if (finite_at(positions, i)) items.push_back({0, static_cast<Index>(i)});
 
-    const Cube cube = cube_around(positions, items);
+    const MortonCube cube = morton_cube(positions);
     workers.for_each(items.size(), grain, [&](std::size_t i) {
-        items[i].code = morton_code(position_at(positions, items[i].point), cube);
+        items[i].code = morton_code(point_at(positions, items[i].point), cube);
     });
     sort_by_code(items, workers);
     progress.step("ordering the points", 0.6);

@@ -49,6 +49,16 @@ struct PointOrder {
     std::size_t vertices() const { return code.size(); }
 };
 
+// The cube that the curve runs through: around all finite points. `positions`: 3 floats a point.
+struct MortonCube {
+    Vec3d lowest = Vec3d::Zero();
+    double edge = 1;
+};
+MortonCube morton_cube(std::span<const float> positions);
+
+// Where a position in the cube, or the nearest one in it, stands on the curve.
+std::uint64_t morton_code(const Vec3d& position, const MortonCube& cube);
+
 // `positions`: 3n floats in the order of the file. The order depends on the positions alone; ties go by
 // coordinates, then by file index.
 PointOrder order_points(std::span<const float> positions, Workers& workers, Progress& progress);

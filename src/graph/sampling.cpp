@@ -1,5 +1,6 @@
 #include "graph/sampling.h"
 
+#include "base/gathered.h"
 #include "graph/octree.h"
 #include "graph/symmetric_graph.h"
 
@@ -41,17 +42,22 @@ void give_each_one(const VertexShape& shape, std::span<const Index> label, std::
 
 // The pairs of samples whose territories touch, once for every link of the point graph between them, sorted.
 template<typename Row>
-std::vector<std::pair<Index, Index>> touching(const std::vector<Row>& nearest, const Graph& points) {
-    std::vector<std::pair<Index, Index>> pairs;
-    for (Index p = 0; p < points.size(); ++p) {
-        const Index a = nearest[p].sample[0];
-        if (a == Row::none) continue;
-        for (const Index q : points.row(p)) {
-            if (q > p) break; // rows ascend, and the link is met again from its other end
-            const Index b = nearest[q].sample[0];
-            if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
+std::vector<std::pair<Index, Index>> touching(const std::vector<Row>& nearest, const Graph& points,
+                                              Workers& workers) {
+    Gathered<std::pair<Index, Index>> gathered;
+    workers.for_chunks(points.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        Gathered<std::pair<Index, Index>>::Block pairs(gathered);
+        for (std::size_t p = begin; p < end; ++p) {
+            const auto a = nearest[p].sample[0];
+            if (a == Row::none) continue;
+            for (const Index q : points.row(p)) {
+                if (q > p) break; // rows ascend, and the link is met again from its other end
+                const auto b = nearest[q].sample[0];
+                if (a != b) pairs.push({Index{std::min(a, b)}, Index{std::max(a, b)}});
+            }
         }
-    }
+    });
+    std::vector<std::pair<Index, Index>> pairs(gathered.items().begin(), gathered.items().end());
     std::ranges::sort(pairs);
     return pairs;
 }
@@ -109,7 +115,8 @@ SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> sa
             if (other != s && other != no_index && kept < sample_neighbors)
                 links[s * sample_neighbors + kept++] = other;
     });
-    const auto pairs = std::visit([&](const auto& rows) { return touching(rows, points); }, nearest.rows);
+    const auto pairs =
+        std::visit([&](const auto& rows) { return touching(rows, points, workers); }, nearest.rows);
     SampleGraph result;
     result.graph = with_edges(symmetric_graph(links, sample_neighbors, workers), pairs);
     result.contact.assign(result.graph.neighbor.size(), 0.5F);

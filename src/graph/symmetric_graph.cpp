@@ -3,6 +3,7 @@
 #include "base/require.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 #include <utility>
@@ -13,8 +14,27 @@ namespace {
 
 constexpr std::size_t grain = 4096;
 
+// Looks at all of a list, which is short: where to end early is what a processor guesses wrong.
 bool names(std::span<const Index> list, Index vertex) {
-    return std::ranges::find(list, vertex) != list.end();
+    bool found = false;
+    for (const Index other : list) found |= other == vertex;
+    return found;
+}
+
+// Sorts entries that are pairwise different. Short rows by counting, for each, those that are lower: there is
+// nothing to be guessed.
+void sort_row(std::span<Index> row) {
+    std::array<Index, 16> old;
+    if (row.size() > old.size()) {
+        std::ranges::sort(row);
+        return;
+    }
+    std::ranges::copy(row, old.begin());
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        std::size_t lower = 0;
+        for (std::size_t j = 0; j < row.size(); ++j) lower += old[j] < old[i] ? 1 : 0;
+        row[lower] = old[i];
+    }
 }
 
 // Replaces counts by where each row begins; returns the total.
@@ -64,7 +84,7 @@ Graph symmetric_graph(std::span<const Index> lists, std::size_t width, Workers& 
     });
     // Back links arrive in any order; sorted rows make the graph independent of it.
     workers.for_each(vertices, grain, [&](std::size_t v) {
-        std::sort(graph.neighbor.begin() + graph.first[v], graph.neighbor.begin() + graph.first[v + 1]);
+        sort_row(std::span(graph.neighbor).subspan(graph.first[v], graph.first[v + 1] - graph.first[v]));
     });
     return graph;
 }

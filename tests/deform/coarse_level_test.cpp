@@ -67,8 +67,7 @@ TEST(CoarseLevel, IsOfFewSamplesThatTheHandlesHoldAsTheyHoldTheOthers) {
     EXPECT_EQ(held, std::vector<bool>(bar.handles.size(), true));
     for (std::size_t s = 0; s < bar.system.rest.handle.size(); ++s) {
         float sum = 0;
-        for (std::size_t k = 0; k < influences_per_row; ++k)
-            sum += bar.coarse.samples.weight[influences_per_row * s + k];
+        for (const float weight : bar.coarse.samples.followed[s].weight) sum += weight;
         EXPECT_NEAR(sum, 1, 1e-6); // rounding
     }
 }

@@ -57,7 +57,9 @@ std::vector<std::pair<Index, Index>> touching(const std::vector<Row>& nearest, c
             }
         }
     });
-    std::vector<std::pair<Index, Index>> pairs(gathered.items().begin(), gathered.items().end());
+    std::vector<std::pair<Index, Index>> pairs;
+    pairs.reserve(gathered.size());
+    gathered.take([&](const auto& pair) { pairs.push_back(pair); });
     std::ranges::sort(pairs);
     return pairs;
 }

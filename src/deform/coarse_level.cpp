@@ -24,9 +24,6 @@ constexpr double border_of_territories = 0.3; // see isotropic_weights()
 constexpr double left_over = 0.05;
 constexpr int most_iterations = 12;
 
-// An iteration may go so much as far as the one before.
-constexpr double helps = 0.8;
-
 // The samples and their graph in the order of the Morton curve: floods go through near memory then, which
 // samples in their own scrambled order are not.
 struct OrderedSamples {
@@ -91,8 +88,7 @@ std::vector<Index> choose(const Graph& graph, std::span<const Index> handle, con
         for (std::size_t i = 0; i < share; ++i) chosen.push_back(ordered.place[samples[i]]);
     }
     std::ranges::sort(chosen);
-    const auto twice = std::ranges::unique(chosen);
-    chosen.erase(twice.begin(), twice.end());
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
     return shuffled(std::move(chosen));
 }
 
@@ -231,7 +227,7 @@ CoarseSamples coarse_samples(const Graph& graph, std::span<const Vec3d> position
 }
 
 FactorOutcome build_coarse_level(const SampleSystem& fine, CoarseLevel& coarse, Workers& workers) {
-    const FactorOutcome outcome =
+    FactorOutcome outcome =
         build_system(coarse_rest(fine.rest, coarse.samples, workers), coarse.system, workers);
     coarse.state = rest_state(coarse.system);
     coarse.before.assign(coarse.samples.sample.size(), Vec3d::Zero());
@@ -244,8 +240,8 @@ double iterate(SampleSystem& fine, CoarseLevel& coarse, std::span<const HandleMo
     if (memory.alone) return iterate(fine, handles, state, memory, workers);
     inject(state, coarse, coarse.before);
     const double way = iterate(fine, handles, state, workers);
-    if (memory.last_way > 0 && way > helps * memory.last_way) {
-        if (way > memory.last_way) state = memory.uncorrected;
+    if (memory.last_way > 0 && way > memory.last_way) {
+        state = memory.uncorrected;
         memory.alone = true;
         return way;
     }

@@ -54,12 +54,11 @@ CoarseSamples coarse_samples(const Graph& graph, std::span<const Vec3d> position
 // the outcome is bad there is no coarse level.
 FactorOutcome build_coarse_level(const SampleSystem& fine, CoarseLevel& coarse, Workers& workers);
 
-// One iteration as iterate() does it, and what the coarse samples make of it. An iteration that goes nearly
-// as far as the one before, or farther, shows that they do not know better here (a strongly twisted or very
-// elastic shape): then what they made of the one before is taken back, if it did harm, and until `memory`
-// forgets, iterations are accelerated without them. `memory` goes with a sequence of iterations at unchanging
-// poses. Allocates in its first two iterations only. Returns the longest way that a sample went in the plain
-// iteration.
+// One iteration as iterate() does it, and what the coarse samples make of it. An iteration that goes farther
+// than the one before shows that they do not know better here (a bar that is about to buckle, a very elastic
+// one): then what they made of the one before is taken back, and until `memory` forgets, iterations are
+// accelerated without them. `memory` goes with a sequence of iterations at unchanging poses. Allocates in its
+// first two iterations only. Returns the longest way that a sample went in the plain iteration.
 double iterate(SampleSystem& fine, CoarseLevel& coarse, std::span<const HandleMotion> handles,
                SampleState& state, Acceleration& memory, Workers& workers);
 

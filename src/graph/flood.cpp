@@ -2,6 +2,7 @@
 
 #include "base/gathered.h"
 #include "base/require.h"
+#include "graph/scrambled.h"
 
 #include <algorithm>
 #include <array>
@@ -261,14 +262,6 @@ std::vector<std::uint8_t> link_lengths(const Graph& graph, std::span<const float
 }
 
 std::vector<Index> shuffled(std::vector<Index> vertices) {
-    // The finaliser of SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number
-    // generators").
-    const auto scrambled = [](Index v) {
-        std::uint64_t z = (v + 1) * 0x9e3779b97f4a7c15ULL;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-        return z ^ (z >> 31);
-    };
     std::ranges::sort(vertices, {}, scrambled);
     return vertices;
 }

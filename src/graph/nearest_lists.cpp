@@ -3,6 +3,8 @@
 #include "base/require.h"
 #include "graph/point_order.h"
 
+#include "graph/scrambled.h"
+
 #include <flann/flann.hpp>
 
 #include <algorithm>
@@ -118,8 +120,18 @@ double squared_diagonal(const Box& box) {
     return sum;
 }
 
-// What the search of one tree after another has found for a vertex: the nearest others, and of equally near
-// ones those of the lowest numbers.
+// Another vertex, by how near it is.
+struct Other {
+    double squared;
+    Index vertex;
+
+    bool operator<(const Other& other) const {
+        if (squared != other.squared) return squared < other.squared;
+        return scrambled(vertex) < scrambled(other.vertex);
+    }
+};
+
+// What the search of one tree after another has found for a vertex: the nearest others.
 class NearestOthers final : public flann::ResultSet<double> {
 public:
     explicit NearestOthers(std::size_t most) : found_(most) {}
@@ -132,7 +144,7 @@ public:
     // What comes next is numbered from there.
     void number_from(std::size_t first) { first_ = first; }
 
-    std::span<const std::pair<double, Index>> found() const { return std::span(found_).first(count_); }
+    std::span<const Other> found() const { return std::span(found_).first(count_); }
 
     // Nothing from there on is looked at. Wide enough for what is as far as the last one, and for how FLANN
     // rounds the distance of a box.
@@ -140,7 +152,7 @@ public:
     bool full() const override { return count_ == found_.size(); }
     void addPoint(double squared, std::size_t in_tree) override {
         if (first_ + in_tree == vertex_) return;
-        const std::pair<double, Index> next{squared, static_cast<Index>(first_ + in_tree)};
+        const Other next{squared, static_cast<Index>(first_ + in_tree)};
         std::size_t place = count_;
         if (full()) {
             if (found_.back() < next) return;
@@ -150,11 +162,11 @@ public:
         }
         for (; place > 0 && next < found_[place - 1]; --place) found_[place] = found_[place - 1];
         found_[place] = next;
-        if (full()) bound_ = found_.back().first * (1 + 1e-9);
+        if (full()) bound_ = found_.back().squared * (1 + 1e-9);
     }
 
 private:
-    std::vector<std::pair<double, Index>> found_; // nearest first
+    std::vector<Other> found_; // nearest first
     std::size_t vertex_ = 0, first_ = 0, count_ = 0;
     double bound_ = 0;
 };
@@ -232,7 +244,7 @@ void search_run(const Run& run, std::span<const float> positions, std::size_t k,
             if (squared_distance(box_of(positions, v), tree->box) <= nearest.worstDist())
                 search_tree(*tree, positions.data() + 3 * v, nearest);
         std::ranges::transform(nearest.found(), lists.begin() + static_cast<std::ptrdiff_t>(v * k),
-                               &std::pair<double, Index>::second);
+                               &Other::vertex);
     }
 }
 

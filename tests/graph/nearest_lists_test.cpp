@@ -1,9 +1,12 @@
 #include "graph/clouds.h"
 #include "graph/nearest_lists.h"
+#include "graph/scrambled.h"
 
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include <tuple>
 
 namespace knead {
 namespace {
@@ -30,12 +33,13 @@ std::vector<Index> plain_lists(const std::vector<float>& positions, std::size_t 
     const std::size_t vertices = positions.size() / 3;
     std::vector<Index> lists;
     for (std::size_t v = 0; v < vertices; ++v) {
-        std::vector<std::pair<double, Index>> others;
+        std::vector<std::tuple<double, std::uint64_t, Index>> others;
         for (Index u = 0; u < vertices; ++u)
             if (u != v)
-                others.emplace_back((point_at(positions, u) - point_at(positions, v)).squaredNorm(), u);
+                others.emplace_back((point_at(positions, u) - point_at(positions, v)).squaredNorm(),
+                                    scrambled(u), u);
         std::ranges::partial_sort(others, others.begin() + static_cast<std::ptrdiff_t>(k));
-        for (std::size_t i = 0; i < k; ++i) lists.push_back(others[i].second);
+        for (std::size_t i = 0; i < k; ++i) lists.push_back(std::get<2>(others[i]));
     }
     return lists;
 }

@@ -77,6 +77,7 @@ void forget(Acceleration& memory) {
     memory.residual.clear();
     memory.alone = false;
     memory.last_way = 0;
+    memory.stalled = 0;
 }
 
 double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,

@@ -23,6 +23,7 @@ struct Acceleration {
     // With a coarse level (coarse_level.h): how it did so far.
     bool alone = false;      // it did not help any more: iterations go on without
     double last_way = 0;     // of the iteration before; 0 before the first
+    int stalled = 0;         // iterations that went hardly less far than the one before
     SampleState uncorrected; // where that one led to by itself
 };
 

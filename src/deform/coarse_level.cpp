@@ -24,6 +24,10 @@ constexpr double border_of_territories = 0.3; // see isotropic_weights()
 constexpr double left_over = 0.05;
 constexpr int most_iterations = 12;
 
+// So many iterations may go hardly less far than those before them.
+constexpr int patience = 4;
+constexpr double hardly_less = 0.8;
+
 // The samples and their graph in the order of the Morton curve: floods go through near memory then, which
 // samples in their own scrambled order are not.
 struct OrderedSamples {
@@ -245,6 +249,8 @@ double iterate(SampleSystem& fine, CoarseLevel& coarse, std::span<const HandleMo
         memory.alone = true;
         return way;
     }
+    if (memory.last_way > 0 && way > hardly_less * memory.last_way && ++memory.stalled == patience)
+        memory.alone = true; // from the next one on
     memory.last_way = way;
     memory.uncorrected = state;
     find_shift(coarse, handles, state, workers);

@@ -18,7 +18,6 @@ constexpr std::size_t fewest_coarse = 200;
 constexpr std::size_t samples_a_coarse = 50;
 
 constexpr int relaxing_rounds = 2;
-constexpr double border_of_territories = 0.3; // see isotropic_weights()
 
 // The coarse samples iterate until what is left is this small beside what they began with, or so many times.
 constexpr double left_over = 0.05;
@@ -173,7 +172,7 @@ void solve_coarse(CoarseLevel& coarse, std::span<const HandleMotion> handles, co
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
         const double way = iterate(coarse.system, handles, coarse.state, coarse.acceleration, workers);
         if (iteration == 0) {
-            coarse.turned = coarse.state.rotation;
+            coarse.turn = coarse.state.rotation;
             first = way;
         }
         if (!(way > left_over * first)) break;
@@ -183,7 +182,9 @@ void solve_coarse(CoarseLevel& coarse, std::span<const HandleMotion> handles, co
 // What takes each coarse sample from I G(u) to v.
 void find_motions(CoarseLevel& coarse) {
     for (std::size_t c = 0; c < coarse.samples.sample.size(); ++c) {
-        const Quatd turn = coarse.state.rotation[c] * coarse.turned[c].conjugate();
+        Quatd& turn = coarse.turn[c];
+        turn = coarse.state.rotation[c] * coarse.turn[c].conjugate();
+        if (turn.w() < 0) turn.coeffs() = -turn.coeffs(); // the short way round: these are blended
         const Vec3d from = coarse.system.rest.position[c] + coarse.before[c];
         const Mat3d beyond = turn_of(turn);
         coarse.motion[c] << beyond, coarse.state.displacement[c] - coarse.before[c] - beyond * from;
@@ -200,8 +201,7 @@ void follow_coarse(const SampleSystem& fine, const CoarseLevel& coarse, SampleSt
         for (std::size_t k = 0; k < followed.count; ++k) {
             const Index c = followed.motion[k];
             motion += static_cast<double>(followed.weight[k]) * coarse.motion[c];
-            const Quatd one = coarse.state.rotation[c] * coarse.turned[c].conjugate();
-            turn += static_cast<double>(followed.weight[k]) * std::copysign(1.0, one.w()) * one.coeffs();
+            turn += static_cast<double>(followed.weight[k]) * coarse.turn[c].coeffs();
         }
         if (!(turn.norm() > 1e-6)) return; // nothing is around it
         const Vec3d at = fine.rest.position[s] + state.displacement[s];

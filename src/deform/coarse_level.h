@@ -34,10 +34,10 @@ struct CoarseSamples {
 
 struct CoarseLevel {
     CoarseSamples samples;
-    SampleSystem system;                             // of the coarse samples; its `shift` is τ
-    SampleState state;                               // work space: v
-    std::vector<Quatd> turned;                       // how the coarse samples are turned at I G(u)
-    std::vector<Vec3d> before;                       // I u, then I G(u)
+    SampleSystem system;       // of the coarse samples; its `shift` is τ
+    SampleState state;         // work space: v
+    std::vector<Quatd> turn;   // how the coarse samples are turned at I G(u), then the turn from there to v
+    std::vector<Vec3d> before; // I u, then I G(u)
     std::vector<Eigen::Matrix<double, 3, 4>> motion; // of each coarse sample: [R - I | b], about the origin
     Acceleration acceleration;
 };

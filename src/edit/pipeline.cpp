@@ -20,9 +20,6 @@ constexpr double handle_share = 0.2;
 
 constexpr int relaxing_rounds = 2;
 
-// From where on a sample is on the border of the surface: see isotropic_weights().
-constexpr double border_of_points = 0.5, border_of_territories = 0.3;
-
 } // namespace
 
 Pipeline::Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampler)

@@ -36,6 +36,7 @@ namespace knead {
 //
 // `position` and `contact` > 0: one entry a vertex, and one for every entry of graph.neighbor, the same in
 // both directions; so is the result, > 0.
+inline constexpr double border_of_points = 0.5, border_of_territories = 0.3;
 std::vector<double> isotropic_weights(const Graph& graph, std::span<const Vec3d> position,
                                       std::span<const float> contact, double border, Workers& workers);
 

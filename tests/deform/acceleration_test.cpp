@@ -1,49 +1,17 @@
 #include "deform/acceleration.h"
 
-#include "deform/sample_rest.h"
+#include "deform/bent_bar.h"
 
 #include <cstring>
 
 namespace knead {
 namespace {
 
-using test::degrees;
-
-HandleMotion bend() {
-    return test::motion_about(Vec3d(1, 0, 0), 100 * degrees, Vec3d(0, 0, 0), Vec3d(0.3, -1, 0.2));
-}
-
-struct Bar {
-    SampleSystem system;
-    Workers workers{2};
-    std::vector<HandleMotion> handles{{}, bend()};
-
-    Bar() { EXPECT_TRUE(test::built(test::bar(1200), system).solved); }
-
-    SampleState started() {
-        SampleState state = rest_state(system);
-        follow_handles(system, handles, state, workers);
-        return state;
-    }
-
+struct Bar : test::BentBar {
     SampleState after_plain(int iterations) {
         SampleState state = started();
         for (int i = 0; i < iterations; ++i) iterate(system, handles, state, workers);
         return state;
-    }
-
-    SampleState after_accelerated(int iterations) {
-        SampleState state = started();
-        Acceleration acceleration;
-        for (int i = 0; i < iterations; ++i) iterate(system, handles, state, acceleration, workers);
-        return state;
-    }
-
-    double between(const SampleState& a, const SampleState& b) const {
-        double largest = 0;
-        for (std::size_t s = 0; s < a.displacement.size(); ++s)
-            largest = std::max(largest, (a.displacement[s] - b.displacement[s]).norm());
-        return largest / system.rest.cloud_size;
     }
 };
 

@@ -1,6 +1,6 @@
 #include "deform/coarse_level.h"
 
-#include "deform/sample_rest.h"
+#include "deform/bent_bar.h"
 
 #include <gtest/gtest.h>
 
@@ -10,33 +10,12 @@
 namespace knead {
 namespace {
 
-using test::degrees;
-
-// A bar bent far by its end: the slow case, since all of it has to come round.
-struct Bar {
-    SampleSystem system;
+struct Bar : test::BentBar {
     CoarseLevel coarse;
-    Workers workers{2};
-    std::vector<HandleMotion> handles{
-        {}, test::motion_about(Vec3d(1, 0, 0), 100 * degrees, Vec3d(0, 0, 0), Vec3d(0.3, -1, 0.2))};
 
-    explicit Bar(SampleRest rest = test::bar(1200)) {
-        EXPECT_TRUE(test::built(std::move(rest), system).solved);
+    explicit Bar(SampleRest rest = test::bar(1200)) : BentBar(std::move(rest)) {
         coarse.samples = coarse_samples(system.rest.graph, system.rest.position, system.rest.handle, workers);
         EXPECT_TRUE(build_coarse_level(system, coarse, workers).solved);
-    }
-
-    SampleState started() {
-        SampleState state = rest_state(system);
-        follow_handles(system, handles, state, workers);
-        return state;
-    }
-
-    SampleState alone(int iterations) {
-        SampleState state = started();
-        Acceleration memory;
-        for (int i = 0; i < iterations; ++i) iterate(system, handles, state, memory, workers);
-        return state;
     }
 
     SampleState helped(int iterations) {
@@ -44,13 +23,6 @@ struct Bar {
         Acceleration memory;
         for (int i = 0; i < iterations; ++i) iterate(system, coarse, handles, state, memory, workers);
         return state;
-    }
-
-    double between(const SampleState& a, const SampleState& b) const {
-        double largest = 0;
-        for (std::size_t s = 0; s < a.displacement.size(); ++s)
-            largest = std::max(largest, (a.displacement[s] - b.displacement[s]).norm());
-        return largest / system.rest.cloud_size;
     }
 };
 
@@ -74,17 +46,17 @@ TEST(CoarseLevel, IsOfFewSamplesThatTheHandlesHoldAsTheyHoldTheOthers) {
 
 TEST(CoarseLevel, ComesToTheSameShapeInFewerIterations) {
     Bar bar;
-    const SampleState settled = bar.alone(300);
+    const SampleState settled = bar.after_accelerated(300);
     EXPECT_LT(bar.between(bar.helped(30), settled), 1e-6);
     for (const int iterations : {1, 2, 3, 5})
         EXPECT_LT(bar.between(bar.helped(iterations), settled),
-                  0.4 * bar.between(bar.alone(iterations), settled))
+                  0.4 * bar.between(bar.after_accelerated(iterations), settled))
             << iterations;
 }
 
 TEST(CoarseLevel, LeavesASettledShapeAsItIs) {
     Bar bar;
-    SampleState state = bar.alone(300);
+    SampleState state = bar.after_accelerated(300);
     const SampleState settled = state;
     Acceleration memory;
     for (int i = 0; i < 5; ++i) iterate(bar.system, bar.coarse, bar.handles, state, memory, bar.workers);
@@ -102,7 +74,7 @@ TEST(CoarseLevel, LeavesRestAtRest) {
 TEST(CoarseLevel, IsGivenUpWhereItDoesNotHelp) {
     // A coarse level that pushes all samples aside: each iteration goes as far as the one before.
     Bar bar;
-    const SampleState settled = bar.alone(300);
+    const SampleState settled = bar.after_accelerated(300);
     for (double& weight : bar.coarse.system.rest.weight) weight *= 40; // no longer what was factorised
     for (Vec3d& edge : bar.coarse.system.weighted_edge) edge *= 40;
     SampleState state = bar.started();
@@ -140,7 +112,7 @@ TEST(CoarseLevel, CarriesAllKindsOfHandles) {
             rest.pulled.push_back({s, 1, 0.5, rest.position[s]});
     Bar bar(std::move(rest));
     ASSERT_FALSE(bar.coarse.system.rest.pulled.empty());
-    const SampleState settled = bar.alone(600);
+    const SampleState settled = bar.after_accelerated(600);
     EXPECT_LT(bar.between(bar.helped(60), settled), 1e-5);
 }
 

@@ -129,7 +129,9 @@ void samples_slider(const Ui& ui, const Settings& settings) {
         change(ui, wanted);
     }
     ImGui::EndDisabled();
-    explain("At how many points the deformation is computed; all others follow. More are finer and slower. "
+    explain("At how many points the deformation is computed; all others follow. More are finer and slower: "
+            "where the hand would have to wait for them, a few answer while it moves, and all as soon as it "
+            "rests. "
             "Changing it while handles are posed commits the pose first.\n" +
             sample_words(*ui.editor.document) +
             " Up to a fifth more than asked for lie along the borders of the handles.");

@@ -1,11 +1,13 @@
 // knead bench, measured on this machine: the paper's Table 1, how the stages grow, how fast files are loaded
-// and saved, and how well the window follows the hand.
+// and saved, how few samples answer for many, and how well the window follows the hand.
 
 #include "base/whole_file.h"
+#include "bench/drag_speed.h"
 #include "bench/file_speed.h"
 #include "bench/growth.h"
 #include "bench/table1.h"
 #include "cli/commands.h"
+#include "io/cloud_file.h"
 
 #include <CLI/CLI.hpp>
 
@@ -22,10 +24,11 @@ namespace knead {
 namespace {
 
 constexpr std::size_t points_of_files = 1'000'000;
+constexpr std::uint64_t dragged_samples[] = {5000, 20'000, 100'000};
 
 struct BenchArguments {
     std::vector<std::string> rows;
-    std::string scans, device, window, files, picture;
+    std::string scans, device, window, drag, files, picture;
     std::optional<std::size_t> growth; // up to so many points
     std::size_t repeats = 5;
     unsigned threads = 0;
@@ -63,6 +66,15 @@ Table1Options table1_options(const BenchArguments& arguments) {
     return {arguments.repeats, arguments.threads, arguments.device, scan_folders(arguments.scans)};
 }
 
+int run_drag_bench(const BenchArguments& arguments, Terminal& terminal) {
+    const std::filesystem::path file = arguments.drag;
+    const DragSpeeds speeds = measure_drags(file.filename().string(), read_cloud(file, terminal),
+                                            dragged_samples, table1_options(arguments), terminal);
+    for (const std::string& words : speeds.warnings) terminal.warn(words);
+    terminal.out << (arguments.json ? drag_speeds_json(speeds) + "\n" : drag_speeds_text(speeds));
+    return 0;
+}
+
 int run_growth_bench(const BenchArguments& arguments, Terminal& terminal) {
     std::optional<FileInTheMaking> picture; // begun first, so that a folder that is not there is told at once
     if (!arguments.picture.empty()) picture.emplace(arguments.picture);
@@ -78,6 +90,7 @@ int run_growth_bench(const BenchArguments& arguments, Terminal& terminal) {
 
 int run_bench(const BenchArguments& arguments, Terminal& terminal) {
     if (!arguments.window.empty()) return run_window_bench(arguments, terminal);
+    if (!arguments.drag.empty()) return run_drag_bench(arguments, terminal);
     if (!arguments.files.empty()) return run_files_bench(arguments, terminal);
     if (arguments.growth) return run_growth_bench(arguments, terminal);
     const std::vector<Table1Row> rows = rows_named(arguments.rows);
@@ -106,6 +119,11 @@ void add_bench(CLI::App& app, Job& job) {
         "--window", arguments->window,
         "Instead: open this cloud in the window, look round it, drag a handle of it, and tell how many "
         "pictures a second there are and how old the pose on the screen is");
+    CLI::Option* drag = command->add_option(
+        "--drag", arguments->drag,
+        "Instead: drag a handle of this cloud with 5,000, 20,000 and 100,000 samples, by frames of all of "
+        "them and by frames for which few answer, and tell what a frame takes and how far the shape still "
+        "goes when the hand rests");
     CLI::Option* files =
         command
             ->add_option(
@@ -121,7 +139,8 @@ void add_bench(CLI::App& app, Job& job) {
             ->check(CLI::Range(std::size_t{10'000}, std::size_t{1'000'000'000}));
     command->add_option("--picture", arguments->picture, "With --growth: draw it into this file (SVG)")
         ->needs(growth);
-    window->excludes(rows, scans, files, growth, command->get_option("--repeat"));
+    window->excludes(rows, scans, drag, files, growth, command->get_option("--repeat"));
+    drag->excludes(rows, scans, files, growth, command->get_option("--repeat"));
     files->excludes(rows, scans, growth, command->get_option("--device"));
     growth->excludes(rows, scans);
     command->add_flag("--json", arguments->json, "Print one JSON object");

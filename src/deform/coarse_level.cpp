@@ -3,9 +3,9 @@
 #include "base/require.h"
 #include "deform/rotation.h"
 #include "graph/edge_weights.h"
-#include "graph/point_order.h"
 
-#include <algorithm>
+#include <Eigen/LU>
+
 #include <cmath>
 #include <map>
 
@@ -13,98 +13,19 @@ namespace knead {
 
 namespace {
 
-constexpr std::size_t fewest_samples = 600;
-constexpr std::size_t fewest_coarse = 200;
-constexpr std::size_t samples_a_coarse = 50;
-
-constexpr int relaxing_rounds = 2;
-
 // The coarse samples iterate until what is left is this small beside what they began with, or so many times.
 constexpr double left_over = 0.05;
-constexpr int most_iterations = 12;
+constexpr unsigned most_iterations = 12;
+
+// So many of them stand for one of all samples where they answer alone.
+constexpr unsigned coarse_for_one = 4;
 
 // So many iterations may go hardly less far than those before them.
 constexpr int patience = 4;
 constexpr double hardly_less = 0.8;
 
-// The samples and their graph in the order of the Morton curve: floods go through near memory then, which
-// samples in their own scrambled order are not.
-struct OrderedSamples {
-    std::vector<Index> sample; // at each place
-    std::vector<Index> place;  // of each sample
-    Graph graph;               // of the places
-    std::vector<float> positions;
-};
-
-OrderedSamples ordered(const Graph& graph, std::span<const Vec3d> position, Workers& workers) {
-    std::vector<float> positions;
-    positions.reserve(3 * position.size());
-    for (const Vec3d& p : position)
-        for (int axis = 0; axis < 3; ++axis) positions.push_back(static_cast<float>(p[axis]));
-    SilentProgress progress;
-    const PointOrder order = order_points(positions, workers, progress);
-    OrderedSamples result{order.file_index, std::vector<Index>(order.file_index.size()), {}, {}};
-    require(result.sample.size() == position.size(), "samples have a place");
-    result.positions.resize(positions.size());
-    gather(order, positions, 3, result.positions, workers);
-    for (Index at = 0; at < result.sample.size(); ++at) result.place[result.sample[at]] = at;
-    result.graph.first.push_back(0);
-    result.graph.neighbor.reserve(graph.neighbor.size());
-    for (const Index s : result.sample) {
-        const auto begin = static_cast<std::ptrdiff_t>(result.graph.neighbor.size());
-        for (const Index j : graph.row(s)) result.graph.neighbor.push_back(result.place[j]);
-        std::sort(result.graph.neighbor.begin() + begin, result.graph.neighbor.end());
-        result.graph.first.push_back(static_cast<Index>(result.graph.neighbor.size()));
-    }
-    return result;
-}
-
-// The samples of each handle that a free one is linked to, in scrambled order.
-std::map<Index, std::vector<Index>> border_samples(const Graph& graph, std::span<const Index> handle) {
-    std::map<Index, std::vector<Index>> border;
-    std::vector<Index> held;
-    for (Index s = 0; s < handle.size(); ++s)
-        if (handle[s] != no_index) held.push_back(s);
-    for (const Index s : shuffled(std::move(held)))
-        if (std::ranges::any_of(graph.row(s), [&](Index j) { return handle[j] == no_index; }))
-            border[handle[s]].push_back(s);
-    return border;
-}
-
-// The places of the coarse samples: evenly spread among the free samples, and along the borders of the
-// handles as densely as that.
-std::vector<Index> choose(const Graph& graph, std::span<const Index> handle, const OrderedSamples& ordered,
-                          std::span<const std::uint8_t> lengths, Workers& workers) {
-    const std::size_t count = std::max(fewest_coarse, handle.size() / samples_a_coarse);
-    std::vector<Index> chosen;
-    for (Index s = 0; s < handle.size(); ++s)
-        if (handle[s] == no_index) chosen.push_back(s);
-    chosen = shuffled(std::move(chosen));
-    chosen.resize(std::min(chosen.size(), count));
-    for (Index& s : chosen) s = ordered.place[s];
-    SilentProgress progress;
-    chosen = relaxed(std::move(chosen), ordered.graph, lengths, ordered.positions, relaxing_rounds, workers,
-                     progress);
-    const double spacing = std::sqrt(static_cast<double>(handle.size()) / static_cast<double>(count));
-    for (const auto& [whose, samples] : border_samples(graph, handle)) {
-        const auto share = static_cast<std::size_t>(std::ceil(static_cast<double>(samples.size()) / spacing));
-        for (std::size_t i = 0; i < share; ++i) chosen.push_back(ordered.place[samples[i]]);
-    }
-    std::ranges::sort(chosen);
-    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-    return shuffled(std::move(chosen));
-}
-
-// As points follow samples.
-void find_followed(const OrderedSamples& ordered, const InfluenceRows& nearest, CoarseSamples& coarse) {
-    coarse.followed.resize(nearest.size());
-    coarse.nearest.resize(nearest.size());
-    for (Index at = 0; at < nearest.size(); ++at) {
-        const Index s = ordered.sample[at];
-        coarse.followed[s] = influence_of(nearest, InfluenceWeights::smooth, at);
-        coarse.nearest[s] = coarse.followed[s].count > 0 ? coarse.followed[s].motion[0] : no_index;
-    }
-}
+// Surroundings that were pressed to less than this of their volume cannot be taken back to what they were.
+constexpr double flat = 1e-3;
 
 // What pulls at samples pulls at the coarse one nearest to them, altogether as much.
 std::vector<SoftHold> pulled_together(const SampleRest& rest, const CoarseSamples& coarse) {
@@ -161,22 +82,30 @@ void find_shift(CoarseLevel& coarse, std::span<const HandleMotion> handles, cons
     }
 }
 
+// Iterations of the coarse samples, until hardly anything is left or patience ends. Returns the longest way
+// of the last one.
+double iterate_coarse(CoarseLevel& coarse, std::span<const HandleMotion> handles, SampleState& state,
+                      unsigned most, Workers& workers) {
+    forget(coarse.acceleration);
+    double first = 0, way = 0;
+    for (unsigned iteration = 0; iteration < most; ++iteration) {
+        way = iterate(coarse.system, handles, state, coarse.acceleration, workers);
+        if (iteration == 0) {
+            coarse.turn = state.rotation;
+            first = way;
+        }
+        if (!(way > left_over * first)) break;
+    }
+    return way;
+}
+
 // v, from I G(u) in `before`.
 void solve_coarse(CoarseLevel& coarse, std::span<const HandleMotion> handles, const SampleState& state,
                   Workers& workers) {
     coarse.state.displacement = coarse.before;
     for (std::size_t c = 0; c < coarse.samples.sample.size(); ++c)
         coarse.state.rotation[c] = state.rotation[coarse.samples.sample[c]];
-    forget(coarse.acceleration);
-    double first = 0;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
-        const double way = iterate(coarse.system, handles, coarse.state, coarse.acceleration, workers);
-        if (iteration == 0) {
-            coarse.turn = coarse.state.rotation;
-            first = way;
-        }
-        if (!(way > left_over * first)) break;
-    }
+    iterate_coarse(coarse, handles, coarse.state, most_iterations, workers);
 }
 
 // What takes each coarse sample from I G(u) to v.
@@ -191,8 +120,9 @@ void find_motions(CoarseLevel& coarse) {
     }
 }
 
-void follow_coarse(const SampleSystem& fine, const CoarseLevel& coarse, SampleState& state,
-                   Workers& workers) {
+// Carries all samples along from where they are in `from`, which may be `state`.
+void carry_along(const SampleSystem& fine, const CoarseLevel& coarse, const SampleState& from,
+                 SampleState& state, Workers& workers) {
     workers.for_each(fine.free_sample.size(), 256, [&](std::size_t row) {
         const Index s = fine.free_sample[row];
         Eigen::Matrix<double, 3, 4> motion = Eigen::Matrix<double, 3, 4>::Zero();
@@ -203,38 +133,52 @@ void follow_coarse(const SampleSystem& fine, const CoarseLevel& coarse, SampleSt
             motion += static_cast<double>(followed.weight[k]) * coarse.motion[c];
             turn += static_cast<double>(followed.weight[k]) * coarse.turn[c].coeffs();
         }
-        if (!(turn.norm() > 1e-6)) return; // nothing is around it
-        const Vec3d at = fine.rest.position[s] + state.displacement[s];
-        if (row < fine.moving_rows) state.displacement[s] += motion.leftCols<3>() * at + motion.col(3);
-        state.rotation[s] = (Quatd(turn) * state.rotation[s]).normalized();
+        if (!(turn.norm() > 1e-6)) motion.setZero(), turn = Quatd::Identity().coeffs(); // nothing around it
+        const Vec3d at = fine.rest.position[s] + from.displacement[s];
+        if (row < fine.moving_rows)
+            state.displacement[s] = from.displacement[s] + motion.leftCols<3>() * at + motion.col(3);
+        state.rotation[s] = (Quatd(turn) * from.rotation[s]).normalized();
     });
 }
 
+// How the surroundings of a coarse sample were moved: its handle's linear map, or R U.
+Mat3d linear_map(const CoarseLevel& coarse, const SampleState& state, Index c) {
+    const SampleSystem& system = coarse.system;
+    if (system.left_out[c]) return Mat3d::Identity();
+    const bool given = system.unknown[c] == no_index;
+    return Mat3d::Identity() + (given ? system.turn[c] : sample_gradient(system, state, c));
+}
+
+// What takes each coarse sample from the anchor to where it is now. Quaternions keep their hemispheres: a
+// neighbour that turned by 179° and one by 181° are to be blended.
+void find_motions(const CoarseFollowing& following, CoarseLevel& coarse) {
+    for (Index c = 0; c < coarse.samples.sample.size(); ++c) {
+        const Vec3d& before = following.coarse_anchor.displacement[c];
+        const Vec3d from = coarse.system.rest.position[c] + before;
+        const Mat3d beyond =
+            linear_map(coarse, following.now, c) * following.from_anchor[c] - Mat3d::Identity();
+        coarse.turn[c] = following.now.rotation[c] * following.coarse_anchor.rotation[c].conjugate();
+        coarse.motion[c] << beyond, following.now.displacement[c] - before - beyond * from;
+    }
+}
+
+// τ, which turns along with each coarse sample.
+void turn_shift(const CoarseFollowing& following, CoarseLevel& coarse) {
+    for (std::size_t row = 0; row < coarse.system.moving_rows; ++row) {
+        const Index c = coarse.system.free_sample[row];
+        coarse.system.shift[row] = following.now.rotation[c] *
+                                   (following.coarse_anchor.rotation[c].conjugate() * following.shift[row]);
+    }
+}
+
 } // namespace
-
-bool wants_coarse_level(std::size_t samples) {
-    return samples >= fewest_samples;
-}
-
-CoarseSamples coarse_samples(const Graph& graph, std::span<const Vec3d> position,
-                             std::span<const Index> handle, Workers& workers) {
-    const OrderedSamples places = ordered(graph, position, workers);
-    const std::vector<std::uint8_t> lengths = link_lengths(places.graph, places.positions, workers);
-    const std::vector<Index> chosen = choose(graph, handle, places, lengths, workers);
-    CoarseSamples result;
-    for (const Index at : chosen) result.sample.push_back(places.sample[at]);
-    SilentProgress progress;
-    const InfluenceRows nearest = flood(places.graph, lengths, chosen, workers, progress);
-    find_followed(places, nearest, result);
-    result.between = sample_graph(nearest, chosen, places.graph, workers);
-    return result;
-}
 
 FactorOutcome build_coarse_level(const SampleSystem& fine, CoarseLevel& coarse, Workers& workers) {
     FactorOutcome outcome =
         build_system(coarse_rest(fine.rest, coarse.samples, workers), coarse.system, workers);
     coarse.state = rest_state(coarse.system);
     coarse.before.assign(coarse.samples.sample.size(), Vec3d::Zero());
+    coarse.turn.assign(coarse.samples.sample.size(), Quatd::Identity());
     coarse.motion.resize(coarse.samples.sample.size());
     return outcome;
 }
@@ -256,7 +200,43 @@ double iterate(SampleSystem& fine, CoarseLevel& coarse, std::span<const HandleMo
     find_shift(coarse, handles, state, workers);
     solve_coarse(coarse, handles, state, workers);
     find_motions(coarse);
-    follow_coarse(fine, coarse, state, workers);
+    carry_along(fine, coarse, state, state, workers);
+    return way;
+}
+
+void anchor(SampleSystem& fine, CoarseLevel& coarse, std::span<const HandleMotion> handles,
+            SampleState& state, CoarseFollowing& following, Workers& workers) {
+    inject(state, coarse, coarse.before);
+    iterate(fine, handles, state, workers);
+    find_shift(coarse, handles, state, workers);
+    following.anchor = state;
+    following.shift = coarse.system.shift;
+    SampleState& there = following.coarse_anchor;
+    there = coarse.state; // for its turns, of which the iteration finds those that belong to I G(u)
+    there.displacement = coarse.before;
+    iterate(coarse.system, handles, there, workers);
+    there.displacement = coarse.before;
+    following.from_anchor.resize(coarse.samples.sample.size());
+    for (Index c = 0; c < following.from_anchor.size(); ++c) {
+        const Mat3d map = linear_map(coarse, there, c);
+        const bool is_flat = !(map.determinant() > flat);
+        following.from_anchor[c] = is_flat ? Mat3d(there.rotation[c].conjugate()) : Mat3d(map.inverse());
+    }
+    following.now = there;
+    following.anchored = true;
+}
+
+double follow_coarsely(SampleSystem& fine, CoarseLevel& coarse, std::span<const HandleMotion> handles,
+                       unsigned iterations, CoarseFollowing& following, SampleState& state,
+                       Workers& workers) {
+    require(following.anchored, "coarse samples follow from an anchor");
+    turn_shift(following, coarse);
+    follow_handles(coarse.system, handles, following.now, workers);
+    turn_shift(following, coarse);
+    const double way = iterate_coarse(coarse, handles, following.now, coarse_for_one * iterations, workers);
+    find_motions(following, coarse);
+    carry_along(fine, coarse, following.anchor, state, workers);
+    place_handles(fine, handles, state);
     return way;
 }
 

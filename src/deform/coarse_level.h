@@ -16,21 +16,12 @@
 // coarse one would make of the shape.
 
 #include "deform/acceleration.h"
+#include "deform/coarse_samples.h"
 #include "deform/sample_system.h"
-#include "graph/sampling.h"
 
 #include <vector>
 
 namespace knead {
-
-// Which samples are coarse, and who follows them.
-struct CoarseSamples {
-    std::vector<Index> sample; // of each coarse sample, the sample that it is
-    SampleGraph between;       // the coarse samples
-    std::vector<Influence>
-        followed;               // of each sample: the coarse ones around it, and how much it follows each
-    std::vector<Index> nearest; // of each sample, the coarse one nearest to it, or no_index
-};
 
 struct CoarseLevel {
     CoarseSamples samples;
@@ -41,14 +32,6 @@ struct CoarseLevel {
     std::vector<Eigen::Matrix<double, 3, 4>> motion; // of each coarse sample: [R - I | b], about the origin
     Acceleration acceleration;
 };
-
-// Whether so many samples gain by a coarse level.
-bool wants_coarse_level(std::size_t samples);
-
-// Chooses the coarse samples, some two hundred of them or one in fifty. `graph`: between the samples;
-// `position`, `handle`: of each sample, as in SampleRest.
-CoarseSamples coarse_samples(const Graph& graph, std::span<const Vec3d> position,
-                             std::span<const Index> handle, Workers& workers);
 
 // Builds the system of the coarse samples; again whenever that of all samples was, which comes first. Where
 // the outcome is bad there is no coarse level.
@@ -61,5 +44,33 @@ FactorOutcome build_coarse_level(const SampleSystem& fine, CoarseLevel& coarse, 
 // first two iterations only. Returns the longest way that a sample went in the plain iteration.
 double iterate(SampleSystem& fine, CoarseLevel& coarse, std::span<const HandleMotion> handles,
                SampleState& state, Acceleration& memory, Workers& workers);
+
+// --- Drags of so many samples that iterations of all of them cannot follow the hand ---
+//
+// Then the coarse samples answer alone, and the others are carried along from where they were when this
+// began, the anchor. τ is that of the anchor, turned along with each coarse sample: a handle that hardly
+// moves moves nothing but what it would have, and iterations of all samples go on from there as from any
+// other state.
+
+struct CoarseFollowing {
+    bool anchored = false;          // the rest is empty else
+    SampleState anchor;             // of all samples
+    SampleState coarse_anchor;      // of the coarse ones, as they have it
+    std::vector<Mat3d> from_anchor; // of each coarse sample: the inverse of how its surroundings were moved
+    std::vector<Vec3d> shift;       // τ, of each of their moving rows
+    SampleState now;                // of the coarse samples
+};
+
+// Makes a state the anchor, which is first iterated once more (to know τ). `handles`: as they were when the
+// state was computed.
+void anchor(SampleSystem& fine, CoarseLevel& coarse, std::span<const HandleMotion> handles,
+            SampleState& state, CoarseFollowing& following, Workers& workers);
+
+// A frame: what follow_handles() and iterations make of the coarse samples, from where they were in the frame
+// before, and all samples carried along. `iterations`: that a frame of all samples would have; of coarse ones
+// there may be four times as many, as long as something is left to do. Allocates in its first two calls only.
+// Returns the longest way that a coarse sample went in the last iteration.
+double follow_coarsely(SampleSystem& fine, CoarseLevel& coarse, std::span<const HandleMotion> handles,
+                       unsigned iterations, CoarseFollowing& following, SampleState& state, Workers& workers);
 
 } // namespace knead

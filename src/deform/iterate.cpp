@@ -22,18 +22,6 @@ Vec3d sent(const HandleMotion& motion, const Vec3d& p) {
     return (motion.linear - Mat3d::Identity()) * p + motion.offset;
 }
 
-// Equations (3): the samples of handles go where the handles are.
-void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state) {
-    for (std::size_t s = 0; s < system.rest.handle.size(); ++s) {
-        if (system.rest.handle[s] == no_index) continue;
-        const HandleMotion& motion = handles[system.rest.handle[s]];
-        state.displacement[s] = sent(motion, system.rest.position[s]);
-        if (system.unknown[s] != no_index) continue; // it turns as its surroundings want
-        state.rotation[s] = motion.rotation;
-        system.turn[s] = motion.linear - Mat3d::Identity();
-    }
-}
-
 // The right-hand side, four numbers a row: `own(row)` of the sample itself, and what `given(sample)` of the
 // handles around it says, times `smoothing`.
 template<typename Own, typename Given>
@@ -190,6 +178,17 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
 }
 
 } // namespace
+
+void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state) {
+    for (std::size_t s = 0; s < system.rest.handle.size(); ++s) {
+        if (system.rest.handle[s] == no_index) continue;
+        const HandleMotion& motion = handles[system.rest.handle[s]];
+        state.displacement[s] = sent(motion, system.rest.position[s]);
+        if (system.unknown[s] != no_index) continue; // it turns as its surroundings want
+        state.rotation[s] = motion.rotation;
+        system.turn[s] = motion.linear - Mat3d::Identity();
+    }
+}
 
 void follow_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
                     Workers& workers) {

@@ -113,6 +113,10 @@ void set_poisson(SampleSystem& system, double poisson);
 // All samples at rest.
 SampleState rest_state(const SampleSystem& system);
 
+// Equations (3): the samples of handles go where the handles are, and turn as they do where that is given.
+// The first thing that follow_handles() and iterate() do; by itself for who moves the others otherwise.
+void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state);
+
 // Starts a frame from where the last one ended: Equation (1) alone for how far the handles turned since then,
 // harmonic between them, is put on top of the turns that the samples have made, and positions follow. From
 // rest this is the paper's linear solution. Turns are handed on evenly in every frame and add up, however

@@ -122,20 +122,20 @@ double Document::drag_frame(const HandlePose& pose, const std::string& place, Pr
     const HandleMotion next = motion_of(pose, drag.line.pivot, cloud_.origin, before.rotation);
     refuse_absurd(next, bounds_.diagonal(), drag.line.frames.size(), place);
     drag.samples_before = drag.samples; // into the same memory, frame by frame
+    CoarseFollowing& following = drag.memory.following;
+    const bool was_anchored = following.anchored;
+    drag.coarse_before = following.now;
     double way = 0;
     try {
-        motion = next;
-        pipeline_.follow_handles(drag.motions, drag.samples);
-        forget(drag.acceleration);
-        for (unsigned i = 0; i < drag.next.settings.iterations; ++i) {
-            progress.stop_if_cancelled();
-            way = iterate_once(drag);
-        }
+        way = follow(drag.handle, next, pose.coarse, drag.next.settings.iterations, drag.motions,
+                     drag.samples, drag.memory, progress);
         upsample(drag.motions, drag.samples);
         drag.line.frames.push_back(pose);
     } catch (...) {
         motion = before;
         drag.samples = drag.samples_before;
+        following.anchored = was_anchored;
+        following.now = drag.coarse_before;
         throw;
     }
     ++log_.frames;
@@ -178,7 +178,7 @@ bool Document::settle_some(unsigned iterations, Progress& progress) {
     bool rests = false;
     for (unsigned i = 0; i < iterations && !rests; ++i) {
         progress.stop_if_cancelled();
-        rests = iterate_once(settling) <= at_rest;
+        rests = iterate_once(settling.motions, settling.samples, settling.memory) <= at_rest;
         ++settling.iterations;
     }
     upsample(settling.motions, settling.samples);
@@ -349,11 +349,36 @@ void Document::prepare(Progress& progress) {
 }
 
 // Returns the longest way that a sample went, over the cloud's size.
-double Document::iterate_once(UnderWay& act) {
+double Document::iterate_once(const std::vector<HandleMotion>& motions, SampleState& samples,
+                              FrameMemory& memory) {
     const Stopwatch clock;
-    const double way = pipeline_.iterate(act.motions, act.samples, act.acceleration);
-    log_.iteration.push_back(clock.seconds());
+    const double way = pipeline_.iterate(motions, samples, memory.acceleration);
+    if (memory.logs) log_.iteration.push_back(clock.seconds());
     return pipeline_.cloud_size() > 0 ? way / pipeline_.cloud_size() : way;
+}
+
+// A frame of a drag that takes one of the handles from its place in `motions` to another. Returns as above,
+// of the last iteration.
+double Document::follow(Index handle, const HandleMotion& motion, bool coarse, unsigned iterations,
+                        std::vector<HandleMotion>& motions, SampleState& samples, FrameMemory& memory,
+                        Progress& progress) {
+    progress.stop_if_cancelled();
+    if (coarse && pipeline_.has_coarse_samples()) {
+        if (!memory.following.anchored) pipeline_.anchor(motions, samples, memory.following);
+        motions[handle] = motion;
+        const double way = pipeline_.follow_coarsely(motions, iterations, memory.following, samples);
+        return pipeline_.cloud_size() > 0 ? way / pipeline_.cloud_size() : way;
+    }
+    memory.following.anchored = false;
+    motions[handle] = motion;
+    pipeline_.follow_handles(motions, samples);
+    forget(memory.acceleration);
+    double way = 0;
+    for (unsigned i = 0; i < iterations; ++i) {
+        progress.stop_if_cancelled();
+        way = iterate_once(motions, samples, memory);
+    }
+    return way;
 }
 
 void Document::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {

@@ -153,6 +153,13 @@ private:
         std::shared_ptr<Posed> posed;               // null: nothing was dragged in this edit
     };
 
+    // What a frame of a drag needs to know of those before it, or an iteration of settling.
+    struct FrameMemory {
+        bool logs = true; // false for frames that are computed a second time
+        Acceleration acceleration = {};
+        CoarseFollowing following = {};
+    };
+
     // What begin_drag() and begin_settling() began.
     struct UnderWay {
         State next;
@@ -160,8 +167,9 @@ private:
         SampleState samples, samples_before = {}; // the latter: before the frame that is being computed
         Index handle = no_index;                  // no_index: settling
         DragLine line = {};                       // its frames so far
+        SampleState coarse_before = {};           // likewise, of memory.following
         unsigned iterations = 0;                  // of settling
-        Acceleration acceleration = {};           // of this frame, or of the whole settling
+        FrameMemory memory = {};
     };
 
     Index find_handle(const std::string& name, const std::string& place) const;
@@ -176,7 +184,10 @@ private:
     void prepare_for(std::size_t at, Progress& progress);
     void prepare(Progress& progress);
     Index movable_handle(const std::string& name, const std::string& place) const;
-    double iterate_once(UnderWay& act);
+    double iterate_once(const std::vector<HandleMotion>& motions, SampleState& samples, FrameMemory& memory);
+    double follow(Index handle, const HandleMotion& motion, bool coarse, unsigned iterations,
+                  std::vector<HandleMotion>& motions, SampleState& samples, FrameMemory& memory,
+                  Progress& progress);
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
     // From any state in history; made again where it was dropped.
     std::shared_ptr<const RestShape> rest_of(const State& state, Progress& progress);

@@ -161,23 +161,24 @@ std::shared_ptr<const SampleState> Document::samples_of(const State& state, Prog
 void Document::repeat(const Posed& posed, SampleState& samples, Progress& progress) {
     const State& from = history_[posed.made_from];
     std::vector<HandleMotion> motions = motions_of(posed.made_from);
-    Acceleration acceleration;
-    const auto iterate = [&](unsigned iterations) {
-        forget(acceleration);
-        for (unsigned i = 0; i < iterations; ++i) {
+    FrameMemory memory;
+    memory.logs = false;
+    if (const auto* settling = std::get_if<SettleLine>(&posed.act)) {
+        for (unsigned i = 0; i < settling->iterations; ++i) {
             progress.stop_if_cancelled();
-            pipeline_.iterate(motions, samples, acceleration);
+            iterate_once(motions, samples, memory);
         }
-    };
-    if (const auto* settling = std::get_if<SettleLine>(&posed.act)) return iterate(settling->iterations);
+        return;
+    }
     const auto& drag = std::get<DragLine>(posed.act);
     const auto frames = static_cast<double>(drag.frames.size());
     for (std::size_t f = 0; f < drag.frames.size(); ++f) {
         progress.step("following the handle again", static_cast<double>(f) / frames);
-        HandleMotion& motion = motions[posed.handle];
-        motion = motion_of(drag.frames[f], drag.pivot, cloud_.origin, motion.rotation);
-        pipeline_.follow_handles(motions, samples);
-        iterate(from.settings.iterations);
+        const HandlePose& pose = drag.frames[f];
+        const HandleMotion motion =
+            motion_of(pose, drag.pivot, cloud_.origin, motions[posed.handle].rotation);
+        follow(posed.handle, motion, pose.coarse, from.settings.iterations, motions, samples, memory,
+               progress);
     }
 }
 

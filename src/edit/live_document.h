@@ -5,8 +5,9 @@
 // The window posts acts and takes back, whenever it likes, what is newest: a view of the document, the posed
 // points, words for the user. Of the poses of a drag only the newest counts; the ones that were computed are
 // the frames of the session's `drag` line, so that a replay of the recording makes the same shape to the bit.
-// While a pose rests the shape goes on converging: in a drag by repeated frames, afterwards by a `settle`
-// line.
+// Where iterations of all samples cannot follow the hand, few answer for them (a frame with `coarse`), and
+// all go on as soon as the hand rests. While a pose rests the shape goes on converging: in a drag by repeated
+// frames, afterwards by a `settle` line.
 //
 // Every finished act goes to the journal, if there is one, before anybody sees its result.
 
@@ -108,6 +109,8 @@ struct OpenRequest {
     // Whether the number of samples is chosen, and chosen anew after acts, as edit/sample_choice.h says: of a
     // cloud; a session keeps its number, and so do `settings`.
     bool choose_samples = false;
+    // Seconds. If solving a frame takes longer, few samples answer for all while the hand moves.
+    double quick = 0.02;
 };
 
 struct LiveShared; // what both threads see (edit/live_shared.h)

@@ -22,8 +22,13 @@ constexpr std::size_t most_repeats = 400;
 constexpr double most_turned = 40 * std::numbers::pi;
 constexpr unsigned most_settling = 1000;
 
-// Iterations of settling between two frames on the screen.
-constexpr unsigned settling_iterations = 9;
+// Iterations of settling between two frames on the screen: as many as take this long, in seconds, but no
+// more.
+constexpr double settling_seconds = 0.03;
+constexpr unsigned most_settling_iterations = 9;
+
+// What a frame's iteration takes for each sample where none was measured yet, in seconds.
+constexpr double usual_iteration = 0.4e-6;
 
 } // namespace
 
@@ -97,6 +102,17 @@ void LiveWork::take_wanted(WantedPose wanted) {
     drag_->rests = false;
 }
 
+// Whether a frame of all samples would leave the hand waiting. Its start costs about what an iteration does.
+bool LiveWork::is_too_slow() const {
+    const Pipeline& pipeline = document_->pipeline();
+    const auto samples = static_cast<double>(pipeline.samples().size());
+    const double iterations = 1.0 + document_->settings().iterations;
+    const double each = cost_
+                            ? cost_->solving / static_cast<double>(cost_->samples) / (1.0 + cost_iterations_)
+                            : usual_iteration;
+    return pipeline.has_coarse_samples() && samples * iterations * each > request_.quick;
+}
+
 // A frame of the drag: a step towards the wanted pose, or the same pose again.
 void LiveWork::follow() {
     LiveDrag& drag = *drag_;
@@ -107,7 +123,8 @@ void LiveWork::follow() {
     const HandleMotion motion = followed_by(drag.base, next);
     double way = 0;
     try {
-        const HandlePose pose = pose_of(motion, drag.line.pivot, drag.origin);
+        HandlePose pose = pose_of(motion, drag.line.pivot, drag.origin);
+        pose.coarse = new_pose && is_too_slow();
         way = document_->drag_frame(pose, "", progress_);
         drag.line.frames.push_back(pose);
     } catch (...) {
@@ -117,11 +134,19 @@ void LiveWork::follow() {
     }
     drag.shown = next;
     drag.repeats = new_pose ? 0 : drag.repeats + 1;
-    drag.rests = next == drag.wanted->transform && (way < still || drag.repeats >= most_repeats);
+    drag.rests =
+        next == drag.wanted->transform && !drag.is_coarse() && (way < still || drag.repeats >= most_repeats);
     solve_seconds_ = clock.seconds();
     drag.upsampling.push_back(document_->log().upsample.back());
-    drag.solving.push_back(solve_seconds_ - drag.upsampling.back());
+    if (!drag.is_coarse()) drag.solving.push_back(solve_seconds_ - drag.upsampling.back());
     publish_shape(document_->pipeline().posed(), true);
+}
+
+unsigned LiveWork::iterations_a_picture() const {
+    const std::vector<double>& seconds = document_->log().iteration;
+    if (seconds.empty()) return 1;
+    return static_cast<unsigned>(
+        std::clamp(settling_seconds / std::max(seconds.back(), 1e-6), 1.0, 1.0 * most_settling_iterations));
 }
 
 void LiveWork::settle() {
@@ -132,14 +157,15 @@ void LiveWork::settle() {
         settled_ = 0;
     }
     const Stopwatch clock;
+    const unsigned iterations = iterations_a_picture();
     bool rests = false;
     try {
-        rests = document_->settle_some(settling_iterations, progress_);
+        rests = document_->settle_some(iterations, progress_);
     } catch (...) {
         stop_settling();
         throw;
     }
-    settled_ += settling_iterations;
+    settled_ += iterations;
     solve_seconds_ = clock.seconds();
     publish_shape(document_->pipeline().posed(), false);
     if (rests || settled_ >= most_settling) finish_settling();

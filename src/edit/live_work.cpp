@@ -19,6 +19,10 @@ using Stage = LiveDocument::Stage;
 // meanwhile.
 constexpr double shortest_frame = 0.008, longest_frame = 0.05;
 
+// A hand that does nothing for so many seconds rests: frames of all samples, during which it would have to
+// wait, do not come in between.
+constexpr double hand_rests = 0.1;
+
 // Other editors are looked for at most this often while acts are carried out, in seconds.
 constexpr double between_looks = 2;
 
@@ -152,6 +156,8 @@ void LiveWork::wait_for_next_frame() {
             left, [&](const LiveShared& s) { return s.stop || !s.inbox.empty() || s.wanted || enough(s); });
     };
     wait(shortest_frame, [](const LiveShared&) { return false; });
+    if (drag_ && drag_->repeats_pose() && drag_->is_coarse())
+        wait(hand_rests, [](const LiveShared&) { return false; });
     if (drag_ && drag_->repeats_pose())
         wait(longest_frame, [&](const LiveShared& s) { return s.frame.version != publisher_.shapes(); });
 }

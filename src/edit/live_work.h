@@ -64,10 +64,12 @@ private:
     void carry_out(task::EndDrag& task);
     void carry_out(task::CancelDrag& task);
     void take_wanted(WantedPose wanted);
+    bool is_too_slow() const;
     void follow();
     void finish_drag();
     void drop_drag();
     void settle();
+    unsigned iterations_a_picture() const;
     void stop_settling();
     void finish_settling();
 

@@ -96,6 +96,13 @@ public:
     // goes with iterations at unchanging motions.
     double iterate(const std::vector<HandleMotion>& motions, SampleState& state, Acceleration& acceleration);
 
+    // Whether there are so many samples that some of them can answer for all, with deform/coarse_level.h's
+    // anchor() and follow_coarsely(). A CoarseFollowing is good as long as no prepare() comes in between.
+    bool has_coarse_samples() const { return has_coarse_; }
+    void anchor(const std::vector<HandleMotion>& motions, SampleState& state, CoarseFollowing& following);
+    double follow_coarsely(const std::vector<HandleMotion>& motions, unsigned iterations,
+                           CoarseFollowing& following, SampleState& state);
+
     // Every point's position and normal for a state of the samples, into buffers that the pipeline keeps.
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
     const RestShape& posed() const { return posed_; }

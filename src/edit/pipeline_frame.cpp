@@ -51,6 +51,17 @@ double Pipeline::iterate(const std::vector<HandleMotion>& motions, SampleState& 
     return knead::iterate(system_, all_motions(motions), state, acceleration, workers_);
 }
 
+void Pipeline::anchor(const std::vector<HandleMotion>& motions, SampleState& state,
+                      CoarseFollowing& following) {
+    knead::anchor(system_, coarse_, all_motions(motions), state, following, workers_);
+}
+
+double Pipeline::follow_coarsely(const std::vector<HandleMotion>& motions, unsigned iterations,
+                                 CoarseFollowing& following, SampleState& state) {
+    return knead::follow_coarsely(system_, coarse_, all_motions(motions), iterations, following, state,
+                                  workers_);
+}
+
 // A single point that may turn has the place of its handle, and the turn of its surroundings. (An outlier
 // that hangs on it is labelled as it is, and is no peg.)
 template<typename Visit>

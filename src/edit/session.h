@@ -80,6 +80,9 @@ struct HandlePose {
     Quatd rotate = Quatd::Identity(); // as written; normalised and sign-aligned by the document
     Vec3d scale = Vec3d::Ones();      // along `axes`
     Quatd axes = Quatd::Identity();
+    // Whether few samples answer for all (deform/coarse_level.h), where there are enough for that: a frame
+    // that had to be quick.
+    bool coarse = false;
 };
 
 // --- The lines

@@ -118,12 +118,13 @@ Vec3d read_scale(const Value& scale) {
 }
 
 HandlePose read_frame(const Value& frame) {
-    allow_keys(frame, {"translate", "rotate", "scale", "axes"});
+    allow_keys(frame, {"translate", "rotate", "scale", "axes", "coarse"});
     HandlePose pose;
     if (const auto translate = optional_member(frame, "translate")) pose.translate = vector(*translate);
     if (const auto rotate = optional_member(frame, "rotate")) pose.rotate = quaternion(*rotate);
     if (const auto scale = optional_member(frame, "scale")) pose.scale = read_scale(*scale);
     if (const auto axes = optional_member(frame, "axes")) pose.axes = quaternion(*axes);
+    if (const auto coarse = optional_member(frame, "coarse")) pose.coarse = truth(*coarse);
     return pose;
 }
 

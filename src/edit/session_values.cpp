@@ -191,6 +191,11 @@ double number_at_least_zero(const Value& value) {
     return result;
 }
 
+bool truth(const Value& value) {
+    if (!value.json->is_boolean()) refuse_as(value, "true or false");
+    return value.json->get<bool>();
+}
+
 std::uint64_t whole_number(const Value& value, std::uint64_t lowest, std::uint64_t highest) {
     if (value.json->is_number_unsigned()) {
         const auto result = value.json->get<std::uint64_t>();

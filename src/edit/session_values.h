@@ -76,6 +76,7 @@ Vec3d vector(const Value& value);
 Vec3d direction(const Value& value);
 Quatd quaternion(const Value& value); // [w,x,y,z]
 std::string text_not_empty(const Value& value);
+bool truth(const Value& value); // true or false
 
 // One of a few words.
 template<typename Choice, std::size_t n>

@@ -146,6 +146,7 @@ void append_frame(std::string& text, const HandlePose& pose) {
             append_vector(key(text, "scale"), pose.scale);
     }
     if (!is_default(pose.axes)) append_quaternion(key(text, "axes"), pose.axes);
+    if (pose.coarse) key(text, "coarse") += "true";
     text += '}';
 }
 

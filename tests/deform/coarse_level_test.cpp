@@ -103,6 +103,97 @@ TEST(CoarseLevel, GivesTheSameBitsAgainAndForAnyNumberOfThreads) {
                       0);
 }
 
+// --- Frames for which the coarse samples answer ---
+
+// The bar's way to its handles' motions in ten frames, coarse ones or of all samples.
+struct Dragged : Bar {
+    CoarseFollowing following;
+
+    std::vector<HandleMotion> on_the_way(double part) const {
+        return {{},
+                test::motion_about(Vec3d(1, 0, 0), part * 100 * test::degrees, Vec3d(0, 0, 0),
+                                   part * Vec3d(0.3, -1, 0.2))};
+    }
+    SampleState coarsely(unsigned threads = 2) {
+        Workers some(threads);
+        SampleState state = rest_state(system);
+        following = {};
+        anchor(system, coarse, on_the_way(0), state, following, some);
+        for (int frame = 1; frame <= 10; ++frame)
+            follow_coarsely(system, coarse, on_the_way(frame / 10.0), 3, following, state, some);
+        return state;
+    }
+    SampleState finely() {
+        SampleState state = rest_state(system);
+        for (int frame = 1; frame <= 10; ++frame) {
+            const std::vector<HandleMotion> motions = on_the_way(frame / 10.0);
+            follow_handles(system, motions, state, workers);
+            Acceleration memory;
+            for (int i = 0; i < 3; ++i) iterate(system, coarse, motions, state, memory, workers);
+        }
+        return state;
+    }
+};
+
+TEST(CoarseFollowing, IsNearlyWhereAllSamplesWouldBe) {
+    Dragged bar;
+    const SampleState coarse = bar.coarsely();
+    EXPECT_LT(bar.between(coarse, bar.finely()), 0.01);
+    for (std::size_t s = 0; s < coarse.rotation.size(); ++s)
+        ASSERT_NEAR(coarse.rotation[s].norm(), 1, 1e-9) << s;
+}
+
+TEST(CoarseFollowing, EndsWhereAllSamplesEnd) {
+    Dragged bar;
+    SampleState coarse = bar.coarsely(), fine = bar.finely();
+    Acceleration of_coarse, of_fine;
+    for (int i = 0; i < 40; ++i) {
+        iterate(bar.system, bar.coarse, bar.handles, coarse, of_coarse, bar.workers);
+        iterate(bar.system, bar.coarse, bar.handles, fine, of_fine, bar.workers);
+    }
+    EXPECT_LT(bar.between(coarse, fine), 1e-6);
+}
+
+TEST(CoarseFollowing, LeavesASettledShapeAsItIs) {
+    // Where the coarse samples by themselves would make another of it.
+    Dragged bar;
+    SampleState state = bar.after_accelerated(300);
+    const SampleState settled = state;
+    anchor(bar.system, bar.coarse, bar.handles, state, bar.following, bar.workers);
+    for (int frame = 0; frame < 5; ++frame)
+        follow_coarsely(bar.system, bar.coarse, bar.handles, 3, bar.following, state, bar.workers);
+    EXPECT_LT(bar.between(state, settled), 1e-8);
+}
+
+TEST(CoarseFollowing, MovesASettledShapeWithItsHandlesAsAWhole) {
+    Dragged bar;
+    SampleState state = bar.after_accelerated(300);
+    const SampleState settled = state;
+    anchor(bar.system, bar.coarse, bar.handles, state, bar.following, bar.workers);
+    Quatd turn = Quatd::Identity();
+    for (int frame = 1; frame <= 40; ++frame) { // 400 degrees
+        turn = Eigen::AngleAxisd(10 * test::degrees, Vec3d(1, 2, 3).normalized()) * turn;
+        std::vector<HandleMotion> moved = bar.handles;
+        for (HandleMotion& motion : moved) {
+            motion.rotation = turn * motion.rotation;
+            motion.linear = turn * motion.linear;
+            motion.offset = turn * motion.offset;
+        }
+        follow_coarsely(bar.system, bar.coarse, moved, 3, bar.following, state, bar.workers);
+        for (std::size_t s = 0; s < state.displacement.size(); s += 7) {
+            const Vec3d expected = turn * test::posed(bar.system, settled, s);
+            ASSERT_LT((test::posed(bar.system, state, s) - expected).norm(), 1e-3) << frame; // iterations
+        }
+    }
+}
+
+TEST(CoarseFollowing, GivesTheSameBitsForAnyNumberOfThreads) {
+    Dragged bar;
+    const SampleState one = bar.coarsely(1), three = bar.coarsely(3);
+    for (std::size_t s = 0; s < one.displacement.size(); ++s)
+        ASSERT_EQ(one.displacement[s], three.displacement[s]);
+}
+
 TEST(CoarseLevel, CarriesAllKindsOfHandles) {
     // Beside a handle that gives positions only, and one that pulls what is around it.
     SampleRest rest = test::bar(1200);

@@ -133,6 +133,11 @@ inline bool all_finite(const std::vector<float>& values) {
     return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
 }
 
+// The same frame, for which few samples answer.
+inline std::string coarse(std::string frame) {
+    return frame.insert(frame.size() - 1, R"(,"coarse":true)");
+}
+
 // The largest distance of a point that `chosen` names (by its rest position) from where `target` sends it.
 inline double farthest(Desk& desk, const std::function<bool(const Vec3d&)>& chosen,
                        const std::function<Vec3d(const Vec3d&)>& target) {

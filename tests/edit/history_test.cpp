@@ -208,6 +208,7 @@ TEST(History, SamplesThatWereDroppedAreMadeAgainToTheBit) {
     std::vector<std::string> acts;
     for (int k = 0; k < 9; ++k) {
         acts.push_back(drag(turn('y', 3 * k + 5) + "," + turn('z', 9 * k, "[0.1,0,0.05]")));
+        if (k % 3 == 1) acts.push_back(drag(coarse(turn('x', 4 * k)) + "," + coarse(turn('x', 6 * k))));
         if (k % 2 == 1) acts.push_back(settle(5));
         if (k == 3) acts.push_back(set(R"("stiffness":0.04,"iterations":2)"));
         if (k == 5) acts.push_back(commit);

@@ -21,8 +21,10 @@ inline OpenRequest request_for(const std::filesystem::path& file) {
 // A bar with handles at both ends, open.
 class LiveBar : public ::testing::Test {
 protected:
-    void SetUp() override {
-        live_ = std::make_unique<LiveDocument>(request_for(bar_file(folder_)));
+    void SetUp() override { open(request_for(bar_file(folder_))); }
+
+    void open(OpenRequest request) {
+        live_ = std::make_unique<LiveDocument>(std::move(request));
         wait_until_open(*live_);
         ASSERT_EQ(live_->status().stage, LiveDocument::Stage::open);
         for (const SessionAction& handle : bar_handles()) live_->post(++step_, {handle});

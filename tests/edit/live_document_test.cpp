@@ -51,6 +51,39 @@ TEST_F(LiveBar, SeveralEditsReplayToTheSameBytes) {
     expect_replay_makes_the_same();
 }
 
+TEST_F(LiveBar, WhereAllSamplesAreTooSlowFewFollowTheHandAndAllComeToRest) {
+    const std::vector<Transform> way{turned(0.2), turned(0.4), turned(0.6), turned(0.8)};
+    SettingsChange all;
+    all.samples = std::optional<std::uint64_t>{};
+    std::vector<std::vector<float>> rested;
+    for (const double quick : {0.0, 1e9}) {
+        OpenRequest request = request_for(bar_file(folder_));
+        request.settings = all;
+        request.quick = quick;
+        open(std::move(request));
+        ASSERT_FALSE(HasFailure());
+        drag(way);
+        live_->begin_drag(++step_, "high", {0, 0, 2});
+        live_->drag_to(turned(0.3, {1, 0, 0}));
+        wait_until_idle(*live_); // the hand rests in the middle of the drag
+        live_->drag_to(turned(0.6, {1, 0, 0}));
+        live_->end_drag();
+        settle_down();
+        rested.push_back(frame_.positions);
+        expect_replay_makes_the_same();
+        std::size_t coarse = 0, others = 0;
+        for (const SessionLine& line : read_session(folder_ / "saved.knead").lines)
+            if (const auto* drag = std::get_if<DragLine>(&line.action))
+                for (const HandlePose& pose : drag->frames) ++(pose.coarse ? coarse : others);
+        EXPECT_EQ(coarse > 0, quick == 0);
+        EXPECT_GT(others, 0U) << "frames of all samples while the hand rests";
+    }
+    double farthest = 0;
+    for (std::size_t i = 0; i < rested[0].size(); ++i)
+        farthest = std::max(farthest, std::abs(static_cast<double>(rested[0][i] - rested[1][i])));
+    EXPECT_LT(farthest, 1e-3); // of a bar 5 long: what settling leaves
+}
+
 TEST_F(LiveBar, ATypedTwoTurnsKeepsThemAll) {
     drag({turned(4 * pi)});
     // The handle is back where it was, and the middle has made one turn on the way: points there are at rest

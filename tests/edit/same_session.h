@@ -22,7 +22,7 @@ inline bool same(const Quatd& a, const Quatd& b) {
 }
 inline bool same(const HandlePose& a, const HandlePose& b) {
     return same(a.translate, b.translate) && same(a.rotate, b.rotate) && same(a.scale, b.scale) &&
-           same(a.axes, b.axes);
+           same(a.axes, b.axes) && a.coarse == b.coarse;
 }
 inline bool same(const IndexRange& a, const IndexRange& b) {
     return a.first == b.first && a.last == b.last;

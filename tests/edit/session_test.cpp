@@ -258,7 +258,7 @@ TEST(SessionRefuses, UnknownOpsAndKeys) {
                 "the line has an unknown key \"all\"; what it may have: op");
     EXPECT_SAYS(
         refusal(R"({"op":"drag","handle":"a","frames":[{},{"turn":1}]})"),
-        "\"frames[1]\" has an unknown key \"turn\"; what it may have: translate, rotate, scale, axes");
+        "\"frames[1]\" has an unknown key \"turn\"; what it may have: translate, rotate, scale, axes, coarse");
     EXPECT_SAYS(refusal(R"({"op":"set","colour":1})"), "unknown key \"colour\"");
     EXPECT_SAYS(refusal(R"({"op":"set"})"), "must set something");
 }
@@ -322,6 +322,7 @@ TEST(SessionRefuses, BrokenDrags) {
     EXPECT_SAYS(with(R"({"scale":0})"), "\"frames[1].scale\" must be greater than zero");
     EXPECT_SAYS(with(R"({"scale":[1,1,-2]})"), "\"frames[1].scale\" must be greater than zero");
     EXPECT_SAYS(with(R"({"scale":true})"), "\"frames[1].scale\" must be a number, not true");
+    EXPECT_SAYS(with(R"({"coarse":1})"), "\"frames[1].coarse\" must be true or false, not 1");
     EXPECT_SAYS(refusal(R"({"op":"drag","handle":"a","frames":[]})"),
                 "\"frames\" must have at least one frame");
     EXPECT_SAYS(refusal(R"({"op":"drag","handle":"a"})"), "has no \"frames\"");

@@ -78,6 +78,7 @@ public:
         if (coin()) result.scale = Vec3d(positive(), positive(), positive());
         if (below(3) == 0) result.scale.setConstant(positive());
         if (coin()) result.axes = quaternion();
+        result.coarse = coin();
         return result;
     }
 

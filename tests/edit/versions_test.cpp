@@ -82,6 +82,7 @@ private:
             if (pose.rotate.coeffs() != Quatd::Identity().coeffs()) add("rotate");
             if (pose.scale != Vec3d::Ones()) add(pose.scale.x() == pose.scale.y() ? "scale" : "scales");
             if (pose.axes.coeffs() != Quatd::Identity().coeffs()) add("axes");
+            if (pose.coarse) add("coarse");
         }
     }
     void note(const SettleLine& /*line*/) { add("settle"); }
@@ -125,6 +126,7 @@ TEST(Version1, StoredSessionsHaveEverythingThatTheFormatHas) {
                                 "scale",
                                 "scales",
                                 "axes",
+                                "coarse",
                                 "settle",
                                 "check",
                                 "check below",

@@ -63,7 +63,7 @@ DragSpeeds measure_drags(const std::string& name, PointCloud cloud, std::span<co
         row.samples = document->pipeline().samples().size();
         row.upsample = summarize(document->log().upsample).median;
         row.apart = deviation_between(rested, rested_too, document->bounds().diagonal());
-        speeds.rows.push_back(std::move(row));
+        speeds.rows.push_back(row);
     }
     return speeds;
 }

@@ -39,6 +39,7 @@ std::vector<SoftHold> pulled_together(const SampleRest& rest, const CoarseSample
                     turns_freely ? hold.anchor : rest.position[coarse.sample[nearest]]};
     }
     std::vector<SoftHold> result;
+    result.reserve(holds.size());
     for (const auto& [whom, hold] : holds) result.push_back(hold);
     return result;
 }

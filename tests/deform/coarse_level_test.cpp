@@ -107,6 +107,7 @@ TEST(CoarseLevel, GivesTheSameBitsAgainAndForAnyNumberOfThreads) {
 
 // The bar's way to its handles' motions in ten frames, coarse ones or of all samples.
 struct Dragged : Bar {
+    using Bar::Bar;
     CoarseFollowing following;
 
     std::vector<HandleMotion> on_the_way(double part) const {
@@ -194,14 +195,23 @@ TEST(CoarseFollowing, GivesTheSameBitsForAnyNumberOfThreads) {
         ASSERT_EQ(one.displacement[s], three.displacement[s]);
 }
 
-TEST(CoarseLevel, CarriesAllKindsOfHandles) {
-    // Beside a handle that gives positions only, and one that pulls what is around it.
+// A bar with a handle that gives positions only, and that pulls what is around it.
+SampleRest bar_of_all_kinds() {
     SampleRest rest = test::bar(1200);
     rest.turns_freely = {false, true};
     for (Index s = 0; s < rest.handle.size(); s += 3)
         if (rest.handle[s] == no_index && rest.position[s].z() > 0.5)
             rest.pulled.push_back({s, 1, 0.5, rest.position[s]});
-    Bar bar(std::move(rest));
+    return rest;
+}
+
+TEST(CoarseFollowing, KnowsAllKindsOfHandles) {
+    Dragged bar(bar_of_all_kinds());
+    EXPECT_LT(bar.between(bar.coarsely(), bar.finely()), 0.015);
+}
+
+TEST(CoarseLevel, CarriesAllKindsOfHandles) {
+    Bar bar(bar_of_all_kinds());
     ASSERT_FALSE(bar.coarse.system.rest.pulled.empty());
     const SampleState settled = bar.after_accelerated(600);
     EXPECT_LT(bar.between(bar.helped(60), settled), 1e-5);

@@ -158,7 +158,11 @@ void Pipeline::prepare_samples(Progress& progress) {
 
     handle_flood_.reset();
     nearest_ = {}; // before the next are made
-    if (!every_point_) nearest_ = flood(*graph_, link_lengths_, samples_, workers_, progress);
+    base_borders_.clear();
+    if (!every_point_) {
+        nearest_ = flood(*graph_, link_lengths_, samples_, workers_, progress);
+        base_borders_ = territory_borders(nearest_, *graph_, workers_);
+    }
     seconds_.geodesic += clock.lap();
 }
 
@@ -192,7 +196,9 @@ void Pipeline::prepare_handles(Progress& progress) {
     handle_flood_ = add_samples(nearest_, *graph_, link_lengths_, added, static_cast<Index>(base_samples_),
                                 workers_, progress);
     stale_.samples = false;
-    sample_graph_ = knead::sample_graph(nearest_, samples_, *graph_, workers_);
+    sample_graph_ = knead::sample_graph(
+        nearest_, samples_,
+        territory_borders_after(base_borders_, *handle_flood_, nearest_, *graph_, workers_), workers_);
     find_pulled();
     choose_coarse_samples();
     seconds_.geodesic += clock.lap();

@@ -183,7 +183,8 @@ private:
     bool every_point_ = false;
     std::vector<Index> samples_;
     std::size_t base_samples_ = 0;
-    InfluenceRows nearest_; // of each vertex; empty if every point is a sample
+    InfluenceRows nearest_;                     // of each vertex; empty if every point is a sample
+    std::vector<TerritoryBorder> base_borders_; // of the base samples alone
     std::optional<FloodPatch> handle_flood_;
 
     HandleLabels labels_;

@@ -1,6 +1,5 @@
 #include "graph/sampling.h"
 
-#include "base/gathered.h"
 #include "graph/octree.h"
 #include "graph/symmetric_graph.h"
 
@@ -38,30 +37,6 @@ void give_each_one(const VertexShape& shape, std::span<const Index> label, std::
         taken[chosen] = true;
         added.push_back(chosen);
     }
-}
-
-// The pairs of samples whose territories touch, once for every link of the point graph between them, sorted.
-template<typename Row>
-std::vector<std::pair<Index, Index>> touching(const std::vector<Row>& nearest, const Graph& points,
-                                              Workers& workers) {
-    Gathered<std::pair<Index, Index>> gathered;
-    workers.for_chunks(points.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
-        Gathered<std::pair<Index, Index>>::Block pairs(gathered);
-        for (std::size_t p = begin; p < end; ++p) {
-            const auto a = nearest[p].sample[0];
-            if (a == Row::none) continue;
-            for (const Index q : points.row(p)) {
-                if (q > p) break; // rows ascend, and the link is met again from its other end
-                const auto b = nearest[q].sample[0];
-                if (a != b) pairs.push({Index{std::min(a, b)}, Index{std::max(a, b)}});
-            }
-        }
-    });
-    std::vector<std::pair<Index, Index>> pairs;
-    pairs.reserve(gathered.size());
-    gathered.take([&](const auto& pair) { pairs.push_back(pair); });
-    std::ranges::sort(pairs);
-    return pairs;
 }
 
 } // namespace
@@ -108,8 +83,8 @@ std::vector<Index> handle_samples(const VertexShape& shape, std::span<const Inde
     return added;
 }
 
-SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
-                         Workers& workers) {
+SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples,
+                         std::span<const TerritoryBorder> borders, Workers& workers) {
     std::vector<Index> links(samples.size() * sample_neighbors, no_index);
     workers.for_each(samples.size(), 1024, [&](std::size_t s) {
         std::size_t kept = 0;
@@ -117,19 +92,23 @@ SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> sa
             if (other != s && other != no_index && kept < sample_neighbors)
                 links[s * sample_neighbors + kept++] = other;
     });
-    const auto pairs =
-        std::visit([&](const auto& rows) { return touching(rows, points, workers); }, nearest.rows);
+    std::vector<std::pair<Index, Index>> touching;
+    touching.reserve(borders.size());
+    for (const TerritoryBorder& border : borders) touching.emplace_back(border.a, border.b);
     SampleGraph result;
-    result.graph = with_edges(symmetric_graph(links, sample_neighbors, workers), pairs);
+    result.graph = with_edges(symmetric_graph(links, sample_neighbors, workers), touching);
     result.contact.assign(result.graph.neighbor.size(), 0.5F);
-    for (auto pair = pairs.begin(); pair != pairs.end();) {
-        const auto next = std::find_if(pair, pairs.end(), [&](const auto& other) { return other != *pair; });
-        const auto contact = static_cast<float>(next - pair);
-        result.contact[*find_link(result.graph, pair->first, pair->second)] = contact;
-        result.contact[*find_link(result.graph, pair->second, pair->first)] = contact;
-        pair = next;
+    for (const auto& [a, b, crossing] : borders) {
+        const auto contact = static_cast<float>(crossing);
+        result.contact[*find_link(result.graph, a, b)] = contact;
+        result.contact[*find_link(result.graph, b, a)] = contact;
     }
     return result;
+}
+
+SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
+                         Workers& workers) {
+    return sample_graph(nearest, samples, territory_borders(nearest, points, workers), workers);
 }
 
 SampleGraph sample_graph_of_all(const Graph& points) {

@@ -147,6 +147,7 @@ private:
     void find_pulled();
     void choose_coarse_samples();
     void label_vertices();
+    void count_strays();
     void prepare_influences();
     void prepare_carried(std::span<const Index> mover_of_label);
     void prepare_systems();

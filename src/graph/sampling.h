@@ -36,7 +36,7 @@ std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
 //   - Every label owns at least one sample in every component that it reaches into, budget or not.
 // Returns vertices that hold no base sample, pairwise different. `base`: vertices, in any order.
 std::vector<Index> handle_samples(const VertexShape& shape, std::span<const Index> label,
-                                  std::span<const Index> base, std::size_t budget);
+                                  std::span<const Index> base, std::size_t budget, Workers& workers);
 
 // The graph between samples, and how long a border the territories of two linked ones share.
 struct SampleGraph {

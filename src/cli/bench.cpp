@@ -1,10 +1,12 @@
-// knead bench, measured on this machine: the paper's Table 1, how the stages grow, how fast files are loaded
-// and saved, how few samples answer for many, and how well the window follows the hand.
+// knead bench, measured on this machine: the paper's Table 1, how the stages grow, how soon changed handles
+// are live, how few samples answer for many, how fast files are loaded and saved, and how well the window
+// follows the hand.
 
 #include "base/whole_file.h"
 #include "bench/drag_speed.h"
 #include "bench/file_speed.h"
 #include "bench/growth.h"
+#include "bench/handle_timing.h"
 #include "bench/table1.h"
 #include "cli/commands.h"
 #include "io/cloud_file.h"
@@ -29,7 +31,7 @@ constexpr std::uint64_t dragged_samples[] = {5000, 20'000, 100'000};
 struct BenchArguments {
     std::vector<std::string> rows;
     std::string scans, device, window, drag, files, picture;
-    std::optional<std::size_t> growth; // up to so many points
+    std::optional<std::size_t> growth, handles; // up to so many points
     std::size_t repeats = 5;
     unsigned threads = 0;
     bool json = false;
@@ -88,11 +90,20 @@ int run_growth_bench(const BenchArguments& arguments, Terminal& terminal) {
     return 0;
 }
 
+int run_handles_bench(const BenchArguments& arguments, Terminal& terminal) {
+    const HandleTiming timing =
+        measure_handle_timing(*arguments.handles, table1_options(arguments), terminal);
+    for (const std::string& words : timing.warnings) terminal.warn(words);
+    terminal.out << (arguments.json ? handle_timing_json(timing) + "\n" : handle_timing_text(timing));
+    return 0;
+}
+
 int run_bench(const BenchArguments& arguments, Terminal& terminal) {
     if (!arguments.window.empty()) return run_window_bench(arguments, terminal);
     if (!arguments.drag.empty()) return run_drag_bench(arguments, terminal);
     if (!arguments.files.empty()) return run_files_bench(arguments, terminal);
     if (arguments.growth) return run_growth_bench(arguments, terminal);
+    if (arguments.handles) return run_handles_bench(arguments, terminal);
     const std::vector<Table1Row> rows = rows_named(arguments.rows);
     const Table1 table = measure_table1(rows, table1_options(arguments), terminal);
     for (const std::string& words : table.warnings) terminal.warn(words);
@@ -137,12 +148,19 @@ void add_bench(CLI::App& app, Job& job) {
                          "Instead: how the stages grow with the points of a plane, from 10,000 up to so "
                          "many, and with the samples, from 100 to 100,000")
             ->check(CLI::Range(std::size_t{10'000}, std::size_t{1'000'000'000}));
+    CLI::Option* handles =
+        command
+            ->add_option("--handles", arguments->handles,
+                         "Instead: how soon a handle more, or less, is live on planes of 100,000 points up "
+                         "to so many, with 5000 samples")
+            ->check(CLI::Range(std::size_t{100'000}, std::size_t{1'000'000'000}));
     command->add_option("--picture", arguments->picture, "With --growth: draw it into this file (SVG)")
         ->needs(growth);
-    window->excludes(rows, scans, drag, files, growth, command->get_option("--repeat"));
-    drag->excludes(rows, scans, files, growth, command->get_option("--repeat"));
-    files->excludes(rows, scans, growth, command->get_option("--device"));
-    growth->excludes(rows, scans);
+    window->excludes(rows, scans, drag, files, growth, handles, command->get_option("--repeat"));
+    drag->excludes(rows, scans, files, growth, handles, command->get_option("--repeat"));
+    files->excludes(rows, scans, growth, handles, command->get_option("--device"));
+    growth->excludes(rows, scans, handles);
+    handles->excludes(rows, scans);
     command->add_flag("--json", arguments->json, "Print one JSON object");
     command->callback([arguments, &job] {
         job = [arguments](Terminal& terminal) { return run_bench(*arguments, terminal); };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace knead {
 
@@ -11,6 +12,8 @@ namespace {
 
 constexpr double strength = 4;
 constexpr double nearest = 0.0012; // of the cloud's size: nearer than this the pull does not grow any more
+
+constexpr std::size_t stretch = 1 << 14; // of vertices
 
 constexpr double small_handle = 0.03;  // of the cloud's size: the radius of one that needs no falloff
 constexpr double small_falloff = 0.06; // of the cloud's size, of a handle of one point
@@ -22,6 +25,33 @@ double least_falloff(std::span<const Index> vertices, std::span<const float> pos
     for (const Index v : vertices) squares += (point_at(positions, v) - middle).squaredNorm();
     const double radius = std::sqrt(2 * squares / static_cast<double>(vertices.size())); // as of a disc
     return small_falloff * std::max(0.0, cloud_size - radius / small_handle);
+}
+
+// The vertices of each handle, ascending: those of each stretch of vertices are counted, then have their
+// place.
+std::vector<std::vector<Index>> held_vertices(std::size_t handles, std::span<const Index> vertex_handle,
+                                              Workers& workers) {
+    const std::size_t stretches = (vertex_handle.size() + stretch - 1) / stretch;
+    std::vector<std::size_t> place(stretches * handles, 0);
+    const auto each_held = [&](auto&& visit) {
+        workers.for_chunks(vertex_handle.size(), stretch, [&](std::size_t begin, std::size_t end) {
+            const std::span places(place.data() + begin / stretch * handles, handles);
+            for (std::size_t v = begin; v < end; ++v)
+                if (vertex_handle[v] < handles) visit(static_cast<Index>(v), places[vertex_handle[v]]++);
+        });
+    };
+    each_held([](Index, std::size_t) {});
+    std::vector<std::vector<Index>> held(handles);
+    for (std::size_t h = 0; h < handles; ++h) {
+        std::size_t total = 0;
+        for (std::size_t at = h; at < place.size(); at += handles) {
+            total += place[at];
+            place[at] = total - place[at];
+        }
+        held[h].resize(total);
+    }
+    each_held([&](Index v, std::size_t at) { held[vertex_handle[v]][at] = v; });
+    return held;
 }
 
 // Where the samples of each handle lie at rest, in the middle.
@@ -50,21 +80,23 @@ double spread_at(const SampleRest& rest, Index sample) {
 
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> vertex_handle,
                                    std::span<const Index> samples, const Graph& graph,
-                                   std::span<const float> positions, double cloud_size) {
-    std::vector<Index> sample_of(graph.size(), no_index);
-    for (Index s = 0; s < samples.size(); ++s) sample_of[samples[s]] = s;
-    std::vector<std::vector<Index>> held(handles.size());
-    for (Index v = 0; v < graph.size(); ++v)
-        if (vertex_handle[v] < held.size()) held[vertex_handle[v]].push_back(v);
+                                   std::span<const float> positions, double cloud_size, Workers& workers) {
+    const std::vector<std::vector<Index>> held = held_vertices(handles.size(), vertex_handle, workers);
+    std::vector<double> falloff(handles.size(), 0);
+    workers.for_each(held.size(), 1, [&](std::size_t h) {
+        if (!held[h].empty())
+            falloff[h] = std::max(handles[h].falloff, least_falloff(held[h], positions, cloud_size));
+    });
+    std::unordered_map<Index, Index> sample_of;
+    for (Index s = 0; s < samples.size(); ++s)
+        if (vertex_handle[samples[s]] == no_index) sample_of.emplace(samples[s], s);
     std::vector<Pulled> pulled;
     for (Index h = 0; h < held.size(); ++h) {
-        if (held[h].empty()) continue;
-        const double falloff = std::max(handles[h].falloff, least_falloff(held[h], positions, cloud_size));
-        if (!(falloff > 0)) continue;
-        for (const Reached& near : reached_within(graph, positions, held[h], falloff)) {
-            const bool is_free = sample_of[near.vertex] != no_index && vertex_handle[near.vertex] == no_index;
-            if (is_free && near.distance < falloff)
-                pulled.push_back({sample_of[near.vertex], h, near.distance / falloff, falloff});
+        if (!(falloff[h] > 0)) continue;
+        for (const Reached& near : reached_within(graph, positions, held[h], falloff[h])) {
+            const auto sample = sample_of.find(near.vertex);
+            if (sample != sample_of.end() && near.distance < falloff[h])
+                pulled.push_back({sample->second, h, near.distance / falloff[h], falloff[h]});
         }
     }
     return pulled;

@@ -23,7 +23,7 @@ struct Pulled {
 // cannot carry a point, and what pulls at one draws out a spike, the sharper the more samples there are.
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> vertex_handle,
                                    std::span<const Index> samples, const Graph& graph,
-                                   std::span<const float> positions, double cloud_size);
+                                   std::span<const float> positions, double cloud_size, Workers& workers);
 
 // How strongly, with the samples' graph, weights and rest positions in `rest`. The pull is that of a bed of
 // springs whose stiffness over that of the surface is the inverse of a length squared: it looks alike for any

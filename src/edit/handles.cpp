@@ -1,12 +1,14 @@
 #include "edit/handles.h"
 
 #include "base/error.h"
+#include "base/workers.h"
 #include "graph/point_order.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace knead {
@@ -15,6 +17,8 @@ namespace {
 
 // Scales that differ from one by less are rounding.
 constexpr double unit_scale = 1e-12;
+
+constexpr std::size_t grain = 1 << 14;
 
 struct Contains {
     Vec3d p;
@@ -68,6 +72,37 @@ Index stronger(Index a, Index b, Index outside) {
     if (a == outside) return b;
     if (b == outside) return a;
     return std::max(a, b);
+}
+
+// Labels in numbers that are as narrow as will do: they are looked up in no order, and should fit into a
+// cache.
+template<typename Label>
+void label_by(const std::vector<Handle>& handles, const PointOrder& order, std::size_t file_points,
+              Workers& workers, HandleLabels& labels) {
+    constexpr Label free = std::numeric_limits<Label>::max();
+    const auto is_region = [](const Handle& handle) { return handle.role == HandleRole::region_of_interest; };
+    const auto outside = static_cast<Label>(handles.size());
+    std::vector<Label> of_file_point(file_points, std::ranges::any_of(handles, is_region) ? outside : free);
+    for (const bool region_pass : {true, false})
+        for (std::size_t h = 0; h < handles.size(); ++h) {
+            if (is_region(handles[h]) != region_pass) continue;
+            const Label label = region_pass ? free : static_cast<Label>(h);
+            const std::vector<Index>& points = *handles[h].points;
+            workers.for_each(points.size(), grain, [&](std::size_t i) { of_file_point[points[i]] = label; });
+        }
+
+    labels.outside = outside;
+    labels.point.resize(order.points());
+    labels.vertex.resize(order.vertices());
+    workers.for_each(order.vertices(), grain, [&](std::size_t v) {
+        Index vertex = no_index;
+        for (Index i = order.first_point[v]; i < order.first_point[v + 1]; ++i) {
+            const Label label = of_file_point[order.file_index[i]];
+            labels.point[i] = label == free ? no_index : Index{label};
+            vertex = stronger(vertex, labels.point[i], outside);
+        }
+        labels.vertex[v] = vertex;
+    });
 }
 
 } // namespace
@@ -170,27 +205,12 @@ HandleMotion followed_by(const HandleMotion& motion, const Transform& change) {
     return result;
 }
 
-HandleLabels label_points(const std::vector<Handle>& handles, const PointOrder& order,
-                          std::size_t file_points) {
-    HandleLabels labels;
-    labels.outside = static_cast<Index>(handles.size());
-    const bool has_region = std::ranges::any_of(
-        handles, [](const Handle& handle) { return handle.role == HandleRole::region_of_interest; });
-    std::vector<Index> of_file_point(file_points, has_region ? labels.outside : no_index);
-    for (const bool region_pass : {true, false})
-        for (Index h = 0; h < handles.size(); ++h) {
-            if ((handles[h].role == HandleRole::region_of_interest) != region_pass) continue;
-            for (const Index i : *handles[h].points) of_file_point[i] = region_pass ? no_index : h;
-        }
-
-    labels.point.resize(order.points());
-    labels.vertex.assign(order.vertices(), no_index);
-    for (std::size_t i = 0; i < order.points(); ++i) {
-        labels.point[i] = of_file_point[order.file_index[i]];
-        Index& vertex = labels.vertex[order.vertex[i]];
-        vertex = stronger(vertex, labels.point[i], labels.outside);
-    }
-    return labels;
+void label_points(const std::vector<Handle>& handles, const PointOrder& order, std::size_t file_points,
+                  Workers& workers, HandleLabels& labels) {
+    if (handles.size() < std::numeric_limits<std::uint8_t>::max())
+        label_by<std::uint8_t>(handles, order, file_points, workers, labels);
+    else
+        label_by<Index>(handles, order, file_points, workers, labels);
 }
 
 } // namespace knead

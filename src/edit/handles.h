@@ -72,7 +72,9 @@ struct HandleLabels {
     Index outside = 0;         // = the number of handles
 };
 struct PointOrder;
-HandleLabels label_points(const std::vector<Handle>& handles, const PointOrder& order,
-                          std::size_t file_points);
+class Workers;
+// `labels` are written over, and keep their memory.
+void label_points(const std::vector<Handle>& handles, const PointOrder& order, std::size_t file_points,
+                  Workers& workers, HandleLabels& labels);
 
 } // namespace knead

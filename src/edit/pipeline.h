@@ -154,6 +154,7 @@ private:
     void find_pulled();
     void choose_coarse_samples();
     void label_vertices();
+    void count_strays();
     void prepare_influences();
     void prepare_carried(std::span<const Index> mover_of_label);
     void prepare_systems();
@@ -190,7 +191,8 @@ private:
     bool every_point_ = false;
     std::vector<Index> samples_;
     std::size_t base_samples_ = 0;
-    InfluenceRows nearest_; // of each vertex; empty if every point is a sample
+    InfluenceRows nearest_;                     // of each vertex; empty if every point is a sample
+    std::vector<TerritoryBorder> base_borders_; // of the base samples alone
     std::optional<FloodPatch> handle_flood_;
 
     HandleLabels labels_;

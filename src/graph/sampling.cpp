@@ -7,61 +7,63 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace knead {
 
 namespace {
 
-// Vertices by label, ascending within each.
-using ByLabel = std::map<Index, std::vector<Index>>;
+constexpr std::size_t grain = 1 << 14;
+
+// The label of a vertex and its component.
+using Part = std::pair<Index, Index>;
+
+struct Labelled {
+    std::vector<std::pair<Index, Index>> border; // (label, vertex) of those with a free neighbour, ascending
+    std::set<Part> parts;                        // that labels reach into
+};
 
 bool touches_free(const Graph& graph, std::span<const Index> label, Index v) {
     return std::ranges::any_of(graph.row(v), [&](Index u) { return label[u] == no_index; });
 }
 
-ByLabel borders(const Graph& graph, std::span<const Index> label, const std::vector<bool>& taken) {
-    ByLabel border;
-    for (Index v = 0; v < label.size(); ++v)
-        if (label[v] != no_index && !taken[v] && touches_free(graph, label, v)) border[label[v]].push_back(v);
-    return border;
-}
-
-// Adds a sample wherever a label has none in a component that it reaches into.
-void give_each_one(const VertexShape& shape, std::span<const Index> label, std::vector<bool>& taken,
-                   std::vector<Index>& added) {
-    std::map<std::pair<Index, Index>, std::vector<Index>> parts;
-    for (Index v = 0; v < label.size(); ++v)
-        if (label[v] != no_index) parts[{label[v], shape.components.component[v]}].push_back(v);
-    for (const auto& [part, vertices] : parts) {
-        if (std::ranges::any_of(vertices, [&](Index v) { return taken[v]; })) continue;
-        const Index chosen = octree_samples(shape.code, shape.positions, vertices, 1).front();
-        taken[chosen] = true;
-        added.push_back(chosen);
-    }
-}
-
-// The pairs of samples whose territories touch, once for every link of the point graph between them, sorted.
-template<typename Row>
-std::vector<std::pair<Index, Index>> touching(const std::vector<Row>& nearest, const Graph& points,
-                                              Workers& workers) {
-    Gathered<std::pair<Index, Index>> gathered;
-    workers.for_chunks(points.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
-        Gathered<std::pair<Index, Index>>::Block pairs(gathered);
-        for (std::size_t p = begin; p < end; ++p) {
-            const auto a = nearest[p].sample[0];
-            if (a == Row::none) continue;
-            for (const Index q : points.row(p)) {
-                if (q > p) break; // rows ascend, and the link is met again from its other end
-                const auto b = nearest[q].sample[0];
-                if (a != b) pairs.push({Index{std::min(a, b)}, Index{std::max(a, b)}});
-            }
+Labelled find_labelled(const VertexShape& shape, std::span<const Index> label, Workers& workers) {
+    Gathered<std::pair<Index, Index>> border;
+    Gathered<Part> parts;
+    workers.for_chunks(label.size(), grain, [&](std::size_t begin, std::size_t end) {
+        Gathered<std::pair<Index, Index>>::Block border_here(border);
+        std::set<Part> parts_here;
+        Part last{no_index, no_index};
+        for (auto v = static_cast<Index>(begin); v < end; ++v) {
+            if (label[v] == no_index) continue;
+            const Part part{label[v], shape.components.component[v]};
+            if (part != last) parts_here.insert(part);
+            last = part;
+            if (touches_free(shape.graph, label, v)) border_here.push({label[v], v});
         }
+        Gathered<Part>::Block found(parts);
+        for (const Part& part : parts_here) found.push(part);
     });
-    std::vector<std::pair<Index, Index>> pairs;
-    pairs.reserve(gathered.size());
-    gathered.take([&](const auto& pair) { pairs.push_back(pair); });
-    std::ranges::sort(pairs);
-    return pairs;
+    Labelled result;
+    border.take([&](const auto& each) { result.border.push_back(each); });
+    std::ranges::sort(result.border);
+    parts.take([&](const Part& part) { result.parts.insert(part); });
+    return result;
+}
+
+// One vertex of each of these parts.
+std::vector<Index> one_of_each(const std::set<Part>& parts, const VertexShape& shape,
+                               std::span<const Index> label) {
+    std::map<Part, std::vector<Index>> vertices; // ascending
+    if (!parts.empty())
+        for (Index v = 0; v < label.size(); ++v) {
+            const Part part{label[v], shape.components.component[v]};
+            if (label[v] != no_index && parts.contains(part)) vertices[part].push_back(v);
+        }
+    std::vector<Index> chosen;
+    for (const auto& [part, among] : vertices)
+        chosen.push_back(octree_samples(shape.code, shape.positions, among, 1).front());
+    return chosen;
 }
 
 } // namespace
@@ -93,23 +95,29 @@ std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
 }
 
 std::vector<Index> handle_samples(const VertexShape& shape, std::span<const Index> label,
-                                  std::span<const Index> base, std::size_t budget) {
+                                  std::span<const Index> base, std::size_t budget, Workers& workers) {
+    const auto part_of = [&](Index v) { return Part{label[v], shape.components.component[v]}; };
+    Labelled labelled = find_labelled(shape, label, workers);
     std::vector<bool> taken(label.size(), false);
-    for (const Index v : base) taken[v] = true;
-    std::vector<Index> added;
-    const ByLabel border = borders(shape.graph, label, taken);
-    for (const auto& [handle, vertices] : border) {
-        for (const Index v : octree_samples(shape.code, shape.positions, vertices, budget / border.size())) {
-            taken[v] = true;
-            added.push_back(v);
-        }
+    for (const Index v : base) {
+        taken[v] = true;
+        labelled.parts.erase(part_of(v));
     }
-    give_each_one(shape, label, taken, added);
+    std::map<Index, std::vector<Index>> border; // by label, ascending within each
+    for (const auto& [handle, v] : labelled.border)
+        if (!taken[v]) border[handle].push_back(v);
+    std::vector<Index> added;
+    for (const auto& [handle, vertices] : border)
+        for (const Index v : octree_samples(shape.code, shape.positions, vertices, budget / border.size())) {
+            added.push_back(v);
+            labelled.parts.erase(part_of(v));
+        }
+    for (const Index v : one_of_each(labelled.parts, shape, label)) added.push_back(v);
     return added;
 }
 
-SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
-                         Workers& workers) {
+SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples,
+                         std::span<const TerritoryBorder> borders, Workers& workers) {
     std::vector<Index> links(samples.size() * sample_neighbors, no_index);
     workers.for_each(samples.size(), 1024, [&](std::size_t s) {
         std::size_t kept = 0;
@@ -117,19 +125,23 @@ SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> sa
             if (other != s && other != no_index && kept < sample_neighbors)
                 links[s * sample_neighbors + kept++] = other;
     });
-    const auto pairs =
-        std::visit([&](const auto& rows) { return touching(rows, points, workers); }, nearest.rows);
+    std::vector<std::pair<Index, Index>> touching;
+    touching.reserve(borders.size());
+    for (const TerritoryBorder& border : borders) touching.emplace_back(border.a, border.b);
     SampleGraph result;
-    result.graph = with_edges(symmetric_graph(links, sample_neighbors, workers), pairs);
+    result.graph = with_edges(symmetric_graph(links, sample_neighbors, workers), touching);
     result.contact.assign(result.graph.neighbor.size(), 0.5F);
-    for (auto pair = pairs.begin(); pair != pairs.end();) {
-        const auto next = std::find_if(pair, pairs.end(), [&](const auto& other) { return other != *pair; });
-        const auto contact = static_cast<float>(next - pair);
-        result.contact[*find_link(result.graph, pair->first, pair->second)] = contact;
-        result.contact[*find_link(result.graph, pair->second, pair->first)] = contact;
-        pair = next;
+    for (const auto& [a, b, crossing] : borders) {
+        const auto contact = static_cast<float>(crossing);
+        result.contact[*find_link(result.graph, a, b)] = contact;
+        result.contact[*find_link(result.graph, b, a)] = contact;
     }
     return result;
+}
+
+SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
+                         Workers& workers) {
+    return sample_graph(nearest, samples, territory_borders(nearest, points, workers), workers);
 }
 
 SampleGraph sample_graph_of_all(const Graph& points) {

@@ -3,6 +3,7 @@
 
 #include "graph/flood.h"
 #include "graph/neighbors.h"
+#include "graph/territory_borders.h"
 
 #include <span>
 #include <utility>
@@ -35,10 +36,9 @@ std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
 //   - Every label owns at least one sample in every component that it reaches into, budget or not.
 // Returns vertices that hold no base sample, pairwise different. `base`: vertices, in any order.
 std::vector<Index> handle_samples(const VertexShape& shape, std::span<const Index> label,
-                                  std::span<const Index> base, std::size_t budget);
+                                  std::span<const Index> base, std::size_t budget, Workers& workers);
 
-// The graph between samples, and how long a border the territories of two linked ones share. A sample's
-// territory is the vertices that it is the nearest sample of.
+// The graph between samples, and how long a border the territories of two linked ones share.
 struct SampleGraph {
     Graph graph;
     std::vector<float> contact; // for every entry of graph.neighbor: links of the point graph that cross the
@@ -48,8 +48,11 @@ struct SampleGraph {
 // Links each sample to the `sample_neighbors` nearest others along the surface, and back, and to all whose
 // territories touch its own. The latter never leave a seam between rows of samples, and make the components
 // of the samples those of the points: where the six nearest leave a neck open, the floods still meet.
-// `samples`: the vertex of each sample; `nearest`: the flood from them over the graph `points`.
+// `samples`: the vertex of each sample; `nearest`: the flood from them; `borders`: of their territories.
 inline constexpr std::size_t sample_neighbors = 6;
+SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples,
+                         std::span<const TerritoryBorder> borders, Workers& workers);
+// The same where the borders are not known yet. `points`: the graph that was flooded.
 SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
                          Workers& workers);
 

@@ -90,22 +90,31 @@ Graph symmetric_graph(std::span<const Index> lists, std::size_t width, Workers& 
 }
 
 Graph with_edges(const Graph& graph, std::span<const std::pair<Index, Index>> edges) {
-    std::vector<std::pair<Index, Index>> links;
-    links.reserve(graph.neighbor.size() + 2 * edges.size());
-    for (std::size_t v = 0; v < graph.size(); ++v)
-        for (const Index u : graph.row(v)) links.emplace_back(static_cast<Index>(v), u);
-    for (const auto& [a, b] : edges) {
-        links.emplace_back(a, b);
-        links.emplace_back(b, a);
-    }
-    std::ranges::sort(links);
-    links.erase(std::ranges::unique(links).begin(), links.end());
-
+    // Rows with room for all, then each sorted and closed up.
+    std::vector<Index> begin(graph.size() + 1, 0);
+    for (std::size_t v = 0; v < graph.size(); ++v) begin[v] = graph.first[v + 1] - graph.first[v];
+    for (const auto& [a, b] : edges) ++begin[a], ++begin[b];
+    counts_to_rows(begin);
+    std::vector<Index> end(begin.begin(), begin.end());
     Graph result;
-    result.first.assign(graph.size() + 1, 0);
-    for (const auto& link : links) ++result.first[link.first];
-    counts_to_rows(result.first);
-    for (const auto& link : links) result.neighbor.push_back(link.second);
+    result.neighbor.resize(begin.back());
+    for (std::size_t v = 0; v < graph.size(); ++v)
+        for (const Index u : graph.row(v)) result.neighbor[end[v]++] = u;
+    for (const auto& [a, b] : edges) {
+        result.neighbor[end[a]++] = b;
+        result.neighbor[end[b]++] = a;
+    }
+    result.first.assign(1, 0);
+    Index closed = 0;
+    for (std::size_t v = 0; v < graph.size(); ++v) {
+        std::ranges::sort(std::span(result.neighbor).subspan(begin[v], end[v] - begin[v]));
+        for (Index at = begin[v]; at < end[v]; ++at) {
+            const Index u = result.neighbor[at];
+            if (closed == result.first[v] || result.neighbor[closed - 1] != u) result.neighbor[closed++] = u;
+        }
+        result.first.push_back(closed);
+    }
+    result.neighbor.resize(closed);
     return result;
 }
 

@@ -52,6 +52,8 @@ TEST(Bench, RefusesWrongUsage) {
         {"bench", "--growth", "10000", "--scans", "."},
         {"bench", "--files", ".", "--device", "reference"},
         {"bench", "--picture", "growth.svg"},
+        {"bench", "--handles", "99999"},
+        {"bench", "--handles", "100000", "--growth", "10000"},
         {"bench", "--files", ".", "--window", "cloud.ply"},
         {"bench", "--repeat", "0", "bunny"},
         {"bench", "--threads", "0", "bunny"},

@@ -85,6 +85,12 @@ TEST(Relaxed, IsTheSameForAnyNumberOfThreads) {
 
 // --- handle_samples() ---
 
+std::vector<Index> handle_samples_of(const VertexShape& shape, std::span<const Index> label,
+                                     std::span<const Index> base, std::size_t budget) {
+    Machine machine;
+    return handle_samples(shape, label, base, budget, machine.workers);
+}
+
 using Part = std::pair<Index, Index>; // handle, component
 
 std::set<Part> parts_of(const Cloud& cloud, const std::vector<Index>& label,
@@ -129,7 +135,7 @@ TEST(HandleSamples, GiveEveryHandleOneHoweverThin) {
     for (const std::size_t budget : {0U, 1U, 2U, 30U, 100000U}) {
         for (const std::size_t base_count : {0U, 1U, 20U}) {
             const std::vector<Index> base = octree_of(cloud, base_count);
-            const auto samples = joined(base, handle_samples(cloud.shape(), label, base, budget));
+            const auto samples = joined(base, handle_samples_of(cloud.shape(), label, base, budget));
             EXPECT_EQ(parts_of(cloud, label, samples), parts_of(cloud, label, everything(cloud)))
                 << "budget " << budget << ", base " << base_count;
         }
@@ -145,7 +151,7 @@ TEST(HandleSamples, GiveAHandleOneInEveryComponentThatItReachesInto) {
     label[cloud.size() - 1] = 0;
     const std::set<Part> all = parts_of(cloud, label, everything(cloud));
     EXPECT_GE(all.size(), 3U) << "the handles are meant to reach into both components";
-    const auto added = handle_samples(cloud.shape(), label, {}, 0);
+    const auto added = handle_samples_of(cloud.shape(), label, {}, 0);
     EXPECT_EQ(added.size(), all.size());
     EXPECT_EQ(parts_of(cloud, label, added), all);
 }
@@ -154,7 +160,7 @@ TEST(HandleSamples, SpreadTheBudgetAlongTheBorders) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::cylinder, 6000));
     const std::vector<Index> label = label_tube(cloud);
     const std::vector<Index> base = octree_of(cloud, 100);
-    const auto added = handle_samples(cloud.shape(), label, base, 30);
+    const auto added = handle_samples_of(cloud.shape(), label, base, 30);
     joined(base, added);
     // Ten each for the two tubes' rims; handle 2 has one vertex.
     std::map<Index, std::size_t> count;
@@ -183,20 +189,20 @@ TEST(HandleSamples, StayWithinTheBudgetWhereBaseSamplesHoldEveryHandle) {
     std::ranges::replace(label, Index{2}, no_index);
     const std::vector<Index> base = octree_of(cloud, 200);
     for (const std::size_t budget : {0U, 1U, 7U, 40U})
-        EXPECT_LE(handle_samples(cloud.shape(), label, base, budget).size(), budget);
+        EXPECT_LE(handle_samples_of(cloud.shape(), label, base, budget).size(), budget);
 }
 
 TEST(HandleSamples, AreNoneWithoutHandlesOrWhereEveryPointIsASample) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::cylinder, 1000));
     const std::vector<Index> free(cloud.size(), no_index);
-    EXPECT_TRUE(handle_samples(cloud.shape(), free, {}, 100).empty());
-    EXPECT_TRUE(handle_samples(cloud.shape(), label_tube(cloud), everything(cloud), 100).empty());
+    EXPECT_TRUE(handle_samples_of(cloud.shape(), free, {}, 100).empty());
+    EXPECT_TRUE(handle_samples_of(cloud.shape(), label_tube(cloud), everything(cloud), 100).empty());
 }
 
 TEST(HandleSamples, AreFoundWhereAHandleHoldsAWholeComponent) {
     const Cloud cloud = test::cloud_of(test::two_patches(false)); // it has no border then
     const std::vector<Index> label = cloud.components.component;
-    EXPECT_EQ(handle_samples(cloud.shape(), label, {}, 50).size(), 2U);
+    EXPECT_EQ(handle_samples_of(cloud.shape(), label, {}, 50).size(), 2U);
 }
 
 } // namespace

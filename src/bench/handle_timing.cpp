@@ -1,0 +1,165 @@
+#include "bench/handle_timing.h"
+
+#include "base/stopwatch.h"
+#include "bench/automatic_handles.h"
+#include "bench/made_cloud.h"
+#include "bench/report.h"
+#include "edit/json_text.h"
+#include "edit/pipeline.h"
+#include "upsample/devices.h"
+
+#include <array>
+
+namespace knead {
+
+namespace {
+
+constexpr std::size_t fewest_points = 100'000;
+constexpr std::uint64_t samples_asked = 5000;
+constexpr double radius_of_third = 0.03; // of the cloud's size
+
+struct TimedStage {
+    const char* name;
+    double StageSeconds::*before;
+    Summary HandleTimingRow::*after;
+};
+constexpr std::array<TimedStage, 4> stages{{
+    {"sampling", &StageSeconds::sampling, &HandleTimingRow::sampling},
+    {"geodesic", &StageSeconds::geodesic, &HandleTimingRow::geodesic},
+    {"factorize", &StageSeconds::factorize, &HandleTimingRow::factorize},
+    {"device", &StageSeconds::device, &HandleTimingRow::device},
+}};
+
+Handle handle_of(HandleRole role, std::vector<Index> points) {
+    Handle handle;
+    handle.role = role;
+    handle.points = std::make_shared<const std::vector<Index>>(std::move(points));
+    return handle;
+}
+
+std::vector<Handle> two_handles(const PointCloud& cloud) {
+    AutomaticHandles automatic = automatic_handles(cloud);
+    return {handle_of(HandleRole::fixed, std::move(automatic.fixed)),
+            handle_of(HandleRole::moving, std::move(automatic.moving))};
+}
+
+Handle third_handle(const PointCloud& cloud, double radius) {
+    const Bounds bounds = bounds_of(cloud);
+    const Vec3d middle = (bounds.lowest + bounds.highest) / 2;
+    std::vector<Index> points;
+    for (Index i = 0; i < cloud.size(); ++i)
+        if ((cloud.file_position(i) - middle).norm() <= radius) points.push_back(i);
+    return handle_of(HandleRole::moving, std::move(points));
+}
+
+void show_frame(Pipeline& pipeline, const PipelineInput& input) {
+    const std::vector<HandleMotion> motions(input.handles.size());
+    SampleState state = pipeline.rest_state();
+    Acceleration acceleration;
+    pipeline.follow_handles(motions, state);
+    for (unsigned i = 0; i < input.settings.iterations; ++i) pipeline.iterate(motions, state, acceleration);
+    pipeline.upsample(motions, state);
+}
+
+HandleTimingRow measure_plane(const PointCloud& cloud, std::size_t repeats, Upsampler& upsampler,
+                              Workers& workers, Progress& progress) {
+    Pipeline pipeline(cloud, workers, upsampler);
+    PipelineInput two;
+    two.settings.samples = samples_asked;
+    two.handles = two_handles(cloud);
+    pipeline.prepare(two, progress);
+    PipelineInput three = two;
+    three.handles.push_back(third_handle(cloud, radius_of_third * pipeline.cloud_size()));
+
+    HandleTimingRow figures;
+    figures.points = cloud.size();
+    figures.in_handle = three.handles.back().points->size();
+    std::array<std::vector<double>, stages.size()> seconds;
+    std::vector<double> frame, live;
+    for (std::size_t change = 0; change < 2 * (repeats + 1); ++change) {
+        const PipelineInput& input = change % 2 == 0 ? three : two;
+        const StageSeconds before = pipeline.seconds();
+        Stopwatch clock;
+        pipeline.prepare(input, progress);
+        const double prepared = clock.lap();
+        show_frame(pipeline, input);
+        const double shown = clock.lap();
+        if (change % 2 == 0) figures.samples = pipeline.samples().size();
+        if (change < 2) continue; // warms up
+        for (std::size_t s = 0; s < stages.size(); ++s)
+            seconds.at(s).push_back(pipeline.seconds().*stages.at(s).before - before.*stages.at(s).before);
+        frame.push_back(shown);
+        live.push_back(prepared + shown);
+    }
+    for (std::size_t s = 0; s < stages.size(); ++s) figures.*stages.at(s).after = summarize(seconds.at(s));
+    figures.frame = summarize(frame);
+    figures.live = summarize(live);
+    return figures;
+}
+
+} // namespace
+
+HandleTiming measure_handle_timing(std::size_t most_points, const Table1Options& options,
+                                   Progress& progress) {
+    HandleTiming timing;
+    timing.machine = this_machine();
+    Workers workers(options.threads);
+    timing.threads = workers.threads();
+    UpsamplerChoice choice = make_upsampler(options.device, workers, options.threads);
+    if (!choice.warning.empty()) timing.warnings.push_back(choice.warning);
+    timing.device = choice.upsampler->device();
+    for (std::size_t points = fewest_points; points <= most_points; points *= 10) {
+        const PointCloud cloud = made_cloud(Shape::plane, points, workers, progress);
+        timing.rows.push_back(measure_plane(cloud, options.repeats, *choice.upsampler, workers, progress));
+    }
+    if (std::string words = choice.upsampler->take_warning(); !words.empty())
+        timing.warnings.push_back(std::move(words));
+    return timing;
+}
+
+std::string handle_timing_text(const HandleTiming& timing) {
+    std::vector<std::string> heading{"points", "samples", "in handle"};
+    for (const TimedStage& stage : stages) heading.emplace_back(stage.name);
+    for (const char* name : {"frame", "live again", "spread"}) heading.emplace_back(name);
+    TextTable table{{machine_text(timing.machine)},
+                    {std::to_string(timing.threads) + (timing.threads == 1 ? " thread" : " threads") +
+                     " and " + timing.device},
+                    {"A third handle on the plane comes or goes: the stages that run again, and the first "
+                     "frame with it."},
+                    {""},
+                    heading};
+    for (const HandleTimingRow& row : timing.rows) {
+        std::vector<std::string> line{count_text(row.points), count_text(row.samples),
+                                      count_text(row.in_handle)};
+        for (const TimedStage& stage : stages) line.push_back(duration_text((row.*stage.after).median));
+        line.push_back(duration_text(row.frame.median));
+        line.push_back(duration_text(row.live.median));
+        line.push_back(spread_text(row.live));
+        table.push_back(line);
+    }
+    return format_table(table);
+}
+
+std::string handle_timing_json(const HandleTiming& timing) {
+    const auto summary = [](const Summary& seconds) {
+        return ReportJson{{"median", seconds.median}, {"min", seconds.lowest}, {"max", seconds.highest}};
+    };
+    ReportJson json = machine_json(timing.machine);
+    json["threads"] = timing.threads;
+    json["device"] = timing.device;
+    json["warnings"] = timing.warnings;
+    json["rows"] = ReportJson::array();
+    for (const HandleTimingRow& row : timing.rows) {
+        ReportJson seconds;
+        for (const TimedStage& stage : stages) seconds[stage.name] = summary(row.*stage.after);
+        seconds["frame"] = summary(row.frame);
+        seconds["live"] = summary(row.live);
+        json["rows"].push_back({{"points", row.points},
+                                {"samples", row.samples},
+                                {"in_handle", row.in_handle},
+                                {"seconds", seconds}});
+    }
+    return json_text(json);
+}
+
+} // namespace knead

@@ -1,0 +1,151 @@
+// The stages of a Pipeline that run again when the handles change.
+
+#include "base/stopwatch.h"
+#include "edit/pipeline.h"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
+namespace knead {
+
+namespace {
+
+// Of the samples asked for, this many more may be spent on the borders of handles.
+constexpr double handle_share = 0.2;
+
+constexpr std::size_t grain = 1 << 14;
+
+} // namespace
+
+void Pipeline::find_pulled() {
+    pulled_ = pulled_samples(input_.handles, labels_.vertex, samples_, *graph_, vertex_positions(),
+                             cloud_size_, workers_);
+}
+
+void Pipeline::prepare_handles(Progress& progress) {
+    Stopwatch clock;
+    if (handle_flood_) revert(nearest_, *handle_flood_);
+    handle_flood_.reset();
+    samples_.resize(base_samples_);
+
+    label_vertices();
+    if (every_point_) {
+        sample_graph_ = sample_graph_of_all(*graph_);
+        seconds_.sampling += clock.lap();
+        find_pulled();
+        choose_coarse_samples();
+        seconds_.geodesic += clock.lap();
+        return;
+    }
+    const VertexShape shape{order_.code, vertex_positions(), *graph_, *components_};
+    const auto budget = static_cast<std::size_t>(handle_share * static_cast<double>(base_samples_));
+    const std::vector<Index> added =
+        shuffled(handle_samples(shape, labels_.vertex, samples_, budget, workers_));
+    samples_.insert(samples_.end(), added.begin(), added.end());
+    seconds_.sampling += clock.lap();
+
+    stale_.samples = true; // a flood that is cancelled leaves lists that nothing can revert
+    handle_flood_ = add_samples(nearest_, *graph_, link_lengths_, added, static_cast<Index>(base_samples_),
+                                workers_, progress);
+    stale_.samples = false;
+    sample_graph_ = knead::sample_graph(
+        nearest_, samples_,
+        territory_borders_after(base_borders_, *handle_flood_, nearest_, *graph_, workers_), workers_);
+    find_pulled();
+    choose_coarse_samples();
+    seconds_.geodesic += clock.lap();
+}
+
+void Pipeline::choose_coarse_samples() {
+    coarse_.samples = {};
+    if (!wants_coarse_level(samples_.size())) return;
+    std::vector<Vec3d> position;
+    std::vector<Index> handle;
+    for (const Index v : samples_) {
+        position.push_back(point_at(vertex_positions(), v));
+        handle.push_back(labels_.vertex[v]);
+    }
+    coarse_.samples = coarse_samples(sample_graph_.graph, position, handle, workers_);
+}
+
+// Who holds what, and which components hold a handle.
+void Pipeline::label_vertices() {
+    label_points(input_.handles, order_, cloud_.size(), workers_, labels_);
+    // An outlier has no say: held or not, it is like the vertex that it hangs on. Its own points still follow
+    // their handle, but nothing else does for its sake.
+    if (!hanging_.empty())
+        for (std::size_t v = 0; v < order_.vertices(); ++v)
+            if (hanging_[v]) labels_.vertex[v] = labels_.vertex[graph_->row(v).front()];
+    std::vector<std::uint8_t> holds(components_->size.size(), 0);
+    workers_.for_each(order_.vertices(), grain, [&](std::size_t v) {
+        if (labels_.vertex[v] == no_index) return;
+        const std::atomic_ref<std::uint8_t> here(holds[components_->component[v]]);
+        if (!here.load(std::memory_order_relaxed)) here.store(1, std::memory_order_relaxed);
+    });
+    std::vector<bool> held(holds.begin(), holds.end());
+    stale_.contacts |= held != held_component_;
+    held_component_ = std::move(held);
+    count_strays();
+}
+
+void Pipeline::count_strays() {
+    strays_ = {};
+    strays_.parts = static_cast<std::size_t>(std::ranges::count(held_component_, false));
+    if (strays_.parts == 0) return;
+    std::atomic<std::size_t> points = 0;
+    workers_.for_chunks(order_.points(), grain, [&](std::size_t begin, std::size_t end) {
+        std::size_t here = 0;
+        for (std::size_t i = begin; i < end; ++i)
+            here += held_component_[components_->component[order_.vertex[i]]] ? 0 : 1;
+        points += here;
+    });
+    strays_.points = points;
+}
+
+void Pipeline::prepare_influences() {
+    Stopwatch clock;
+    // A held point is moved by its handle alone, whatever samples are near, and a point of a stray part by
+    // nothing. Where every point is a sample there are no rows, and each is moved by the motion of its own.
+    const auto samples = static_cast<Index>(samples_.size());
+    const auto first_motion = static_cast<Index>(nearest_.size());
+    const Index outside = labels_.outside;
+    std::vector<Index> mover_of_label(outside + 1);
+    std::iota(mover_of_label.begin(), mover_of_label.end(), first_motion + samples);
+    const Index first_carried = mover_of_label.back() + 1;
+    prepare_carried(mover_of_label);
+    mover_of_point_.resize(order_.points());
+    workers_.for_each(order_.points(), grain, [&](std::size_t i) {
+        const Index vertex = order_.vertex[i];
+        const Index component = components_->component[vertex];
+        const Index label = labels_.point[i];
+        Index& mover = mover_of_point_[i];
+        if (label != no_index)
+            mover = mover_of_label[label];
+        else if (held_component_[component])
+            mover = vertex;
+        else if (carried_.size() > 0)
+            mover = first_carried + contacts_.part[component];
+        else
+            mover = mover_of_label[outside];
+    });
+    motions_.assign(samples + outside + 1 + carried_.size(), Motion{});
+    seconds_.geodesic += clock.lap();
+}
+
+// What carries the parts that hold no handle.
+void Pipeline::prepare_carried(std::span<const Index> mover_of_label) {
+    strays_.fate = input_.settings.strays;
+    carried_ = {};
+    if (strays_.fate == knead::Strays::freeze || strays_.parts == 0) return;
+    if (stale_.contacts)
+        contacts_ = find_contacts(vertex_positions(), *components_, held_component_, workers_);
+    stale_.contacts = false;
+    std::vector<Index> mover_of_vertex(order_.vertices());
+    for (Index v = 0; v < mover_of_vertex.size(); ++v)
+        mover_of_vertex[v] = labels_.vertex[v] == no_index ? v : mover_of_label[labels_.vertex[v]];
+    carried_ = carried_parts(contacts_, nearest_, input_.settings.weights, mover_of_vertex);
+    if (carried_.size() == 0) strays_.fate = knead::Strays::freeze; // there is nothing to carry them
+}
+
+} // namespace knead

@@ -1,0 +1,33 @@
+#pragma once
+// Where the territories of samples touch. A sample's territory is the vertices that it is the nearest sample
+// of.
+
+#include "base/workers.h"
+#include "graph/csr.h"
+#include "graph/flood.h"
+#include "graph/influences.h"
+
+#include <span>
+#include <vector>
+
+namespace knead {
+
+// Two samples whose territories touch, a < b, and how many links of the point graph go from the one to the
+// other (> 0).
+struct TerritoryBorder {
+    Index a = 0, b = 0;
+    Index links = 0;
+    bool operator==(const TerritoryBorder&) const = default;
+};
+
+// All borders, ascending by (a, b). `nearest`: the flood from the samples over the graph `points`.
+std::vector<TerritoryBorder> territory_borders(const InfluenceRows& nearest, const Graph& points,
+                                               Workers& workers);
+
+// The same after add_samples() made `nearest` of the rows that `before` are the borders of, and `patch` with
+// it. Only vertices that another sample has become the nearest of are looked at.
+std::vector<TerritoryBorder> territory_borders_after(std::span<const TerritoryBorder> before,
+                                                     const FloodPatch& patch, const InfluenceRows& nearest,
+                                                     const Graph& points, Workers& workers);
+
+} // namespace knead

@@ -1,0 +1,116 @@
+// A pipeline whose handles change one after the other is the one that had them from the start.
+
+#include "edit/editing.h"
+
+#include <random>
+
+namespace knead {
+namespace {
+
+using namespace test;
+
+// Two surfaces apart, and in the second some points twice.
+PointCloud two_shapes() {
+    Workers workers(2);
+    SilentProgress progress;
+    ShapeOptions options;
+    options.points = 4000;
+    std::vector<float> positions = make_shape(Shape::creature, options, workers, progress).positions;
+    options.points = 900;
+    const std::vector<float> second = make_shape(Shape::sphere, options, workers, progress).positions;
+    for (std::size_t i = 0; i < second.size(); ++i)
+        positions.push_back(second[i] + (i % 3 == 0 ? 9.0F : 0.0F));
+    positions.insert(positions.end(), second.begin(), second.begin() + 300); // inside the creature
+    positions.insert(positions.end(), positions.begin(), positions.begin() + 600);
+    return make_cloud(positions);
+}
+
+Handle random_handle(const PointCloud& cloud, std::mt19937& random) {
+    const auto any = [&](std::size_t count) {
+        return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+    };
+    const Vec3d center = point_at(cloud.positions, any(cloud.size()));
+    const double radius = std::array{0.0, 0.2, 0.7, 2.0}.at(any(4));
+    std::vector<Index> points;
+    for (Index i = 0; i < cloud.size(); ++i)
+        if ((point_at(cloud.positions, i) - center).norm() <= radius) points.push_back(i);
+    Handle handle;
+    handle.role = any(6) == 0 ? HandleRole::region_of_interest : HandleRole::moving;
+    handle.points = std::make_shared<const std::vector<Index>>(std::move(points));
+    handle.free_rotation = any(4) == 0;
+    handle.falloff = any(4) == 0 ? 0.5 : 0;
+    return handle;
+}
+
+// One more, one less, or another in its place; at least one remains.
+void change(std::vector<Handle>& handles, const PointCloud& cloud, std::mt19937& random) {
+    const auto at = [&] { return handles.begin() + static_cast<std::ptrdiff_t>(random() % handles.size()); };
+    const auto what = random() % 3;
+    if (handles.empty() || (what == 0 && handles.size() < 6))
+        handles.push_back(random_handle(cloud, random));
+    else if (what == 1 && handles.size() > 1)
+        handles.erase(at());
+    else
+        *at() = random_handle(cloud, random);
+}
+
+RestShape posed(Pipeline& pipeline, std::size_t handles) {
+    std::vector<HandleMotion> motions(handles);
+    for (std::size_t h = 0; h < handles; ++h)
+        motions[h].offset = Vec3d(0.1 * static_cast<double>(h), 0, 0.05);
+    SampleState state = pipeline.rest_state();
+    Acceleration acceleration;
+    pipeline.follow_handles(motions, state);
+    for (int i = 0; i < 2; ++i) pipeline.iterate(motions, state, acceleration);
+    pipeline.upsample(motions, state);
+    return pipeline.posed();
+}
+
+// To the last bit.
+void expect_same(Pipeline& changed, Pipeline& fresh, std::size_t handles) {
+    EXPECT_EQ(changed.labels().point, fresh.labels().point);
+    EXPECT_EQ(changed.labels().vertex, fresh.labels().vertex);
+    EXPECT_EQ(changed.labels().outside, fresh.labels().outside);
+    EXPECT_EQ(changed.samples(), fresh.samples());
+    EXPECT_EQ(changed.sample_graph().graph.first, fresh.sample_graph().graph.first);
+    EXPECT_EQ(changed.sample_graph().graph.neighbor, fresh.sample_graph().graph.neighbor);
+    EXPECT_EQ(changed.sample_graph().contact, fresh.sample_graph().contact);
+    EXPECT_EQ(words_about(changed.strays()), words_about(fresh.strays()));
+    for (Index v = 0; v < fresh.order().vertices(); ++v) {
+        const Influence one = changed.influence(v), other = fresh.influence(v);
+        ASSERT_EQ(one.count, other.count) << "vertex " << v;
+        ASSERT_EQ(one.motion, other.motion) << "vertex " << v;
+        ASSERT_EQ(one.weight, other.weight) << "vertex " << v;
+    }
+    EXPECT_EQ(posed(changed, handles).positions, posed(fresh, handles).positions);
+}
+
+class HandleChanges : public testing::TestWithParam<Strays> {};
+
+TEST_P(HandleChanges, LeaveNothingBehind) {
+    const PointCloud cloud = two_shapes();
+    Workers workers(2);
+    SilentProgress progress;
+    const auto upsampler = make_reference_upsampler(workers);
+    Pipeline pipeline(cloud, workers, *upsampler);
+    PipelineInput input;
+    input.settings.samples = 300;
+    input.settings.strays = GetParam();
+    std::mt19937 random(5);
+    for (int step = 0; step < 25; ++step) {
+        SCOPED_TRACE("step " + std::to_string(step));
+        change(input.handles, cloud, random);
+        if (step == 15) input.settings.samples = 500;
+        pipeline.prepare(input, progress);
+        const auto second = make_reference_upsampler(workers);
+        Pipeline fresh(cloud, workers, *second);
+        fresh.prepare(input, progress);
+        expect_same(pipeline, fresh, input.handles.size());
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pipeline, HandleChanges,
+                         testing::Values(Strays::freeze, Strays::carry, Strays::bridge));
+
+} // namespace
+} // namespace knead

@@ -1,11 +1,11 @@
 // Moves every point by the motions of the samples around it: src/upsample/upsample.h holds the formulas, and
 // src/upsample/reference.cpp the same arithmetic in C++, operation by operation, so that both give the same bits.
 //
-// Built with -D WIDE for wide rows of influences, without for narrow ones. One work item moves one point; what
-// lies between items is one row's 8 samples and 8 distances, the point, and the result. Motions are packed by
-// columns, 16 floats each, [A column 0 | A column 1 | A column 2 | b] with a fourth row of 1 0 0 0: blending
-// one is then a single vector operation, applying it needs no sums across a vector, and the weights are
-// summed on the way.
+// Built with -D WIDE for wide rows of influences, without for narrow ones; with -D SIXTEEN for a CPU, without
+// for a GPU. Motions are packed by columns, 16 floats each, [A column 0 | A column 1 | A column 2 | b] with a
+// fourth row of 1 0 0 0: blending one is then a single vector operation, and the weights are summed on the way.
+// A GPU's item moves one point. A CPU's takes sixteen at once: it blends the motions of each, and transposes
+// the sixteen, so that what follows is the same arithmetic with a point in every lane.
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -70,41 +70,173 @@ __attribute__((always_inline)) inline float16 map_of(uint mover, ulong rows, __g
     return blended(row + 16 * (size_t)mover, paper, motions);
 }
 
-// Where nothing is added, p is kept to the last bit, the sign of a zero included.
-inline float3 moved(float3 p, float16 map) {
-    const float3 d = (map.s012 * p.x + map.s456 * p.y + map.s89a * p.z + map.scde) * (1.0f / map.s3);
-    return select(p + d, p, d == (float3)(0.0f));
+#ifdef SIXTEEN
+#define POINTS_AT_ONCE 16
+#define POINTS_PER_ITEM 256
+typedef float16 real;
+typedef int16 truth;
+#else
+#define POINTS_AT_ONCE 1
+#define POINTS_PER_ITEM 1
+typedef float real;
+typedef int truth;
+#endif
+
+typedef struct {
+    real x, y, z;
+} vector;
+
+#ifdef SIXTEEN
+inline float16 first_halves_shuffled(float16 a, float16 b) {
+    return (float16)(a.s0, b.s0, a.s1, b.s1, a.s2, b.s2, a.s3, b.s3, a.s4, b.s4, a.s5, b.s5, a.s6, b.s6, a.s7,
+                     b.s7);
 }
 
-inline float dot_in_order(float3 a, float3 b) {
+inline float16 second_halves_shuffled(float16 a, float16 b) {
+    return (float16)(a.s8, b.s8, a.s9, b.s9, a.sa, b.sa, a.sb, b.sb, a.sc, b.sc, a.sd, b.sd, a.se, b.se, a.sf,
+                     b.sf);
+}
+
+// The transpose: a shuffle of the first half of all 256 numbers with the second, as of cards, turns the digits of
+// their places by one, so four of them swap row and column.
+__attribute__((always_inline)) inline void transpose(float16* rows) {
+#pragma unroll
+    for (int round = 0; round < 4; ++round) {
+        float16 next[16];
+#pragma unroll
+        for (int i = 0; i < 8; ++i) {
+            next[2 * i] = first_halves_shuffled(rows[i], rows[i + 8]);
+            next[2 * i + 1] = second_halves_shuffled(rows[i], rows[i + 8]);
+        }
+#pragma unroll
+        for (int i = 0; i < 16; ++i) rows[i] = next[i];
+    }
+}
+
+// Floats as they lie in memory: those of `count` points, and zeros.
+__attribute__((always_inline)) inline vector load(__global const float* from, size_t count) {
+    float16 a, b, c;
+    if (count == 16) {
+        a = vload16(0, from), b = vload16(1, from), c = vload16(2, from);
+    } else {
+        float some[48];
+        for (size_t i = 0; i < 48; ++i) some[i] = i < 3 * count ? from[i] : 0.0f;
+        a = vload16(0, some), b = vload16(1, some), c = vload16(2, some);
+    }
+    vector v;
+    v.x = (float16)(a.s0369, a.scf, b.s258b, b.se, c.s147a, c.sd);
+    v.y = (float16)(a.s147a, a.sd, b.s0369, b.scf, c.s258b, c.se);
+    v.z = (float16)(a.s258b, a.se, b.s147a, b.sd, c.s0369, c.scf);
+    return v;
+}
+
+__attribute__((always_inline)) inline void store(vector v, __global float* to, size_t count) {
+    const float16 x = v.x, y = v.y, z = v.z;
+    const float16 a = (float16)(x.s0, y.s0, z.s0, x.s1, y.s1, z.s1, x.s2, y.s2, z.s2, x.s3, y.s3, z.s3, x.s4,
+                                y.s4, z.s4, x.s5);
+    const float16 b = (float16)(y.s5, z.s5, x.s6, y.s6, z.s6, x.s7, y.s7, z.s7, x.s8, y.s8, z.s8, x.s9, y.s9,
+                                z.s9, x.sa, y.sa);
+    const float16 c = (float16)(z.sa, x.sb, y.sb, z.sb, x.sc, y.sc, z.sc, x.sd, y.sd, z.sd, x.se, y.se, z.se,
+                                x.sf, y.sf, z.sf);
+    if (count == 16) {
+        vstore16(a, 0, to), vstore16(b, 1, to), vstore16(c, 2, to);
+    } else {
+        float all[48];
+        vstore16(a, 0, all), vstore16(b, 1, all), vstore16(c, 2, all);
+        for (size_t i = 0; i < 3 * count; ++i) to[i] = all[i];
+    }
+}
+
+// The blends of `count` points: number c of all of them in blend[c].
+__attribute__((always_inline)) inline void load_blends(__global const uint* mover, size_t count, ulong rows,
+                                                       __global const number* row, uint paper,
+                                                       __global const float* motions, real* blend) {
+    for (size_t i = 0; i < 16; ++i) blend[i] = map_of(mover[min(i, count - 1)], rows, row, paper, motions);
+    transpose(blend);
+}
+#else
+inline vector load(__global const float* from, size_t count) {
+    const vector v = {from[0], from[1], from[2]};
+    return v;
+}
+
+inline void store(vector v, __global float* to, size_t count) {
+    to[0] = v.x, to[1] = v.y, to[2] = v.z;
+}
+
+inline void load_blends(__global const uint* mover, size_t count, ulong rows, __global const number* row,
+                        uint paper, __global const float* motions, real* blend) {
+    vstore16(map_of(*mover, rows, row, paper, motions), 0, blend);
+}
+#endif
+
+// Where nothing is added, the coordinate is kept to the last bit, the sign of a zero included.
+inline real plus(real coordinate, real displacement) {
+    return select(coordinate + displacement, coordinate, displacement == 0.0f);
+}
+
+inline vector moved(vector p, const real* a) {
+    const real share = 1.0f / a[3];
+    const vector result = {plus(p.x, (a[0] * p.x + a[4] * p.y + a[8] * p.z + a[12]) * share),
+                           plus(p.y, (a[1] * p.x + a[5] * p.y + a[9] * p.z + a[13]) * share),
+                           plus(p.z, (a[2] * p.x + a[6] * p.y + a[10] * p.z + a[14]) * share)};
+    return result;
+}
+
+inline real dot_in_order(vector a, vector b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// The cofactor matrix of I + A has the cross products of its columns for columns. With u × v written as
-// (u v.yzx - u.yzx v).yzx, the outer turn of the components is done once for all three.
-inline float3 turned(float3 n, float16 map) {
-    const float share = 1.0f / map.s3;
-    const float3 a = map.s012 * share + (float3)(1.0f, 0.0f, 0.0f);
-    const float3 b = map.s456 * share + (float3)(0.0f, 1.0f, 0.0f);
-    const float3 c = map.s89a * share + (float3)(0.0f, 0.0f, 1.0f);
-    const float3 t = ((b * c.yzx - b.yzx * c) * n.x + (c * a.yzx - c.yzx * a) * n.y +
-                      (a * b.yzx - a.yzx * b) * n.z)
-                         .yzx;
+inline vector cross_in_order(vector a, vector b) {
+    const vector result = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return result;
+}
+
+// The same value, with the sign of `rest` if it is a zero; `rest` where it is not to be had.
+inline real scaled_or(real rest, real value, real scale, truth is_good) {
+    const real scaled = value * scale;
+    return select(rest, scaled, is_good && scaled != rest);
+}
+
+// The cofactor matrix of I + A has the cross products of its columns for columns.
+inline vector turned(vector n, const real* blend) {
+    const real share = 1.0f / blend[3];
+    const vector a = {blend[0] * share + 1.0f, blend[1] * share, blend[2] * share};
+    const vector b = {blend[4] * share, blend[5] * share + 1.0f, blend[6] * share};
+    const vector c = {blend[8] * share, blend[9] * share, blend[10] * share + 1.0f};
+    const vector u = cross_in_order(b, c), v = cross_in_order(c, a), w = cross_in_order(a, b);
+    const vector t = {u.x * n.x + v.x * n.y + w.x * n.z, u.y * n.x + v.y * n.y + w.y * n.z,
+                      u.z * n.x + v.z * n.y + w.z * n.z};
     // Zero, infinite or not a number: there is no length to restore, and the normal stays as it is.
-    const float ratio = dot_in_order(n, n) / dot_in_order(t, t);
-    if (!(ratio > 0.0f && ratio <= FLT_MAX)) return n;
-    const float3 result = t * sqrt(ratio);
-    return select(result, n, result == n);
+    const real ratio = dot_in_order(n, n) / dot_in_order(t, t);
+    const truth is_good = ratio > 0.0f && ratio <= FLT_MAX;
+    const real scale = sqrt(ratio);
+    const vector result = {scaled_or(n.x, t.x, scale, is_good), scaled_or(n.y, t.y, scale, is_good),
+                           scaled_or(n.z, t.z, scale, is_good)};
+    return result;
+}
+
+// `normals` is null, or `moved_normals` has room for them.
+__attribute__((always_inline)) inline void
+upsample(ulong points, __global const float* positions, __global const uint* mover, ulong rows,
+         __global const number* row, uint paper, __global const float* motions, __global float* moved_positions,
+         __global const float* normals, __global float* moved_normals) {
+    const size_t begin = POINTS_PER_ITEM * get_global_id(0);
+    const size_t end = min(begin + POINTS_PER_ITEM, (size_t)points);
+    for (size_t first = begin; first < end; first += POINTS_AT_ONCE) {
+        const size_t count = min((size_t)POINTS_AT_ONCE, end - first);
+        real blend[16];
+        load_blends(mover + first, count, rows, row, paper, motions, blend);
+        store(moved(load(positions + 3 * first, count), blend), moved_positions + 3 * first, count);
+        if (normals) store(turned(load(normals + 3 * first, count), blend), moved_normals + 3 * first, count);
+    }
 }
 
 __kernel void upsample_positions(const ulong points, __global const float* positions,
                                  __global const uint* mover, const ulong rows, __global const number* row,
                                  const uint paper, __global const float* motions,
                                  __global float* moved_positions) {
-    const size_t i = get_global_id(0);
-    if (i >= points) return;
-    const float16 map = map_of(mover[i], rows, row, paper, motions);
-    vstore3(moved(vload3(i, positions), map), i, moved_positions);
+    upsample(points, positions, mover, rows, row, paper, motions, moved_positions, 0, 0);
 }
 
 __kernel void upsample_positions_and_normals(const ulong points, __global const float* positions,
@@ -112,9 +244,5 @@ __kernel void upsample_positions_and_normals(const ulong points, __global const 
                                              __global const number* row, const uint paper,
                                              __global const float* motions, __global float* moved_positions,
                                              __global const float* normals, __global float* moved_normals) {
-    const size_t i = get_global_id(0);
-    if (i >= points) return;
-    const float16 map = map_of(mover[i], rows, row, paper, motions);
-    vstore3(moved(vload3(i, positions), map), i, moved_positions);
-    vstore3(turned(vload3(i, normals), map), i, moved_normals);
+    upsample(points, positions, mover, rows, row, paper, motions, moved_positions, normals, moved_normals);
 }

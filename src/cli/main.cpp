@@ -7,7 +7,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <sched.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <new>
 #include <string>
@@ -45,9 +48,21 @@ bool is_subcommand(const CLI::App& app, const std::string& word) {
     return std::ranges::any_of(all, [&](const CLI::App* command) { return command->get_name() == word; });
 }
 
+// Has each thread of PoCL's stay on a core of its own, unless the user said otherwise: left alone, two that
+// are woken together often share one for a whole frame, which then takes twice as long. They would be
+// numbered from core 0, so all of these have to be ours. Before there is any other thread.
+void keep_pocl_threads_apart() {
+    cpu_set_t ours;
+    if (sched_getaffinity(0, sizeof ours, &ours) != 0) return;
+    for (int core = 0; core < CPU_COUNT(&ours); ++core)
+        if (!CPU_ISSET(static_cast<unsigned>(core), &ours)) return;
+    setenv("POCL_AFFINITY", "1", 0); // NOLINT(concurrency-mt-unsafe)
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+    keep_pocl_threads_apart();
     CLI::App app{"knead bends, twists and stretches raw point clouds with handles.", "knead"};
     app.require_subcommand(1);
     app.set_version_flag("--version", "knead " KNEAD_VERSION);

@@ -15,7 +15,7 @@ extern const char* const upsample_kernel;
 
 namespace {
 
-constexpr std::size_t points_per_group = 256;
+constexpr std::size_t points_per_group = 256; // one item each, or all by one: POINTS_PER_ITEM of the kernel
 
 // What exists once a device: opened by the first prepare().
 struct OpenedDevice {
@@ -24,8 +24,15 @@ struct OpenedDevice {
     QueueHandle queue;
 };
 
-// The kernel for one kind of rows.
+// Which of its kernels kernels/upsample.cl is built to.
+struct KernelKind {
+    bool wide = false;    // rows of influences
+    bool sixteen = false; // points at once, as suits a CPU
+    bool operator==(const KernelKind&) const = default;
+};
+
 struct BuiltKernel {
+    KernelKind kind;
     ProgramHandle program; // null: not built yet
     KernelHandle move_positions;
     KernelHandle move_both;
@@ -44,8 +51,9 @@ std::string build_log(cl_program program, cl_device_id device) {
 }
 
 // Root and quotient are rounded correctly where the device can do so: then it agrees with C++ to the bit.
-std::string build_options(cl_device_id device, bool wide) {
-    std::string options = wide ? "-D WIDE" : "";
+std::string build_options(cl_device_id device, KernelKind kind) {
+    std::string options = kind.wide ? "-D WIDE" : "";
+    if (kind.sixteen) options += " -D SIXTEEN";
     cl_device_fp_config floats = 0;
     if (clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof floats, &floats, nullptr) == CL_SUCCESS &&
         (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0)
@@ -53,11 +61,11 @@ std::string build_options(cl_device_id device, bool wide) {
     return options;
 }
 
-ProgramHandle build_program(cl_context context, cl_device_id device, const char* text, bool wide) {
+ProgramHandle build_program(cl_context context, cl_device_id device, const char* text, KernelKind kind) {
     cl_int code = CL_SUCCESS;
     ProgramHandle program(clCreateProgramWithSource(context, 1, &text, nullptr, &code));
     check_opencl(code, "reading the kernel");
-    const std::string options = build_options(device, wide);
+    const std::string options = build_options(device, kind);
     code = clBuildProgram(program.get(), 1, &device, options.c_str(), nullptr, nullptr);
     if (code == CL_BUILD_PROGRAM_FAILURE)
         throw DeviceFailure("the kernel does not compile: " + build_log(program.get(), device));
@@ -84,9 +92,10 @@ OpenedDevice open_device(const OpenClDevice& device, unsigned threads) {
     return opened;
 }
 
-BuiltKernel build_kernel(cl_context context, cl_device_id device, const char* text, bool wide) {
+BuiltKernel build_kernel(cl_context context, cl_device_id device, const char* text, KernelKind kind) {
     BuiltKernel built;
-    built.program = build_program(context, device, text, wide);
+    built.kind = kind;
+    built.program = build_program(context, device, text, kind);
     built.move_positions = kernel_named(built.program.get(), "upsample_positions");
     built.move_both = kernel_named(built.program.get(), "upsample_positions_and_normals");
     return built;
@@ -173,17 +182,18 @@ public:
         const EventHandle moved =
             launch(input_.mover.size(), input_.mover.size(), moved_positions_.buffer.get(),
                    moved_normals_.buffer.get(), After(written));
-        read(moved_positions_, positions, After(moved));
-        if (!normals.empty()) read(moved_normals_, normals, After(moved));
+        const EventHandle seen =
+            read(moved_positions_, positions, normals.empty() ? CL_TRUE : CL_FALSE, After(moved));
+        if (!normals.empty()) read(moved_normals_, normals, CL_TRUE, After(seen));
     }
 
 private:
     void build_for(const InfluenceRows& rows) {
-        if (built_.program && built_for_wide_ == rows.are_wide()) return;
+        const KernelKind kind{rows.are_wide(), shares_memory_};
+        if (built_.program && built_.kind == kind) return;
         built_ = {};
         cl_device_id id = opened_.part ? opened_.part.get() : device_.id;
-        built_ = build_kernel(opened_.context.get(), id, kernel_, rows.are_wide());
-        built_for_wide_ = rows.are_wide();
+        built_ = build_kernel(opened_.context.get(), id, kernel_, kind);
     }
 
     // Null for no values: OpenCL knows no empty buffer.
@@ -197,11 +207,11 @@ private:
     }
 
     void make_motions() {
-        const std::size_t floats = motion_count_ * packed_motion_floats;
-        packed_.assign(shares_memory_ ? 0 : floats, 0.0F);
-        const cl_mem_flags where = shares_memory_ ? CL_MEM_ALLOC_HOST_PTR : 0;
+        packed_.assign(motion_count_, {});
+        const cl_mem_flags where = shares_memory_ ? CL_MEM_USE_HOST_PTR : 0;
         motions_ =
-            make_buffer(opened_.context.get(), CL_MEM_READ_ONLY | where, floats * sizeof(float), nullptr);
+            make_buffer(opened_.context.get(), CL_MEM_READ_ONLY | where,
+                        packed_.size() * sizeof(PackedMotion), shares_memory_ ? packed_.data() : nullptr);
     }
 
     void make_results(const UpsampleInput& input) {
@@ -228,22 +238,11 @@ private:
     }
 
     EventHandle write_motions(std::span<const Motion> motions) {
+        pack_motions(motions, packed_);
         cl_event written = nullptr;
-        cl_command_queue queue = opened_.queue.get();
-        const std::size_t bytes = motions.size() * packed_motion_floats * sizeof(float);
-        if (!shares_memory_) {
-            pack_motions(motions, packed_.data());
-            check_opencl(clEnqueueWriteBuffer(queue, motions_.get(), CL_FALSE, 0, bytes, packed_.data(), 0,
-                                              nullptr, &written),
-                         "writing the motions");
-            return EventHandle(written);
-        }
-        cl_int code = CL_SUCCESS;
-        void* mapped = clEnqueueMapBuffer(queue, motions_.get(), CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0,
-                                          bytes, 0, nullptr, nullptr, &code);
-        check_opencl(code, "mapping the motions");
-        pack_motions(motions, static_cast<float*>(mapped));
-        check_opencl(clEnqueueUnmapMemObject(queue, motions_.get(), mapped, 0, nullptr, &written),
+        check_opencl(clEnqueueWriteBuffer(opened_.queue.get(), motions_.get(), CL_FALSE, 0,
+                                          packed_.size() * sizeof(PackedMotion), packed_.data(), 0, nullptr,
+                                          &written),
                      "writing the motions");
         return EventHandle(written);
     }
@@ -271,30 +270,23 @@ private:
         else
             set_arguments(kernel, points, positions, mover, row_count_, rows, paper_, motions,
                           moved_positions);
-        const std::size_t items = (grid_points + points_per_group - 1) / points_per_group * points_per_group;
+        const std::size_t items_per_group = built_.kind.sixteen ? 1 : points_per_group;
+        const std::size_t items = (grid_points + points_per_group - 1) / points_per_group * items_per_group;
         cl_event moved = nullptr;
-        check_opencl(clEnqueueNDRangeKernel(opened_.queue.get(), kernel, 1, nullptr, &items,
-                                            &points_per_group, after.count(), after.list(), &moved),
+        check_opencl(clEnqueueNDRangeKernel(opened_.queue.get(), kernel, 1, nullptr, &items, &items_per_group,
+                                            after.count(), after.list(), &moved),
                      "launching the kernel");
         return EventHandle(moved);
     }
 
-    // Waits for the result and makes it visible in the caller's array.
-    void read(const Result& result, std::span<float> array, const After& after) {
-        cl_command_queue queue = opened_.queue.get();
-        if (!shares_memory_) {
-            check_opencl(clEnqueueReadBuffer(queue, result.buffer.get(), CL_TRUE, 0, array.size_bytes(),
-                                             array.data(), after.count(), after.list(), nullptr),
-                         "reading the result");
-            return;
-        }
-        cl_int code = CL_SUCCESS;
-        void* mapped = clEnqueueMapBuffer(queue, result.buffer.get(), CL_TRUE, CL_MAP_READ, 0,
-                                          array.size_bytes(), after.count(), after.list(), nullptr, &code);
-        check_opencl(code, "running the kernel");
-        check_opencl(clEnqueueUnmapMemObject(queue, result.buffer.get(), mapped, 0, nullptr, nullptr),
+    // Makes the result visible in the caller's array. With CL_TRUE it waits for that.
+    EventHandle read(const Result& result, std::span<float> array, cl_bool waits, const After& after) {
+        cl_event read = nullptr;
+        check_opencl(clEnqueueReadBuffer(opened_.queue.get(), result.buffer.get(), waits, 0,
+                                         array.size_bytes(), array.data(), after.count(), after.list(),
+                                         &read),
                      "reading the result");
-        check_opencl(clFinish(queue), "reading the result");
+        return EventHandle(read);
     }
 
     OpenClDevice device_;
@@ -303,11 +295,10 @@ private:
     bool shares_memory_;
     OpenedDevice opened_;
     BuiltKernel built_;
-    bool built_for_wide_ = false;
 
     UpsampleInput input_;
     std::size_t motion_count_ = 0;
-    std::vector<float> packed_; // the motions on their way to a device with its own memory
+    std::vector<PackedMotion> packed_; // the motions as the device reads them
     cl_ulong row_count_ = 0;
     cl_uint paper_ = 0; // whether the weights are those of the paper
     BufferHandle positions_, normals_, mover_, rows_, motions_;

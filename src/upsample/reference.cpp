@@ -55,11 +55,12 @@ struct Blend {
     Four a0, a1, a2, b;
 };
 
-Blend one_motion(const float* motion) {
-    return {load_four(motion), load_four(motion + 4), load_four(motion + 8), load_four(motion + 12)};
+Blend one_motion(const PackedMotion& motion) {
+    return {load_four(motion.column[0]), load_four(motion.column[1]), load_four(motion.column[2]),
+            load_four(motion.column[3])};
 }
 
-void add(float weight, const float* motion, Blend& sum) {
+void add(float weight, const PackedMotion& motion, Blend& sum) {
     const Blend one = one_motion(motion);
     sum.a0 += weight * one.a0;
     sum.a1 += weight * one.a1;
@@ -69,19 +70,18 @@ void add(float weight, const float* motion, Blend& sum) {
 
 // Σ_s w_s [A_s | b_s] of a row with empty places, equal distances, or a sample right at the point.
 template<typename Number>
-Blend rarely_blended(const SampleRow<Number>& row, InfluenceWeights weights, const float* motions) {
+Blend rarely_blended(const SampleRow<Number>& row, InfluenceWeights weights, const PackedMotion* motions) {
     if (row.sample[0] == row.none) return {Four{0, 0, 0, 1}, Four{}, Four{}, Four{}};
-    if (row.distance[0] == 0) return one_motion(motions + packed_motion_floats * row.sample[0]);
+    if (row.distance[0] == 0) return one_motion(motions[row.sample[0]]);
     const auto weight = weights_of(row, weights);
     Blend sum = {};
-    for (std::size_t k = 0; k < row.count(); ++k)
-        add(weight[k], motions + packed_motion_floats * row.sample[k], sum);
+    for (std::size_t k = 0; k < row.count(); ++k) add(weight[k], motions[row.sample[k]], sum);
     return sum;
 }
 
 // Σ_s w_s [A_s | b_s] of one row, and in a0[3] the sum of the weights, by which it is to be divided.
 template<typename Number>
-Blend blended(const SampleRow<Number>& row, InfluenceWeights weights, const float* motions) {
+Blend blended(const SampleRow<Number>& row, InfluenceWeights weights, const PackedMotion* motions) {
     const Number nearest = row.distance.front(), farthest = row.distance.back();
     if (row.sample.back() == row.none || nearest == 0 || nearest == farthest)
         return rarely_blended(row, weights, motions);
@@ -93,11 +93,10 @@ Blend blended(const SampleRow<Number>& row, InfluenceWeights weights, const floa
     Eight weight = __builtin_convertvector(paper ? distance : farthest - distance, Eight);
     weight *= weight;
     if (paper) weight = 1.0F / weight;
-    const Blend first = one_motion(motions + packed_motion_floats * row.sample[0]);
+    const Blend first = one_motion(motions[row.sample[0]]);
     Blend sum = {weight[0] * first.a0, weight[0] * first.a1, weight[0] * first.a2, weight[0] * first.b};
-    for (std::size_t k = 1; k < influences_per_row - 1; ++k)
-        add(weight[k], motions + packed_motion_floats * row.sample[k], sum);
-    if (paper) add(weight[7], motions + packed_motion_floats * row.sample.back(), sum);
+    for (std::size_t k = 1; k < influences_per_row - 1; ++k) add(weight[k], motions[row.sample[k]], sum);
+    if (paper) add(weight[7], motions[row.sample.back()], sum);
     return sum;
 }
 
@@ -144,12 +143,12 @@ public:
     void prepare(const UpsampleInput& input, std::size_t motions) override {
         require_valid_input(input, motions);
         input_ = input;
-        packed_.assign(motions * packed_motion_floats, 0.0F);
+        packed_.assign(motions, {});
     }
 
     void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override {
-        require_valid_frame(input_, packed_.size() / packed_motion_floats, motions, positions, normals);
-        pack_motions(motions, packed_.data());
+        require_valid_frame(input_, packed_.size(), motions, positions, normals);
+        pack_motions(motions, packed_);
         if (input_.rows)
             std::visit([&](const auto& rows) { move_all(rows, positions, normals); }, input_.rows->rows);
     }
@@ -157,12 +156,11 @@ public:
 private:
     template<typename Row>
     void move_all(const std::vector<Row>& rows, std::span<float> positions, std::span<float> normals) {
-        const float* motions = packed_.data();
+        const PackedMotion* motions = packed_.data();
         workers_.for_each(input_.mover.size(), points_per_chunk, [&](std::size_t i) {
             const std::size_t mover = input_.mover[i];
-            const Blend blend = mover < rows.size()
-                                    ? blended(rows[mover], input_.weights, motions)
-                                    : one_motion(motions + packed_motion_floats * (mover - rows.size()));
+            const Blend blend = mover < rows.size() ? blended(rows[mover], input_.weights, motions)
+                                                    : one_motion(motions[mover - rows.size()]);
             store(moved(load(&input_.positions[3 * i]), blend), &positions[3 * i]);
             if (!normals.empty()) store(turned(load(&input_.normals[3 * i]), blend), &normals[3 * i]);
         });
@@ -170,7 +168,7 @@ private:
 
     Workers& workers_;
     UpsampleInput input_;
-    std::vector<float> packed_;
+    std::vector<PackedMotion> packed_;
 };
 
 } // namespace

@@ -113,10 +113,25 @@ TEST(ElasticTarget, IsFiniteForWhatHandsCanDo) {
 }
 
 TEST(StretchOf, IsThePolarFactor) {
-    const Mat3d stretch = Mat3d::Identity() + 0.1 * (Mat3d::Random() + Mat3d::Random().transpose());
-    const Mat3d symmetric = 0.5 * (stretch + stretch.transpose());
-    const Mat3d found = stretch_of(tilt * symmetric - Mat3d::Identity());
-    EXPECT_LT((found + Mat3d::Identity() - symmetric).norm(), 1e-7);
+    for (const Vec3d& stretches : {Vec3d(1, 1, 1), Vec3d(1.1, 1, 0.9), Vec3d(3, 3, 0.2), Vec3d(100, 1, 1e-2),
+                                   Vec3d(2, 0.7, 0), Vec3d(1 + 1e-9, 1, 1), Vec3d(50, 50, 50)}) {
+        SCOPED_TRACE(stretches.transpose());
+        const Mat3d axes = Eigen::AngleAxisd(0.8, Vec3d(1, -2, 3).normalized()).toRotationMatrix();
+        const Mat3d stretch = axes * stretches.asDiagonal() * axes.transpose();
+        const Mat3d found = stretch_of(tilt * stretch - Mat3d::Identity());
+        // The root of a rounded square: half of the digits are left of a stretch of next to nothing.
+        const double tolerance = stretches.minCoeff() > 0.01 * stretches.maxCoeff() ? 1e-13 : 1e-6;
+        EXPECT_LT((found + Mat3d::Identity() - stretch).norm(), tolerance * stretches.maxCoeff());
+    }
+}
+
+TEST(StretchOf, TakesWhatIsFlattenedToALineOrAPoint) {
+    for (const double left : {0.0, 1e-12, 1.0}) {
+        const Vec3d axis = Vec3d(2, 1, -1).normalized();
+        const Mat3d stretch = left * axis * axis.transpose();
+        const Mat3d found = stretch_of(tilt * stretch - Mat3d::Identity());
+        EXPECT_LT((found + Mat3d::Identity() - stretch).norm(), 1e-7);
+    }
 }
 
 } // namespace

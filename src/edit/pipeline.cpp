@@ -7,6 +7,7 @@
 #include "graph/bridges.h"
 #include "graph/edge_weights.h"
 #include "graph/octree.h"
+#include "graph/solid_links.h"
 
 #include <algorithm>
 #include <numeric>
@@ -175,7 +176,7 @@ void Pipeline::prepare_handles(Progress& progress) {
 
     label_vertices();
     if (every_point_) {
-        sample_graph_ = sample_graph_of_all(*graph_);
+        sample_graph_ = sample_graph_of_all(with_solid_links(*graph_, vertex_positions(), workers_));
         seconds_.sampling += clock.lap();
         find_pulled();
         choose_coarse_samples();

@@ -2,6 +2,7 @@
 
 #include "base/stopwatch.h"
 #include "edit/pipeline.h"
+#include "graph/solid_links.h"
 
 #include <algorithm>
 #include <atomic>
@@ -31,7 +32,7 @@ void Pipeline::prepare_handles(Progress& progress) {
 
     label_vertices();
     if (every_point_) {
-        sample_graph_ = sample_graph_of_all(*graph_);
+        sample_graph_ = sample_graph_of_all(with_solid_links(*graph_, vertex_positions(), workers_));
         seconds_.sampling += clock.lap();
         find_pulled();
         choose_coarse_samples();

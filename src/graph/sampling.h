@@ -56,7 +56,7 @@ SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> sa
 SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
                          Workers& workers);
 
-// The sample graph where every point is a sample: the graph of the points, every contact 1.
+// The sample graph where every point is a sample: that of the points (solid_links.h), every contact 1.
 SampleGraph sample_graph_of_all(const Graph& points);
 
 } // namespace knead

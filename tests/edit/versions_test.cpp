@@ -36,7 +36,7 @@ TEST(Version1, StoredSessionsReplayToTheStoredShapes) {
             EXPECT_LT(report.handle_error, 1e-5);
             checks += report.checks.size();
         }
-    EXPECT_EQ(checks, 2U * 20);
+    EXPECT_EQ(checks, 2U * 21);
 }
 
 // What a set of sessions has in it, in words.

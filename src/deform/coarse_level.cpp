@@ -136,8 +136,10 @@ void carry_along(const SampleSystem& fine, const CoarseLevel& coarse, const Samp
         }
         if (!(turn.norm() > 1e-6)) motion.setZero(), turn = Quatd::Identity().coeffs(); // nothing around it
         const Vec3d at = fine.rest.position[s] + from.displacement[s];
-        if (row < fine.moving_rows)
-            state.displacement[s] = from.displacement[s] + motion.leftCols<3>() * at + motion.col(3);
+        if (row < fine.moving_rows) {
+            state.displacement[s] = from.displacement[s];
+            state.displacement[s] += motion.leftCols<3>() * at + motion.col(3);
+        }
         state.rotation[s] = (Quatd(turn) * from.rotation[s]).normalized();
     });
 }

@@ -256,9 +256,9 @@ TEST(SessionRefuses, UnknownOpsAndKeys) {
     EXPECT_SAYS(refusal("{}"), "the line has no \"op\"");
     EXPECT_SAYS(refusal(R"({"op":"commit","all":true})"),
                 "the line has an unknown key \"all\"; what it may have: op");
-    EXPECT_SAYS(
-        refusal(R"({"op":"drag","handle":"a","frames":[{},{"turn":1}]})"),
-        "\"frames[1]\" has an unknown key \"turn\"; what it may have: translate, rotate, scale, axes, coarse");
+    EXPECT_SAYS(refusal(R"({"op":"drag","handle":"a","frames":[{},{"turn":1}]})"),
+                "\"frames[1]\" has an unknown key \"turn\"; what it may have: translate, rotate, scale, "
+                "axes, coarse");
     EXPECT_SAYS(refusal(R"({"op":"set","colour":1})"), "unknown key \"colour\"");
     EXPECT_SAYS(refusal(R"({"op":"set"})"), "must set something");
 }

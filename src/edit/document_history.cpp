@@ -136,7 +136,7 @@ std::shared_ptr<const RestShape> Document::rest_of(const State& state, Progress&
         pipeline_.upsample(motions, *samples);
         committed->shape = posed_shape(motions, *samples);
     }
-    const std::shared_ptr<const RestShape> shape = committed->shape;
+    std::shared_ptr<const RestShape> shape = committed->shape;
     keep(committed);
     return shape;
 }
@@ -197,6 +197,7 @@ template<typename Made>
 std::shared_ptr<Made> take_out(std::vector<std::shared_ptr<Made>>& kept, const Made& needed,
                                std::size_t now) {
     std::vector<std::size_t> places;
+    places.reserve(kept.size());
     for (const auto& made : kept) places.push_back(made->made_from + 1);
     const auto least =
         kept.begin() + static_cast<std::ptrdiff_t>(least_missed(places, needed.made_from + 1, now));

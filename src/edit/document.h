@@ -17,7 +17,7 @@ namespace knead {
 
 // What the frames of a document cost, for whoever wants to know; times in seconds.
 struct FrameLog {
-    std::vector<double> iteration; // one entry an iteration
+    std::vector<double> iteration; // one entry an iteration of all samples
     std::vector<double> upsample;  // one entry a frame
     std::size_t frames = 0;        // of drags
 };

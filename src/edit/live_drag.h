@@ -14,8 +14,8 @@ struct LiveDrag {
     Transform shown = {};                  // how far it was followed
     std::size_t repeats = 0;               // frames since the last new pose
     bool rests = true;                     // nothing changes until the hand moves
-    std::vector<double> solving = {},
-                        upsampling = {}; // seconds of every frame; of solving without coarse ones
+    std::vector<double> solving = {};      // seconds of every frame but the coarse ones
+    std::vector<double> upsampling = {};   // seconds of every frame
 
     // Whether frames only repeat a pose, and the shape converges.
     bool repeats_pose() const { return wanted && shown == wanted->transform; }

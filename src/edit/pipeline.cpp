@@ -7,6 +7,7 @@
 #include "graph/bridges.h"
 #include "graph/edge_weights.h"
 #include "graph/octree.h"
+#include "graph/solid_links.h"
 
 #include <algorithm>
 #include <numeric>
@@ -159,6 +160,8 @@ void Pipeline::prepare_samples(Progress& progress) {
     if (!every_point_) {
         nearest_ = flood(*graph_, link_lengths_, samples_, workers_, progress);
         base_borders_ = territory_borders(nearest_, *graph_, workers_);
+    } else {
+        sample_graph_ = sample_graph_of_all(with_solid_links(*graph_, vertex_positions(), workers_));
     }
     seconds_.geodesic += clock.lap();
 }

@@ -2,7 +2,6 @@
 
 #include "base/stopwatch.h"
 #include "edit/pipeline.h"
-#include "graph/solid_links.h"
 
 #include <algorithm>
 #include <atomic>
@@ -31,8 +30,7 @@ void Pipeline::prepare_handles(Progress& progress) {
     samples_.resize(base_samples_);
 
     label_vertices();
-    if (every_point_) {
-        sample_graph_ = sample_graph_of_all(with_solid_links(*graph_, vertex_positions(), workers_));
+    if (every_point_) { // their graph is that of the points, whatever the handles are
         seconds_.sampling += clock.lap();
         find_pulled();
         choose_coarse_samples();

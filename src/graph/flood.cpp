@@ -1,6 +1,7 @@
 #include "graph/flood.h"
 
 #include "base/gathered.h"
+#include "base/locked.h"
 #include "base/require.h"
 #include "graph/scrambled.h"
 
@@ -9,14 +10,17 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace knead {
 
 namespace {
 
-constexpr std::uint32_t ring = 64; // levels that can wait at a time: one more than the longest link
+using Level = std::uint64_t;                  // no sum of two distances overflows
+constexpr std::uint32_t longest_link = 63;    // levels
+constexpr std::uint32_t levels_a_round = 128; // fewer are more rounds, more are more ways round
+constexpr std::uint32_t ring = 256;           // levels that can wait at a time: those of a round and a link
+static_assert(ring > levels_a_round + longest_link);
 constexpr double levels_a_median_link = 4;
 constexpr Index vertices_a_tile = 4096; // their rows and links stay in a core's own cache
 
@@ -46,48 +50,60 @@ Places empty_row() {
     return row;
 }
 
-// Where the sample stands in the row; its size where it does not.
-template<typename Places>
-std::size_t place_of(const Places& row, NumberOf<Places> sample) {
-    std::size_t place = row.sample.size();
-    for (std::size_t k = 0; k < row.sample.size(); ++k)
-        if (row.sample[k] == sample) place = k;
-    return place;
-}
+// The loops over a row decide nothing on the way, and count in numbers as wide as its own: so compilers make
+// a few instructions of each, for all its places together, if the functions are not put into larger loops.
 
 template<typename Places>
-bool is_before(const Places& row, std::size_t place, NumberOf<Places> sample, NumberOf<Places> distance) {
-    return row.distance[place] < distance || (row.distance[place] == distance && row.sample[place] < sample);
+[[gnu::noinline]] bool holds(const Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
+    using Number = NumberOf<Places>;
+    Number found = 0;
+    for (std::size_t k = 0; k < row.sample.size(); ++k)
+        found |= static_cast<Number>(Number{row.sample[k] == sample} & Number{row.distance[k] == distance});
+    return found != 0;
 }
 
 // Whether putting the sample there would change the row.
 template<typename Places>
-bool has_room(const Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
-    if (is_before(row, row.sample.size() - 1, sample, distance)) return false;
-    const std::size_t place = place_of(row, sample);
-    return place == row.sample.size() || distance < row.distance[place];
+[[gnu::noinline]] bool has_room(const Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
+    using Number = NumberOf<Places>;
+    if (row.distance.back() < distance) return false;
+    if (row.distance.back() == distance && row.sample.back() <= sample) return false;
+    Number found = 0;
+    for (std::size_t k = 0; k < row.sample.size(); ++k)
+        found |= static_cast<Number>(Number{row.sample[k] == sample} & Number{row.distance[k] <= distance});
+    return found == 0;
 }
 
 // Puts it there, in place of itself farther away, or of the last one.
 template<typename Places>
-void insert(Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
-    std::size_t at = std::min(place_of(row, sample), row.sample.size() - 1);
-    for (; at > 0 && !is_before(row, at - 1, sample, distance); --at) {
-        row.sample[at] = row.sample[at - 1];
-        row.distance[at] = row.distance[at - 1];
+[[gnu::noinline]] void insert(Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
+    using Number = NumberOf<Places>;
+    const Places old = row;
+    Number nearer = 0;
+    for (std::size_t k = 0; k < row.sample.size(); ++k) {
+        const auto as_far = Number{old.distance[k] == distance};
+        nearer = static_cast<Number>(
+            nearer + (Number{old.distance[k] < distance} | (as_far & Number{old.sample[k] < sample})));
     }
-    row.sample[at] = sample;
-    row.distance[at] = distance;
+    std::size_t place = nearer;
+    row.sample[place] = sample;
+    row.distance[place] = distance;
+    for (; place + 1 < row.sample.size() && old.sample[place] != sample; ++place) {
+        row.sample[place + 1] = old.sample[place];
+        row.distance[place + 1] = old.distance[place];
+    }
 }
 
 // One flood. Vertices are numbered so that neighbours have near numbers (PointOrder), and a tile is so many
-// of them in a row. In a round every tile that something arrives at is flooded by one worker, nearest first,
-// as if there were no other; what leaves it arrives elsewhere in the next round.
+// of them in a row. In a round every tile where something waits is flooded by one worker, nearest first, as
+// if there were no other; what leaves it arrives elsewhere in the next round.
 //
 // So a sample may reach a vertex by a way round before it does by the shortest one, which then takes its
 // place. Distances in a row never grow, and one that is too long cannot push out for good what belongs there:
 // the K that stand before it are no farther than they seem. What remains in the end is the first K by
-// (distance, sample) of all ways, whatever the tiles and the order in which workers took them.
+// (distance, sample) of all ways, whatever the tiles and the order in which workers took them. But all that
+// comes by a way round is sent on in vain: a round goes no more than `levels_a_round` beyond the lowest level
+// at which anything waits.
 template<typename Places>
 class Flood {
 public:
@@ -96,8 +112,11 @@ public:
 
     Flood(std::vector<Places>& rows, const Graph& graph, std::span<const std::uint8_t> lengths,
           Workers& workers)
-        : rows_(rows), graph_(graph), lengths_(lengths), workers_(workers) {
+        : rows_(rows), graph_(graph), lengths_(lengths), workers_(workers),
+          tiles_(graph.size() / vertices_a_tile + 1) {
         require(lengths.size() == graph.neighbor.size(), "a length a link");
+        for (std::size_t t = 0; t < tiles_.size(); ++t)
+            tiles_[t].first_vertex = static_cast<Index>(t * vertices_a_tile);
     }
 
     // Samples are numbered from `first`. Rows are kept as they were before, if `keep_old` says so. Returns
@@ -105,21 +124,24 @@ public:
     bool run(std::span<const Index> starts, Index first, bool keep_old, Progress& progress) {
         require(first + starts.size() <= Places::none, "numbers of samples fit into the rows");
         if (keep_old) kept_.assign(graph_.size(), 0);
-        {
-            typename Gathered<Arrival<Number>>::Block block(leaving_);
-            for (std::size_t i = 0; i < starts.size(); ++i)
-                block.push({starts[i], static_cast<Number>(first + i), 0});
+        for (std::size_t i = 0; i < starts.size(); ++i) {
+            Arrived& arriving = tiles_[starts[i] / vertices_a_tile].arriving;
+            arriving.all.push_back({starts[i], static_cast<Number>(first + i), 0});
+            arriving.lowest = 0;
         }
-        for (int round = 0; leaving_.size() > 0 && !too_far_; ++round) {
-            progress.step("measuring along the surface", 1 - 1 / (1 + 0.1 * round));
-            sort_by_tile();
+        std::vector<OnTheWay> of_worker(workers_.threads());
+        for (OnTheWay& on_the_way : of_worker) on_the_way.leaving.resize(tiles_.size());
+        for (int round = 0; start_round() && !too_far_; ++round) {
+            progress.step("measuring along the surface", 1 - 1 / (1 + 0.05 * round));
             std::atomic<std::size_t> next = 0;
-            workers_.for_each(std::min<std::size_t>(workers_.threads(), tiles_.size()), 1, [&](std::size_t) {
-                typename Gathered<Arrival<Number>>::Block leaving(leaving_);
+            workers_.for_each(of_worker.size(), 1, [&](std::size_t worker) {
                 typename Gathered<Old>::Block old(old_rows_);
-                Waiting waiting;
-                for (std::size_t t = next++; t < tiles_.size() && !too_far_; t = next++)
-                    flood_tile(tiles_[t], waiting, leaving, keep_old ? &old : nullptr);
+                OnTheWay& on_the_way = of_worker[worker];
+                on_the_way.old = keep_old ? &old : nullptr;
+                for (std::size_t t = next++; t < busy_.size() && !too_far_; t = next++) {
+                    flood_tile(*busy_[t], on_the_way);
+                    hand_over(on_the_way);
+                }
             });
         }
         return !too_far_;
@@ -129,66 +151,122 @@ public:
     OldRows<Places> take_old_rows() { return old_rows_.take_blocks(); }
 
 private:
-    // What arrives at a tile.
-    struct Tile {
-        Index first_vertex;
-        std::span<Arrival<Number>> arriving;
-    };
-    // What is on its way inside a tile, by the level at which it goes on.
-    using Waiting = std::array<std::vector<Arrival<Number>>, ring>;
+    using Arrivals = std::vector<Arrival<Number>>;
+    static constexpr Level never = std::numeric_limits<Level>::max();
 
-    // Makes `tiles_` of what left tiles in the round before.
-    void sort_by_tile() {
-        std::vector<std::size_t> begin(graph_.size() / vertices_a_tile + 2, 0);
-        leaving_.each([&](const Arrival<Number>& left) { ++begin[left.vertex / vertices_a_tile + 1]; });
-        std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        tiles_.clear();
-        arriving_.clear(); // or growing it would keep what it held
-        arriving_.resize(leaving_.size());
-        for (std::size_t t = 0; t + 1 < begin.size(); ++t)
-            if (begin[t] < begin[t + 1])
-                tiles_.push_back({static_cast<Index>(t * vertices_a_tile),
-                                  std::span(arriving_).subspan(begin[t], begin[t + 1] - begin[t])});
-        leaving_.take(
-            [&](const Arrival<Number>& left) { arriving_[begin[left.vertex / vertices_a_tile]++] = left; });
+    // What has come to a tile, and the lowest level of that.
+    struct Arrived {
+        Arrivals all;
+        Level lowest = never;
+
+        // Takes them from there, and trades memory when it is empty.
+        void take(Arrivals& more, Level lowest_of_more) {
+            lowest = std::min(lowest, lowest_of_more);
+            if (all.empty()) all.swap(more);
+            all.insert(all.end(), more.begin(), more.end());
+            more.clear();
+        }
+    };
+    struct Tile {
+        Index first_vertex = 0;
+        Arrived arriving;        // came before this round
+        Arrivals unfinished;     // stand in their rows, but were not sent on yet
+        Level lowest = never;    // of both
+        Locked<Arrived> arrived; // in this round, for a later one
+    };
+
+    // What a worker has in hand.
+    struct OnTheWay {
+        std::array<Arrivals, ring> waiting;           // inside a tile, by the level at which it goes on
+        std::vector<Arrivals> leaving;                // by the tile that it goes to
+        std::vector<Index> destinations;              // of what is leaving
+        typename Gathered<Old>::Block* old = nullptr; // keeps the rows as they were; null: nobody does
+    };
+
+    // Finds the tiles that this round floods, and up to which level. Returns whether there are any.
+    bool start_round() {
+        Level lowest = never;
+        for (Tile& tile : tiles_) {
+            tile.arrived.with([&](Arrived& arrived) {
+                tile.arriving.take(arrived.all, std::exchange(arrived.lowest, never));
+            });
+            tile.lowest = std::min(tile.lowest, tile.arriving.lowest);
+            lowest = std::min(lowest, tile.lowest);
+        }
+        busy_.clear();
+        if (lowest == never) return false;
+        end_ = lowest + levels_a_round;
+        for (Tile& tile : tiles_)
+            if (tile.lowest < end_) busy_.push_back(&tile);
+        return true;
     }
 
-    void flood_tile(const Tile& tile, Waiting& waiting, typename Gathered<Arrival<Number>>::Block& leaving,
-                    typename Gathered<Old>::Block* old) {
-        const Index end = std::min(tile.first_vertex + vertices_a_tile, static_cast<Index>(graph_.size()));
-        std::ranges::sort(tile.arriving, {}, &Arrival<Number>::distance);
-        std::size_t arrived = 0, waits = 0;
-        std::uint32_t level = 0;
-        const auto take_in = [&](const Arrival<Number>& arrival) {
-            if (!has_room(rows_[arrival.vertex], arrival.sample, arrival.distance)) return;
-            if (old) keep(arrival.vertex, *old);
-            insert(rows_[arrival.vertex], arrival.sample, arrival.distance);
-            waiting[arrival.distance % ring].push_back(arrival);
-            ++waits;
-        };
-        while (waits > 0 || arrived < tile.arriving.size()) {
-            if (waits == 0) level = tile.arriving[arrived].distance;
-            for (; arrived < tile.arriving.size() && tile.arriving[arrived].distance == level; ++arrived)
-                take_in(tile.arriving[arrived]);
-            std::vector<Arrival<Number>>& going = waiting[level % ring];
-            waits -= going.size();
-            for (const auto& [v, sample, distance] : going) {
-                const std::size_t place = place_of(rows_[v], sample);
-                if (place == rows_[v].sample.size() || rows_[v].distance[place] != distance) continue;
-                if (distance >= Places::none - ring) too_far_ = true;
-                if (too_far_) return;
-                for (Index link = graph_.first[v]; link < graph_.first[v + 1]; ++link) {
-                    const Arrival<Number> next{graph_.neighbor[link], sample,
-                                               static_cast<Number>(distance + lengths_[link])};
-                    if (next.vertex >= tile.first_vertex && next.vertex < end)
-                        take_in(next);
-                    else
-                        leaving.push(next);
-                }
-            }
+    // Floods a tile up to the last level of this round.
+    void flood_tile(Tile& tile, OnTheWay& on_the_way) {
+        for (const Arrival<Number>& arrival : tile.arriving.all) take_in(arrival, on_the_way);
+        tile.arriving.all.clear();
+        tile.arriving.lowest = never;
+        for (const Arrival<Number>& arrival : tile.unfinished)
+            on_the_way.waiting[arrival.distance % ring].push_back(arrival);
+        tile.unfinished.clear();
+        for (Level level = tile.lowest; level < end_ && !too_far_; ++level) {
+            Arrivals& going = on_the_way.waiting[level % ring];
+            for (const Arrival<Number>& arrival : going)
+                if (holds(rows_[arrival.vertex], arrival.sample, arrival.distance))
+                    pass_on(arrival, tile, on_the_way);
             going.clear();
-            ++level;
         }
+        put_aside(tile, on_the_way);
+    }
+
+    void take_in(const Arrival<Number>& arrival, OnTheWay& on_the_way) {
+        if (!has_room(rows_[arrival.vertex], arrival.sample, arrival.distance)) return;
+        if (on_the_way.old) keep(arrival.vertex, *on_the_way.old);
+        insert(rows_[arrival.vertex], arrival.sample, arrival.distance);
+        on_the_way.waiting[arrival.distance % ring].push_back(arrival);
+    }
+
+    void pass_on(const Arrival<Number>& from, const Tile& tile, OnTheWay& on_the_way) {
+        if (from.distance >= Places::none - longest_link) {
+            too_far_ = true;
+            return;
+        }
+        for (Index link = graph_.first[from.vertex]; link < graph_.first[from.vertex + 1]; ++link) {
+            const Arrival<Number> next{graph_.neighbor[link], from.sample,
+                                       static_cast<Number>(from.distance + lengths_[link])};
+            if (next.vertex - tile.first_vertex < vertices_a_tile)
+                take_in(next, on_the_way);
+            else
+                send(next, on_the_way);
+        }
+    }
+
+    // Leaves with the tile what waits for later rounds.
+    void put_aside(Tile& tile, OnTheWay& on_the_way) {
+        tile.lowest = never;
+        for (Level level = end_; level < end_ + longest_link; ++level) {
+            Arrivals& rest = on_the_way.waiting[level % ring];
+            if (!rest.empty()) tile.lowest = std::min(tile.lowest, level);
+            tile.unfinished.insert(tile.unfinished.end(), rest.begin(), rest.end());
+            rest.clear();
+        }
+    }
+
+    void send(const Arrival<Number>& arrival, OnTheWay& on_the_way) {
+        const Index tile = arrival.vertex / vertices_a_tile;
+        Arrivals& there = on_the_way.leaving[tile];
+        if (there.empty()) on_the_way.destinations.push_back(tile);
+        there.push_back(arrival);
+    }
+
+    void hand_over(OnTheWay& on_the_way) {
+        for (const Index t : on_the_way.destinations) {
+            Arrivals& leaving = on_the_way.leaving[t];
+            Level lowest = never;
+            for (const auto& arrival : leaving) lowest = std::min<Level>(lowest, arrival.distance);
+            tiles_[t].arrived.with([&](Arrived& arrived) { arrived.take(leaving, lowest); });
+        }
+        on_the_way.destinations.clear();
     }
 
     void keep(Index v, typename Gathered<Old>::Block& old) {
@@ -201,11 +279,11 @@ private:
     const Graph& graph_;
     std::span<const std::uint8_t> lengths_;
     Workers& workers_;
-    std::atomic<bool> too_far_ = false;     // something is farther away than its row can tell
-    std::vector<std::uint8_t> kept_;        // of each vertex, whether its old row was kept; empty if none are
-    Gathered<Arrival<Number>> leaving_;     // in this round, for the next one
-    std::vector<Arrival<Number>> arriving_; // by tile
+    std::atomic<bool> too_far_ = false; // something is farther away than its row can tell
+    std::vector<std::uint8_t> kept_;    // of each vertex, whether its old row was kept; empty if none are
     std::vector<Tile> tiles_;
+    std::vector<Tile*> busy_; // in this round
+    Level end_ = 0;           // of the levels of this round
     Gathered<Old> old_rows_;
 };
 
@@ -255,8 +333,8 @@ std::vector<std::uint8_t> link_lengths(const Graph& graph, std::span<const float
     std::vector<std::uint8_t> lengths(graph.neighbor.size());
     workers.for_each(graph.size(), 4096, [&](std::size_t v) {
         for (std::size_t link = graph.first[v]; link < graph.first[v + 1]; ++link)
-            lengths[link] = static_cast<std::uint8_t>(
-                std::clamp(std::round(length_of(graph, positions, v, link) / level), 1.0, ring - 1.0));
+            lengths[link] = static_cast<std::uint8_t>(std::clamp(
+                std::round(length_of(graph, positions, v, link) / level), 1.0, double{longest_link}));
     });
     return lengths;
 }

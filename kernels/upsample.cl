@@ -1,11 +1,14 @@
 // Moves every point by the motions of the samples around it: src/upsample/upsample.h holds the formulas, and
 // src/upsample/reference.cpp the same arithmetic in C++, operation by operation, so that both give the same bits.
 //
-// Built with -D WIDE for wide rows of influences, without for narrow ones; with -D SIXTEEN for a CPU, without
-// for a GPU. Motions are packed by columns, 16 floats each, [A column 0 | A column 1 | A column 2 | b] with a
-// fourth row of 1 0 0 0: blending one is then a single vector operation, and the weights are summed on the way.
+// Built with -D POINTS_IN_BLOCK=256; with -D WIDE for wide rows of influences, without for narrow ones; with
+// -D SIXTEEN for a CPU, without for a GPU. Motions are packed by columns, 16 floats each, [A column 0 | A column 1 |
+// A column 2 | d] with a fourth row of 1 c0 c1 c2 (src/upsample/packed_motions.h): blending one is then a single
+// vector operation, and the weights are summed on the way.
 // A GPU's item moves one point. A CPU's takes sixteen at once: it blends the motions of each, and transposes
 // the sixteen, so that what follows is the same arithmetic with a point in every lane.
+//
+// A group of items moves one block of 256 points (src/upsample/point_blocks.h), of those that a frame has to.
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -27,7 +30,7 @@ inline float weight_of(number distance, number nearest, number farthest, uint pa
     return nearness * nearness;
 }
 
-// Σ_s w_s [A_s | b_s] of a row with empty places, equal distances, or a sample right at the point. Kept out
+// Σ_s w_s [A_s | d_s] of a row with empty places, equal distances, or a sample right at the point. Kept out
 // of the way of all others.
 __attribute__((noinline)) float16 rarely_blended(__global const number* row, uint paper,
                                                  __global const float* motions) {
@@ -42,7 +45,7 @@ __attribute__((noinline)) float16 rarely_blended(__global const number* row, uin
     return sum;
 }
 
-// Σ_s w_s [A_s | b_s] of one row, and in .s3 the sum of the weights, by which it is to be divided.
+// Σ_s w_s [A_s | d_s] of one row, in .s3 the sum of the weights, by which it is to be divided, and Σ_s w_s c_s.
 __attribute__((always_inline)) inline float16 blended(__global const number* row, uint paper,
                                                       __global const float* motions) {
     const number nearest = row[8], farthest = row[15];
@@ -72,7 +75,7 @@ __attribute__((always_inline)) inline float16 map_of(uint mover, ulong rows, __g
 
 #ifdef SIXTEEN
 #define POINTS_AT_ONCE 16
-#define POINTS_PER_ITEM 256
+#define POINTS_PER_ITEM POINTS_IN_BLOCK
 typedef float16 real;
 typedef int16 truth;
 #else
@@ -177,9 +180,10 @@ inline real plus(real coordinate, real displacement) {
 
 inline vector moved(vector p, const real* a) {
     const real share = 1.0f / a[3];
-    const vector result = {plus(p.x, (a[0] * p.x + a[4] * p.y + a[8] * p.z + a[12]) * share),
-                           plus(p.y, (a[1] * p.x + a[5] * p.y + a[9] * p.z + a[13]) * share),
-                           plus(p.z, (a[2] * p.x + a[6] * p.y + a[10] * p.z + a[14]) * share)};
+    const vector q = {p.x - a[7] * share, p.y - a[11] * share, p.z - a[15] * share};
+    const vector result = {plus(p.x, (a[0] * q.x + a[4] * q.y + a[8] * q.z + a[12]) * share),
+                           plus(p.y, (a[1] * q.x + a[5] * q.y + a[9] * q.z + a[13]) * share),
+                           plus(p.z, (a[2] * q.x + a[6] * q.y + a[10] * q.z + a[14]) * share)};
     return result;
 }
 
@@ -216,12 +220,13 @@ inline vector turned(vector n, const real* blend) {
     return result;
 }
 
-// `normals` is null, or `moved_normals` has room for them.
+// Moves this group's block of those listed. `normals` is null, or `moved_normals` has room for them.
 __attribute__((always_inline)) inline void
-upsample(ulong points, __global const float* positions, __global const uint* mover, ulong rows,
-         __global const number* row, uint paper, __global const float* motions, __global float* moved_positions,
-         __global const float* normals, __global float* moved_normals) {
-    const size_t begin = POINTS_PER_ITEM * get_global_id(0);
+upsample(ulong points, __global const uint* block, __global const float* positions, __global const uint* mover,
+         ulong rows, __global const number* row, uint paper, __global const float* motions,
+         __global float* moved_positions, __global const float* normals, __global float* moved_normals) {
+    const size_t begin =
+        POINTS_IN_BLOCK * (size_t)block[get_group_id(0)] + POINTS_PER_ITEM * get_local_id(0);
     const size_t end = min(begin + POINTS_PER_ITEM, (size_t)points);
     for (size_t first = begin; first < end; first += POINTS_AT_ONCE) {
         const size_t count = min((size_t)POINTS_AT_ONCE, end - first);
@@ -232,17 +237,18 @@ upsample(ulong points, __global const float* positions, __global const uint* mov
     }
 }
 
-__kernel void upsample_positions(const ulong points, __global const float* positions,
-                                 __global const uint* mover, const ulong rows, __global const number* row,
-                                 const uint paper, __global const float* motions,
-                                 __global float* moved_positions) {
-    upsample(points, positions, mover, rows, row, paper, motions, moved_positions, 0, 0);
+__kernel void upsample_positions(const ulong points, __global const uint* block,
+                                 __global const float* positions, __global const uint* mover,
+                                 const ulong rows, __global const number* row, const uint paper,
+                                 __global const float* motions, __global float* moved_positions) {
+    upsample(points, block, positions, mover, rows, row, paper, motions, moved_positions, 0, 0);
 }
 
-__kernel void upsample_positions_and_normals(const ulong points, __global const float* positions,
-                                             __global const uint* mover, const ulong rows,
-                                             __global const number* row, const uint paper,
+__kernel void upsample_positions_and_normals(const ulong points, __global const uint* block,
+                                             __global const float* positions, __global const uint* mover,
+                                             const ulong rows, __global const number* row, const uint paper,
                                              __global const float* motions, __global float* moved_positions,
                                              __global const float* normals, __global float* moved_normals) {
-    upsample(points, positions, mover, rows, row, paper, motions, moved_positions, normals, moved_normals);
+    upsample(points, block, positions, mover, rows, row, paper, motions, moved_positions, normals,
+             moved_normals);
 }

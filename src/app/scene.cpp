@@ -21,6 +21,8 @@ struct Scene::State {
     std::shared_ptr<const std::vector<float>> spacings;
     UpAxis up = UpAxis::z;
     SceneLinesOf lines;
+    std::uint64_t version = 0; // of the frame
+    std::vector<PointRange> moved;
     EstimatedNormals estimated;
     bool lit = false; // by them
     std::vector<HandleLook> looks;
@@ -78,10 +80,13 @@ void Scene::take_in(Editor& editor, UiState& state) {
         own.renderer.set_overlay({});
         own.estimated.begin_anew();
         own.lit = false;
+        own.version = 0;
     }
     if (changes.cloud || changes.positions) {
-        own.renderer.set_positions(editor.frame.positions);
-        if (!editor.frame.normals.empty()) own.renderer.set_normals(editor.frame.normals);
+        changed_since(own.version, editor.frame, own.moved);
+        own.renderer.set_positions(editor.frame.positions, own.moved);
+        if (!editor.frame.normals.empty()) own.renderer.set_normals(editor.frame.normals, own.moved);
+        own.version = editor.frame.version;
         if (follows_pose(display.coloring)) own.colored = false;
     }
     // Where colours tell a value, a handle's tint would tell another.

@@ -1,10 +1,13 @@
 #include "bench/drag_speed.h"
 
+#include "base/require.h"
 #include "base/stopwatch.h"
 #include "bench/posing.h"
 #include "bench/report.h"
 #include "edit/json_text.h"
 #include "upsample/devices.h"
+
+#include <algorithm>
 
 namespace knead {
 
@@ -12,6 +15,7 @@ namespace {
 
 constexpr double degrees = 60;
 constexpr int frames = 30, frames_at_rest = 8;
+constexpr double share_of_region = 0.05;
 
 // Drags the document's handle through the task's pose, and takes that back. `rested`: where it came to rest.
 DraggedWay drag(const DeformationTask& task, bool coarse, Document& document, std::vector<float>& rested,
@@ -48,9 +52,10 @@ DraggedWay drag(const DeformationTask& task, bool coarse, Document& document, st
 
 DragSpeeds measure_drags(const std::string& name, PointCloud cloud, std::span<const std::uint64_t> samples,
                          const Table1Options& options, Progress& progress) {
+    require(!samples.empty(), "a number of samples to drag with");
     Workers workers(options.threads);
     UpsamplerChoice choice = make_upsampler(options.device, workers, options.threads);
-    DragSpeeds speeds{this_machine(), name, choice.upsampler->device(), cloud.size(), {}, {}};
+    DragSpeeds speeds{this_machine(), name, choice.upsampler->device(), cloud.size(), {}, {}, {}};
     if (!choice.warning.empty()) speeds.warnings.push_back(choice.warning);
     const DeformationTask task = bending_task(name, std::move(cloud), degrees);
     for (const std::uint64_t count : samples) {
@@ -65,8 +70,45 @@ DragSpeeds measure_drags(const std::string& name, PointCloud cloud, std::span<co
         row.apart = deviation_between(rested, rested_too, document->bounds().diagonal());
         speeds.rows.push_back(row);
     }
+    speeds.region =
+        measure_region(task, share_of_region, std::ranges::min(samples), options, workers, progress);
     return speeds;
 }
+
+namespace {
+
+TextTable region_table(const RegionSpeed& speed) {
+    TextTable table{{},
+                    {"A handle turned by 30° in 40 frames, in a region of interest of " +
+                     count_text(speed.points) + " points and without one"},
+                    {},
+                    {"", "samples", "frame", "min…max", "upsampling", "min…max", "faster by"}};
+    const auto line = [&](const char* what, const RegionSpeed::Frames& way, const std::string& factor) {
+        table.push_back({what, count_text(way.samples), duration_text(way.frame.median),
+                         spread_text(way.frame), duration_text(way.upsample.median),
+                         spread_text(way.upsample), factor});
+    };
+    line("whole", speed.whole, "");
+    line("region", speed.region,
+         factor_text(speed.whole.frame.median / speed.region.frame.median) + ", " +
+             factor_text(speed.whole.upsample.median / speed.region.upsample.median));
+    return table;
+}
+
+ReportJson region_json(const RegionSpeed& speed) {
+    const auto of = [](const RegionSpeed::Frames& way) {
+        return ReportJson{{"samples", way.samples},
+                          {"seconds", way.frame.median},
+                          {"seconds_min", way.frame.lowest},
+                          {"seconds_max", way.frame.highest},
+                          {"upsample_seconds", way.upsample.median},
+                          {"upsample_seconds_min", way.upsample.lowest},
+                          {"upsample_seconds_max", way.upsample.highest}};
+    };
+    return {{"points", speed.points}, {"without", of(speed.whole)}, {"with", of(speed.region)}};
+}
+
+} // namespace
 
 std::string drag_speeds_text(const DragSpeeds& speeds) {
     TextTable table{{machine_text(speeds.machine)},
@@ -89,7 +131,7 @@ std::string drag_speeds_text(const DragSpeeds& speeds) {
         table.push_back({"  of a frame, upsampling " + duration_text(row.upsample) +
                          "; at rest the two are apart by " + apart(row.apart)});
     }
-    return format_table(table);
+    return format_table(table) + format_table(region_table(speeds.region));
 }
 
 std::string drag_speeds_json(const DragSpeeds& speeds) {
@@ -112,6 +154,7 @@ std::string drag_speeds_json(const DragSpeeds& speeds) {
                                 {"upsample_seconds", row.upsample},
                                 {"apart", json_of(row.apart)}});
     }
+    json["region"] = region_json(speeds.region);
     return json_text(json);
 }
 

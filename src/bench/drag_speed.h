@@ -1,9 +1,10 @@
 #pragma once
 // How fast a drag of many samples follows the hand, by frames of all samples and by frames for which few
-// answer, and how far the shape still goes when the hand rests.
+// answer, and how far the shape still goes when the hand rests; and what a region of interest saves.
 
 #include "bench/deviation.h"
 #include "bench/machine.h"
+#include "bench/region_speed.h"
 #include "bench/statistics.h"
 #include "bench/table1.h"
 
@@ -35,11 +36,12 @@ struct DragSpeeds {
     std::string cloud, device;
     std::size_t points = 0;
     std::vector<DragSpeed> rows;
+    RegionSpeed region; // of 5 % of the points, with the fewest samples
     std::vector<std::string> warnings;
 };
 
-// One row for each number of samples that is below the number of points. Throws Error as make_upsampler() and
-// Pipeline::prepare() do, and Cancelled.
+// One row for each number of samples that is below the number of points. `samples`: at least one number.
+// Throws Error as make_upsampler() and Pipeline::prepare() do, and Cancelled.
 DragSpeeds measure_drags(const std::string& name, PointCloud cloud, std::span<const std::uint64_t> samples,
                          const Table1Options& options, Progress& progress);
 

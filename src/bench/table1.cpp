@@ -156,7 +156,7 @@ UpsampleFigures compare_upsamplers(UpsamplerProbe& probe, Workers& workers, Prog
         for (const std::size_t which : {0, 1}) {
             Upsampler& upsampler = which == 0 ? probe.inner() : *reference;
             const Stopwatch clock;
-            upsampler.run(probe.motions(), moved[which], turned[which]);
+            upsampler.run(probe.motions(), moved[which], turned[which], Held::nothing);
             if (f >= warm_up_frames) seconds[which].push_back(clock.seconds());
         }
     }

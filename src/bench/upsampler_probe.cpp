@@ -8,10 +8,10 @@ void UpsamplerProbe::prepare(const UpsampleInput& input, std::size_t motions) {
     inner_->prepare(input, motions);
 }
 
-void UpsamplerProbe::run(std::span<const Motion> motions, std::span<float> positions,
-                         std::span<float> normals) {
+std::span<const Index> UpsamplerProbe::run(std::span<const Motion> motions, std::span<float> positions,
+                                           std::span<float> normals, Held /*held*/) {
     motions_.assign(motions.begin(), motions.end());
-    inner_->run(motions, positions, normals);
+    return inner_->run(motions, positions, normals, Held::nothing);
 }
 
 std::size_t bytes_a_frame(const UpsampleInput& input) {

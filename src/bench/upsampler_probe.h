@@ -1,5 +1,6 @@
 #pragma once
-// An upsampler that remembers what it was given, so that the same frames can be run again elsewhere.
+// An upsampler that remembers what it was given, so that the same frames can be run again elsewhere, and that
+// moves all points in every frame, whatever is held.
 
 #include "upsample/upsample.h"
 
@@ -14,7 +15,8 @@ public:
 
     std::string device() const override { return inner_->device(); }
     void prepare(const UpsampleInput& input, std::size_t motions) override;
-    void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override;
+    std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
+                               std::span<float> normals, Held held) override;
     std::string take_warning() override { return inner_->take_warning(); }
 
     // What it was prepared with last, good as long as the pipeline that did so.

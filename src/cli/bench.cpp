@@ -134,7 +134,7 @@ void add_bench(CLI::App& app, Job& job) {
         "--drag", arguments->drag,
         "Instead: drag a handle of this cloud with 5,000, 20,000 and 100,000 samples, by frames of all of "
         "them and by frames for which few answer, and tell what a frame takes and how far the shape still "
-        "goes when the hand rests");
+        "goes when the hand rests; and what a frame takes where a region of 5 % of the points may move");
     CLI::Option* files =
         command
             ->add_option(

@@ -27,10 +27,37 @@ Vector as_vector(std::span<const double> values) {
     return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
-void read_displacements(const SampleSystem& system, const SampleState& state, std::vector<double>& into) {
-    into.resize(3 * system.moving_rows);
+// Of how many samples the rotations count.
+std::size_t turning_rows(const SampleSystem& system) {
+    return system.midway > 0 ? system.free_sample.size() : 0;
+}
+
+// u: displacements, then rotations.
+void read_state(const SampleSystem& system, const SampleState& state, std::vector<double>& into) {
+    const std::size_t displacements = 3 * system.moving_rows, turning = turning_rows(system);
+    into.resize(displacements + 4 * turning);
     for (std::size_t row = 0; row < system.moving_rows; ++row)
         Eigen::Map<Vec3d>(into.data() + 3 * row) = state.displacement[system.free_sample[row]];
+    const double length = system.mean_length;
+    for (std::size_t row = 0; row < turning; ++row)
+        Eigen::Map<Eigen::Vector4d>(into.data() + displacements + 4 * row) =
+            length * state.rotation[system.free_sample[row]].coeffs();
+}
+
+// The other way, of G(u) less a share of a step.
+void write_state(const SampleSystem& system, const std::vector<double>& result, double share,
+                 const std::vector<double>& step, SampleState& state) {
+    const std::size_t displacements = 3 * system.moving_rows;
+    for (std::size_t row = 0; row < system.moving_rows; ++row)
+        state.displacement[system.free_sample[row]] = Eigen::Map<const Vec3d>(result.data() + 3 * row) -
+                                                      share * Eigen::Map<const Vec3d>(step.data() + 3 * row);
+    const double shortest = 1e-6 * system.mean_length;
+    for (std::size_t row = 0; row < turning_rows(system); ++row) {
+        const std::size_t at = displacements + 4 * row;
+        const Eigen::Vector4d turn = Eigen::Map<const Eigen::Vector4d>(result.data() + at) -
+                                     share * Eigen::Map<const Eigen::Vector4d>(step.data() + at);
+        if (turn.norm() > shortest) state.rotation[system.free_sample[row]].coeffs() = turn.normalized();
+    }
 }
 
 std::span<const double> column(const std::vector<double>& columns, std::size_t which, std::size_t size) {
@@ -50,7 +77,7 @@ void remember(Acceleration& memory, std::span<const double> result, std::span<co
     memory.remembered = std::min(memory.remembered + 1, Acceleration::most_remembered);
 }
 
-// γ.
+// θ.
 SmallVector best_combination(const Acceleration& memory, std::span<const double> residual) {
     const std::size_t size = residual.size();
     const auto count = static_cast<Eigen::Index>(memory.remembered);
@@ -83,9 +110,9 @@ void forget(Acceleration& memory) {
 double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
                Acceleration& memory, Workers& workers) {
     std::vector<double>& residual = memory.before;
-    read_displacements(system, state, memory.before);
+    read_state(system, state, memory.before);
     const double way = iterate(system, handles, state, workers);
-    read_displacements(system, state, memory.now);
+    read_state(system, state, memory.now);
     for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = memory.now[i] - residual[i];
 
     const bool is_first = memory.result.empty();
@@ -102,17 +129,14 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
 
     const SmallVector combination = best_combination(memory, memory.residual);
     const std::size_t size = memory.result.size();
-    Eigen::Map<Eigen::VectorXd> step(memory.now.data(), static_cast<Eigen::Index>(size)); // ΔG γ
+    Eigen::Map<Eigen::VectorXd> step(memory.now.data(), static_cast<Eigen::Index>(size)); // ΔG θ
     step.setZero();
     for (std::size_t k = 0; k < memory.remembered; ++k)
         step += combination[static_cast<Eigen::Index>(k)] * as_vector(column(memory.result_steps, k, size));
     const double longest = careful_step * as_vector(memory.residual).norm();
     const double share =
         memory.remembered <= knows_little && step.norm() > longest ? longest / step.norm() : 1;
-    for (std::size_t row = 0; row < system.moving_rows; ++row)
-        state.displacement[system.free_sample[row]] =
-            Eigen::Map<const Vec3d>(memory.result.data() + 3 * row) -
-            share * Eigen::Map<const Vec3d>(memory.now.data() + 3 * row);
+    write_state(system, memory.result, share, memory.now, state);
     return way;
 }
 

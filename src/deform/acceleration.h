@@ -8,8 +8,9 @@
 
 namespace knead {
 
-// What the last iterations told, of the displacements of the samples that have a free position. One of these
-// goes with a sequence of iterations at unchanging poses, from its first to its last.
+// What the last iterations told, of the displacements of the samples that have a free position, and, where
+// the next iteration depends on them (γ > 0), of all free rotations. One of these goes with a sequence of
+// iterations at unchanging poses, from its first to its last.
 struct Acceleration {
     static constexpr std::size_t most_remembered = 5;
 
@@ -36,13 +37,14 @@ void forget(Acceleration& acceleration);
 // 2011): with G(u) what iterate() makes of the displacements u, f = G(u) - u and Δ the differences of
 // succeeding iterations,
 //
-//     u ← G(u) - ΔG γ,   γ = argmin |f - ΔF γ|.
+//     u ← G(u) - ΔG θ,   θ = argmin |f - ΔF θ|.
 //
-// G depends on the displacements alone, as rotations follow from them. As long as no more than two
-// differences are known, ΔG γ is held to 1.5 |f|: the few iterations of a drag's frame know too little of a
-// shape that is twisted so far that it might buckle. Where an iteration has more than twice the residual of
-// the one before, everything is forgotten, and its own result stands. Allocates in its first two iterations
-// only. Returns the longest way of a sample from u to G(u).
+// Where γ > 0, u has the quaternions too, times ℓ, so that what they do to the links counts as much as what
+// displacements do. As long as no more than two differences are known, ΔG θ is held to 1.5 |f|: the few
+// iterations of a drag's frame know too little of a shape that is twisted so far that it might buckle. Where
+// an iteration has more than twice the residual of the one before, everything is forgotten, and its own
+// result stands. Allocates in its first two iterations only. Returns the longest way of a sample in the plain
+// iteration.
 double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
                Acceleration& acceleration, Workers& workers);
 

@@ -179,6 +179,7 @@ void turn_shift(const CoarseFollowing& following, CoarseLevel& coarse) {
 FactorOutcome build_coarse_level(const SampleSystem& fine, CoarseLevel& coarse, Workers& workers) {
     FactorOutcome outcome =
         build_system(coarse_rest(fine.rest, coarse.samples, workers), coarse.system, workers);
+    coarse.system.midway = 0; // its iteration has to be one of displacements alone, see the header
     coarse.state = rest_state(coarse.system);
     coarse.before.assign(coarse.samples.sample.size(), Vec3d::Zero());
     coarse.turn.assign(coarse.samples.sample.size(), Quatd::Identity());

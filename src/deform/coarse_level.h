@@ -10,10 +10,11 @@
 //
 //     v = G_c(v) + τ,   τ = I G(u) - G_c(I u),
 //
-// is solved for v by some accelerated iterations, and every sample follows the coarse ones around it as
-// rigidly as points follow samples, by what took them from I G(u) to v. Where nothing is left to do, G(u) =
+// is solved for v by some accelerated iterations, and every sample follows the coarse ones around it by the
+// weighted mean of their motions, what took them from I G(u) to v. Where nothing is left to do, G(u) =
 // u, the solution is v = I u and nothing moves: the fixed point is that of the fine iteration, whatever the
-// coarse one would make of the shape.
+// coarse one would make of the shape. For that G_c must be one of displacements alone: γ = 0 there. (The fine
+// G hangs on the rotations before it as well; they are carried along, and τ takes G(u) as it came out.)
 
 #include "deform/acceleration.h"
 #include "deform/coarse_samples.h"

@@ -84,11 +84,28 @@ Mat3d displaced_spread(const SampleSystem& system, const SampleState& state, std
     return displaced;
 }
 
-// Step 1: the rotation that the sample's edges made. With x = p + u its sum is what the edges are at rest,
-// and what displacements add; where nothing moved, that is nothing at all.
-Quatd local_rotation(const SampleSystem& system, const SampleState& state, std::size_t row) {
+// Step 1 with γ = 0, the rotation that the sample's edges made. With x = p + u its sum is what the edges are
+// at rest, and what displacements add; where nothing moved, that is nothing at all.
+Quatd turn_of_edges(const SampleSystem& system, const SampleState& state, std::size_t row) {
     return nearest_rotation(system.spread[row] + displaced_spread(system, state, row),
                             state.rotation[system.free_sample[row]]);
+}
+
+// Step 1. What is the sample's own in it, R_i e - (1 - γ/2) M_i e, is one product with Σ w e eᵀ.
+Quatd local_rotation(const SampleSystem& system, const SampleState& state, std::size_t row) {
+    const Graph& graph = system.rest.graph;
+    const Index i = system.free_sample[row];
+    const Vec3d& displacement = state.displacement[i];
+    const Vec3d& position = system.rest.position[i];
+    const double of_other = 0.5 * system.midway;
+    const Mat3d own = turn_of(state.rotation[i]) - (1 - of_other) * system.turn[i];
+    Mat3d sum = system.spread[row] + own * system.spread[row];
+    for (Index link = graph.first[i]; link < graph.first[i + 1]; ++link) {
+        const Index j = graph.neighbor[link];
+        const Vec3d turned = of_other * (system.turn[j] * (system.rest.position[j] - position));
+        sum += (state.displacement[j] - displacement - turned) * system.weighted_edge[link].transpose();
+    }
+    return nearest_rotation(sum, state.rotation[i]);
 }
 
 // F - I of a row.
@@ -206,16 +223,23 @@ Mat3d sample_gradient(const SampleSystem& system, const SampleState& state, Inde
 double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
                Workers& workers) {
     place_handles(system, handles, state);
+    // Of the state alone, whatever was computed before: what is undone and done again has the same bits.
+    if (system.midway > 0) {
+        find_targets(system, state, workers);
+        find_turns(system, state, workers);
+    }
     assemble_rotations(
         system, system.smoothing,
         [&](std::size_t row) -> Eigen::Vector4d {
-            return system.confidence[row] * beyond_one(local_rotation(system, state, row));
+            const Quatd local =
+                system.midway > 0 ? local_rotation(system, state, row) : turn_of_edges(system, state, row);
+            return system.confidence[row] * beyond_one(local);
         },
         [&](Index s) -> const Quatd& { return state.rotation[s]; }, workers);
     system.rotations.solve(system.sides, 4);
     for_solved_rotations(
         system, [&](Index s, const Quatd& rotation) { state.rotation[s] = rotation; }, workers);
-    find_targets(system, state, workers);
+    if (system.midway == 0) find_targets(system, state, workers);
     return solve_positions(system, handles, state, workers);
 }
 

@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace knead {
 
 namespace {
+
+// The stiffness for which γ is one half.
+constexpr double next_to_nothing = 1e-4;
 
 // Which samples hang together with no handle.
 std::vector<bool> find_left_out(const SampleRest& rest) {
@@ -168,8 +172,11 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     system.left_out = find_left_out(system.rest);
     number_unknowns(system);
     const double square_length = mean_square_length(system);
+    system.mean_length = std::sqrt(square_length);
     system.smoothing =
         system.rest.stiffness * system.rest.cloud_size * system.rest.cloud_size / square_length;
+    const double square_stiffness = system.rest.stiffness * system.rest.stiffness;
+    system.midway = square_stiffness / (square_stiffness + next_to_nothing * next_to_nothing);
     find_confidence(system, square_length);
     find_surroundings(system, workers);
     set_poisson(system, system.rest.poisson);

@@ -5,21 +5,31 @@
 // quaternions, rest to now); edges (i, j) of the sample graph have rest vectors e_ij = p_j - p_i and weights
 // w_ij. The shape sought makes, for a material that does not contract when it is pulled,
 //
-//     E = Σ w_ij |x_j - x_i - R_i e_ij|² + β Σ w_ij |r_j - r_i|²,   β = α s²
+//     E = Σ w_ij |x_j - x_i - ½(R_i + R_j) e_ij|² + β Σ w_ij |r_j - r_i|²,   β = α s²
 //
-// small: Equation (2) of the paper, and Equation (1), which is a Laplacian of the rotations (DESIGN 2;
-// tests/deform proves it). s is the cloud's size, so that the stiffness does not depend on how many samples
-// there are. One iteration is
+// small: Equation (2) of the paper, of both ends of an edge, and Equation (1), which is a Laplacian of the
+// rotations (DESIGN 2; tests/deform proves it). s is the cloud's size, so that the stiffness does not depend
+// on how many samples there are. One iteration is
 //
-//     1. r*_i = the rotation nearest to Σ_j w_ij (x_j - x_i) e_ijᵀ, of the hemisphere of r_i,
+//     1. r*_i = the rotation nearest to Σ_j w_ij (R_i e_ij + x_j - x_i - M_ij e_ij) e_ijᵀ, of the hemisphere
+//     of r_i; M_ij = M_i + γ/2 (M_j - M_i),
 //     2. (β/ℓ² L + C) r = C r* with the handles' rotations given, normalised; C_i = Σ_j w_ij |e_ij|²/ℓ², ℓ² =
 //     mean |e|²,
 //     3. L x = b with the handles' positions given; b_i = Σ_j w_ij ½(M_i + M_j)(p_i - p_j), M = R S with S
 //     the elastic target of deform/stretch.h (the identity for ν = 0), or the whole linear map on a handle,
 //
-// with L the graph's weighted Laplacian. The fixed point of these steps is what knead means by the deformed
-// shape. Both matrices stand as long as the handle set and the rest shape do. Everything is solved for u and
-// r - 1, which are exactly zero where nothing moves.
+// with L the graph's weighted Laplacian.
+//
+// γ is 1, but for stiffnesses below .001, where it goes to 0: γ = α²/(α² + 10⁻⁸). On a circle the chord
+// between two samples has the direction midway between both their turns, and step 3 lays it there. Step 1
+// with γ = 0, Equation (2) as it stands, takes it for the direction of one end: then every link resists being
+// bent by itself, as much as α = ¾ e²/s² does (.0045 for 200 samples of a surface, .001 for 1000), and so
+// does the shape depend on how many samples there are. With γ = 1 only α resists. A sheet for which α is next
+// to nothing would wrinkle and not come to rest; there the resistance of the links is what holds it.
+//
+// The fixed point of these steps is what knead means by the deformed shape. Both matrices stand as long as
+// the handle set and the rest shape do. Everything is solved for u and r - 1, which are exactly zero where
+// nothing moves.
 
 #include "base/workers.h"
 #include "deform/stretch.h"
@@ -77,7 +87,9 @@ struct SampleSystem {
     std::vector<Index> free_sample; // of each row: its sample
     std::size_t moving_rows = 0;
     std::vector<bool> left_out;     // of each sample: whether no handle holds its component
+    double mean_length = 1;         // ℓ
     double smoothing = 0;           // β/ℓ²
+    double midway = 1;              // γ; with 0, rotations follow from displacements alone
     std::vector<double> confidence; // C, of each row
     SparseFactor rotations;         // β/ℓ² L + C
     SparseFactor positions;         // L + μ, of the moving rows

@@ -5,8 +5,9 @@
 // that are nearest to parts with a handle, a tenth of it, and at least as many as a point has neighbours, are
 // its contacts; each leans on the vertex nearest to it there, as the shape was opened. A frame takes the mean
 // of the motions of those (one weighted sum over a few samples, made ready beforehand), the rotation nearest
-// to it, and moves the part so that the middle of what it leans on stays under it. Where nothing moves there,
-// the part keeps every bit.
+// to it, and moves the part so that the middle of what it leans on stays under it, as far as the samples' own
+// motions tell (between samples of a bent surface points follow arcs, upsample/upsample.h). Where nothing
+// moves there, the part keeps every bit.
 
 #include "graph/influences.h"
 #include "graph/neighbors.h"

@@ -6,6 +6,12 @@
 
 namespace knead {
 
+void changed_since(std::uint64_t version, const PosedFrame& frame, std::vector<PointRange>& ranges) {
+    ranges.clear();
+    for (std::size_t block = 0; block < frame.changed_in.size(); ++block)
+        if (frame.changed_in[block] > version) append_block(block, frame.positions.size() / 3, ranges);
+}
+
 LiveDocument::LiveDocument(OpenRequest request) : shared_(std::make_unique<Locked<LiveShared>>()) {
     thread_ = std::make_unique<Background>(
         [request = std::move(request), &shared = *shared_] { run_live_document(request, shared); });

@@ -60,14 +60,20 @@ struct DocumentView {
 
 // The posed points, in the order of computation.
 struct PosedFrame {
-    std::vector<float> positions;                   // 3n, relative to the cloud's origin
-    std::vector<float> normals;                     // 3n, or empty
-    std::uint64_t version = 0;                      // counts the frames; 0: nothing here
+    std::vector<float> positions; // 3n, relative to the cloud's origin
+    std::vector<float> normals;   // 3n, or empty
+    std::uint64_t version = 0;    // counts the frames; 0: nothing here
+    // The version in which each block of points (upsample/point_blocks.h) changed last: whoever has the
+    // points of an earlier version needs only what changed after it, see changed_since().
+    std::vector<std::uint64_t> changed_in;
     std::chrono::steady_clock::time_point pose_set; // when the hand set the pose that this frame shows
     bool shows_pose = false; // whether it is of a drag at all (not of an undo, a commit ...)
     double solve = 0;        // seconds of its iterations
     double upsample = 0;     // seconds
 };
+
+// The points that changed since the frame of this version; all of them since 0. `ranges` are written over.
+void changed_since(std::uint64_t version, const PosedFrame& frame, std::vector<PointRange>& ranges);
 
 // What the user should hear.
 struct Notice {

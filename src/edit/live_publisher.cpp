@@ -15,16 +15,41 @@ void LivePublisher::refuse(StepNumber step) {
     shared_.with([&](LiveShared& s) { s.refused.push_back(step); });
 }
 
-void LivePublisher::shape(const RestShape& shape, const FrameFacts& facts) {
-    const auto copy = [this](const std::vector<float>& from, std::vector<float>& to) {
-        to.resize(from.size());
-        workers_.for_chunks(from.size(), std::size_t{1} << 16U, [&](std::size_t begin, std::size_t end) {
-            std::copy(from.data() + begin, from.data() + end, to.data() + begin);
-        });
-    };
-    copy(shape.positions, back_.positions);
-    copy(shape.normals, back_.normals);
-    back_.version = ++frames_;
+// Posed shapes change where the pipeline wrote them since the last one was shown; any other is all new.
+void LivePublisher::note_changes(const RestShape& shape, const Pipeline& pipeline) {
+    const bool is_posed = &shape == &pipeline.posed();
+    changed_in_.resize(blocks_of(shape.positions.size() / 3), 0);
+    for (std::size_t block = 0; block < changed_in_.size(); ++block)
+        if (!is_posed || pipeline.written()[block] > shown_upsampling_) changed_in_[block] = frames_;
+    shown_upsampling_ = is_posed ? pipeline.upsampled() : 0;
+}
+
+// Into what holds the frame of back_.version.
+void LivePublisher::copy_changes(const std::vector<float>& from, std::vector<float>& to) {
+    to.resize(from.size());
+    if (from.empty()) return;
+    workers_.for_chunks(changed_in_.size(), 64, [&](std::size_t block, std::size_t end) {
+        while (block < end) {
+            std::size_t unchanged = block;
+            while (unchanged < end && changed_in_[unchanged] > back_.version) ++unchanged;
+            if (unchanged > block) {
+                const std::size_t points = from.size() / 3;
+                const std::size_t first = 3 * points_of(block, points).first;
+                const std::size_t last = 3 * points_of(unchanged - 1, points).end;
+                std::copy(from.data() + first, from.data() + last, to.data() + first);
+            }
+            block = unchanged + 1;
+        }
+    });
+}
+
+void LivePublisher::shape(const RestShape& shape, const Pipeline& pipeline, const FrameFacts& facts) {
+    ++frames_;
+    note_changes(shape, pipeline);
+    copy_changes(shape.positions, back_.positions);
+    copy_changes(shape.normals, back_.normals);
+    back_.changed_in = changed_in_;
+    back_.version = frames_;
     back_.shows_pose = facts.pose_set.has_value();
     if (facts.pose_set) back_.pose_set = *facts.pose_set;
     back_.solve = facts.solve;

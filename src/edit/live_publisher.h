@@ -18,7 +18,7 @@ public:
         std::optional<std::chrono::steady_clock::time_point> pose_set;
         double solve = 0, upsample = 0; // seconds
     };
-    void shape(const RestShape& shape, const FrameFacts& facts);
+    void shape(const RestShape& shape, const Pipeline& pipeline, const FrameFacts& facts);
     std::uint64_t shapes() const { return frames_; } // so many: the version of the last one
 
     // The document between two acts.
@@ -38,6 +38,8 @@ public:
     void demand(const HandleDemand& demand); // says so where the handles ask for too much
 
 private:
+    void note_changes(const RestShape& shape, const Pipeline& pipeline);
+    void copy_changes(const std::vector<float>& from, std::vector<float>& to);
     void note_samples(const Pipeline& pipeline);
     void note_spacings(const Pipeline& pipeline);
 
@@ -45,6 +47,9 @@ private:
     Workers& workers_;
     PosedFrame back_; // the next frame to hand over; the window gives the one before back
     std::uint64_t frames_ = 0;
+    std::vector<std::uint64_t> changed_in_; // of each block of points, the frame
+    std::uint64_t shown_upsampling_ =
+        0; // of the pipeline's, that the last frame shows; 0: it shows another shape
     std::string told_of_strays_, told_of_demand_;
     // Copies for the window, which may look at them while the pipeline makes others.
     std::uint64_t samples_seen_ = 0;

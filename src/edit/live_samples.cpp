@@ -12,6 +12,10 @@ namespace {
 // that was never run, does not count.
 constexpr int tried_frames = 4;
 
+// Each frame of the trial goes so much further, over the diagonal: a handle at rest costs less than one that
+// moves.
+constexpr double trial_step = 1e-9;
+
 // A drag of fewer frames than this says nothing about the machine.
 constexpr std::size_t telling_frames = 3;
 
@@ -64,7 +68,7 @@ void LiveWork::look_at_handles() {
         spread_of(pipeline.labels(), pipeline.graph(), pipeline.samples(), pipeline.sample_graph().graph);
 }
 
-// A handle that is dragged to where it is, and never was.
+// A handle that is dragged to where it is, or all but, and never was.
 void LiveWork::measure_frame() {
     const auto& handles = document_->handles();
     const auto moving = std::ranges::find(handles, HandleRole::moving, &Handle::role);
@@ -76,8 +80,10 @@ void LiveWork::measure_frame() {
             return shared_.with([](const LiveShared& s) { return s.inbox.empty() && !s.stop; });
         };
         for (int frame = 0; frame < tried_frames && undisturbed(); ++frame) {
+            HandlePose pose;
+            pose.translate.x() = trial_step * frame * document_->bounds().diagonal();
             const Stopwatch clock;
-            document_->drag_frame({}, "", progress_);
+            document_->drag_frame(pose, "", progress_);
             const double upsample = document_->log().upsample.back();
             if (frame == 0) continue;
             upsampling.push_back(upsample);

@@ -226,7 +226,7 @@ void LiveWork::publish_shape(const RestShape& shape, bool of_drag) {
     if (of_drag) facts.pose_set = drag_->wanted->set;
     facts.solve = solve_seconds_;
     if (!document_->log().upsample.empty()) facts.upsample = document_->log().upsample.back();
-    publisher_.shape(shape, facts);
+    publisher_.shape(shape, document_->pipeline(), facts);
     since_frame_ = Stopwatch();
 }
 

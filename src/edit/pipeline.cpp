@@ -208,6 +208,7 @@ void Pipeline::prepare_upsampler() {
     }
     posed_.positions.resize(rest.positions.size());
     posed_.normals.resize(rest.normals.size());
+    written_.resize(blocks_of(order_.points()), 0);
     upsampler_.prepare({rest.positions, rest.normals, mover_of_point_, &nearest_, input_.settings.weights},
                        motions_.size());
     seconds_.device += clock.lap();

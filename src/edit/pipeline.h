@@ -33,6 +33,7 @@
 #include "graph/neighbors.h"
 #include "graph/point_order.h"
 #include "graph/sampling.h"
+#include "upsample/point_blocks.h"
 #include "upsample/upsample.h"
 
 #include <memory>
@@ -106,6 +107,11 @@ public:
     // Every point's position and normal for a state of the samples, into buffers that the pipeline keeps.
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
     const RestShape& posed() const { return posed_; }
+    // How often upsample() was called, and in which call, from 1, it wrote each block of points
+    // (upsample/point_blocks.h) of posed() last: since then the block has not changed by a bit. What rests -
+    // handles that are held still, what lies outside a region of interest, frozen parts - is written once.
+    std::uint64_t upsampled() const { return upsampled_; }
+    std::span<const std::uint64_t> written() const { return written_; }
 
     // Whether the handles ask for too much. Of the shape that was upsampled last, from this state.
     HandleDemand demand(const SampleState& state) const;
@@ -213,6 +219,8 @@ private:
     std::vector<HandleMotion> handle_motions_; // those of the handles, and the identity for what is outside
     std::vector<Motion> motions_; // of the samples, the handles, what is outside, and the carried parts
     RestShape posed_;
+    std::uint64_t upsampled_ = 0;
+    std::vector<std::uint64_t> written_;
 };
 
 // What the user should hear about parts that hold no handle; empty when there are none.

@@ -89,6 +89,8 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
                                           : turn_of(state.rotation[s]);
             motions_[s] = motion_about(moved, state.displacement[s] - moved * system_.rest.position[s]);
         }
+        for (int axis = 0; axis < 3; ++axis)
+            motions_[s].place[axis] = static_cast<float>(system_.rest.position[s][axis]);
     });
     for (std::size_t h = 0; h < motions.size(); ++h) motions_[samples + h] = motion_of_handle(motions[h]);
     for_lone_pegs([&](Index s, Index handle) { motions_[samples + handle] = motions_[s]; });
@@ -96,7 +98,9 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
     workers_.for_each(carried_.size(), 16, [&](std::size_t part) {
         motions_[first_carried + part] = carried_motion(carried_, part, motions_);
     });
-    upsampler_.run(motions_, posed_.positions, posed_.normals);
+    ++upsampled_;
+    for (const Index block : upsampler_.run(motions_, posed_.positions, posed_.normals, Held::last_frame))
+        written_[block] = upsampled_;
 }
 
 HandleDemand Pipeline::demand(const SampleState& state) const {

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <numbers>
 
 namespace knead {
 
@@ -21,14 +22,18 @@ constexpr double border_fades = 0.2;
 // across a surface Σ w e is its curvature.
 constexpr double along_surface = 0.15;
 
-// How far a weight may leave its vertex's mean: a link that stands alone in its direction would take all.
-constexpr double largest_weight = 8;
+// No weight is less, nor than this share of its vertex's mean where links are very many: a link that stands
+// alone in its direction would take all of the others.
+constexpr double least_weight = 0.125, least_share = 0.5;
 
-// Brings the mean to 1.
-void normalize(std::span<double> weight) {
+// Of a vertex with links all around it.
+constexpr double sum_inside = 6;
+
+// Brings the sum to what it is to be.
+void normalize(std::span<double> weight, double wanted) {
     double sum = 0;
     for (const double w : weight) sum += w;
-    for (double& w : weight) w *= static_cast<double>(weight.size()) / sum;
+    for (double& w : weight) w *= wanted / sum;
 }
 
 // xx yy zz xy xz yz of a symmetric matrix.
@@ -73,20 +78,41 @@ private:
     std::vector<Spoke> spokes_;
 };
 
-void start_weights(std::span<const Spoke> star, std::span<double> weight) {
+// How unevenly a vertex pulls: Σ w e, and Σ w |e|.
+struct Pull {
+    Vec3d sum = Vec3d::Zero();
+    double effort = 0;
+};
+
+Pull pull_of(std::span<const Spoke> star, std::span<const double> weight) {
+    Pull pull;
+    for (std::size_t k = 0; k < star.size(); ++k) {
+        pull.sum += weight[k] * star[k].edge;
+        pull.effort += weight[k] * star[k].length;
+    }
+    return pull;
+}
+
+// Returns the sum of the weights, which they keep.
+double start_weights(std::span<const Spoke> star, std::span<double> weight) {
     double longest = 0;
     for (const Spoke& spoke : star) longest = std::max(longest, spoke.length);
     // Samples may come to lie on each other in the course of edits; their link counts as a short one.
     const double shortest = longest > 0 ? 1e-3 * longest : 1;
     for (std::size_t k = 0; k < star.size(); ++k)
         weight[k] = star[k].contact / std::max(star[k].length, shortest);
-    normalize(weight);
+    const Pull pull = pull_of(star, weight);
+    const double share = pull.effort > 0 ? pull.sum.norm() / pull.effort : 0;
+    const double sum = sum_inside * (1 - std::numbers::pi / 4 * share);
+    normalize(weight, sum);
+    return sum;
 }
 
-// What follows every update: the mean is 1 and no weight runs away.
-void finish_update(std::span<double> weight) {
-    normalize(weight);
-    for (double& w : weight) w = std::clamp(w, 1 / largest_weight, largest_weight);
+// What follows every update: the sum is as it was and no weight vanishes.
+void finish_update(std::span<double> weight, double sum) {
+    normalize(weight, sum);
+    const double least = std::min(least_weight, least_share * sum / static_cast<double>(weight.size()));
+    for (double& w : weight) w = std::max(w, least);
 }
 
 Symmetric spread_of(std::span<const Spoke> star, std::span<const double> weight) {
@@ -96,7 +122,7 @@ Symmetric spread_of(std::span<const Spoke> star, std::span<const double> weight)
 }
 
 // One update of a vertex's weights towards pulling as much along each direction.
-void even_out(std::span<Spoke> star, std::span<double> weight) {
+void even_out(std::span<Spoke> star, double sum, std::span<double> weight) {
     Symmetric spread = spread_of(star, weight);
     spread.tail<3>() *= 2; // so that its product with e eᵀ is eᵀ C e
     double mean = 0;
@@ -106,7 +132,7 @@ void even_out(std::span<Spoke> star, std::span<double> weight) {
     }
     for (std::size_t k = 0; k < star.size(); ++k)
         if (star[k].along > 0) weight[k] *= mean / star[k].along;
-    finish_update(weight);
+    finish_update(weight, sum);
 }
 
 // The projection onto the directions that a vertex is to balance along.
@@ -121,15 +147,11 @@ Mat3d along_surface_of(std::span<const Spoke> star, std::span<const double> weig
 }
 
 // One update towards pulls that cancel.
-void balance(std::span<const Spoke> star, const Mat3d& along, double border, std::span<double> weight) {
-    Vec3d pull = Vec3d::Zero();
-    double effort = 0;
-    for (std::size_t k = 0; k < weight.size(); ++k) {
-        pull += weight[k] * star[k].edge;
-        effort += weight[k] * star[k].length;
-    }
-    const Vec3d uneven = along * pull; // Σ w e along the surface
-    const double share = effort > 0 ? uneven.norm() / effort : 1;
+void balance(std::span<const Spoke> star, const Mat3d& along, double border, double sum,
+             std::span<double> weight) {
+    const Pull pull = pull_of(star, weight);
+    const Vec3d uneven = along * pull.sum; // Σ w e along the surface
+    const double share = pull.effort > 0 ? uneven.norm() / pull.effort : 1;
     const double inside = std::clamp((border - share) / border_fades, 0.0, 1.0);
     if (inside > 0) {
         const Mat3d spread = matrix_of(spread_of(star, weight));
@@ -139,7 +161,7 @@ void balance(std::span<const Spoke> star, const Mat3d& along, double border, std
         for (std::size_t k = 0; k < weight.size(); ++k)
             weight[k] *= std::clamp(1 - inside * counter.dot(star[k].edge), 0.5, 1.5);
     }
-    finish_update(weight);
+    finish_update(weight, sum);
 }
 
 } // namespace
@@ -164,16 +186,17 @@ std::vector<double> isotropic_weights(const Graph& graph, std::span<const Vec3d>
         });
     };
     std::vector<Mat3d> along(graph.size());
-    for_stars([&along](std::size_t v, std::span<Spoke> star, std::span<double> own) {
-        start_weights(star, own);
-        for (int update = 0; update < updates; ++update) even_out(star, own);
+    std::vector<double> sum(graph.size());
+    for_stars([&along, &sum](std::size_t v, std::span<Spoke> star, std::span<double> own) {
+        sum[v] = start_weights(star, own);
+        for (int update = 0; update < updates; ++update) even_out(star, sum[v], own);
         along[v] = along_surface_of(star, own);
     });
     for (int round = 0; round < balancing_rounds; ++round) {
         one_way = weight;
-        for_stars([&along, border](std::size_t v, std::span<Spoke> star, std::span<double> own) {
-            even_out(star, own);
-            balance(star, along[v], border, own);
+        for_stars([&along, &sum, border](std::size_t v, std::span<Spoke> star, std::span<double> own) {
+            even_out(star, sum[v], own);
+            balance(star, along[v], border, sum[v], own);
         });
     }
     return weight;

@@ -30,9 +30,13 @@ namespace knead {
 // distance more or less, and need a low bound, 0.3; for points that go as far as the surface does 0.5 will
 // do.
 //
-// Each vertex's weights have the mean 1, and the two directions of a link are averaged, after every update of
-// the second kind. Uniform weights instead make a cloud stiff across the lines that it was sampled along, and
-// the survey's cylinder creases.
+// Each vertex's weights have the sum 6 c, and the two directions of a link are averaged, after every update
+// of the second kind. c = 1 - π/4 · |Σ w e| / Σ w |e|, of the weights in the beginning, is the share of all
+// directions that the surface goes on in, one half on a straight border: the sum over a Voronoi cell's sides
+// of contact over distance is half of the angle that the cell fills, whether it has five sides or seven, and
+// a vertex with more links than its neighbours must not be stiffer for it. (On the face of a solid it is a
+// little more than the half that is there.) Uniform weights instead make a cloud stiff across the lines that
+// it was sampled along, and the survey's cylinder creases.
 //
 // `position` and `contact` > 0: one entry a vertex, and one for every entry of graph.neighbor, the same in
 // both directions; so is the result, > 0.

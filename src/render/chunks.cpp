@@ -57,14 +57,25 @@ Chunk box_of_finite(std::span<const float> positions) {
 
 } // namespace
 
-void bound_chunks(std::span<const float> positions, std::vector<Chunk>& chunks, Workers& workers) {
+void bound_chunks(std::span<const float> positions, std::span<const Index> numbers,
+                  std::vector<Chunk>& chunks, Workers& workers) {
     const std::size_t points = positions.size() / 3;
-    chunks.resize((points + points_in_chunk - 1) / points_in_chunk);
-    workers.for_each(chunks.size(), 16, [&](std::size_t c) {
+    workers.for_each(numbers.size(), 16, [&](std::size_t at) {
+        const std::size_t c = numbers[at];
         const std::size_t first = c * points_in_chunk, end = std::min(points, first + points_in_chunk);
         const std::span<const float> own = positions.subspan(3 * first, 3 * (end - first));
         chunks[c] = all_finite(own) ? box_of_finite(own) : box_of(own);
     });
+}
+
+void chunks_with(std::span<const PointRange> points, std::vector<Index>& numbers) {
+    numbers.clear();
+    for (const PointRange& range : points) {
+        if (range.first == range.end) continue;
+        auto chunk = static_cast<Index>(range.first / points_in_chunk);
+        if (!numbers.empty() && chunk <= numbers.back()) chunk = numbers.back() + 1;
+        for (; chunk < chunks_of(range.end); ++chunk) numbers.push_back(chunk);
+    }
 }
 
 Box3 box_around(std::span<const Chunk> chunks) {

@@ -2,6 +2,8 @@
 // Private to this room: ranges of consecutive points and the boxes around them, so that what lies outside the
 // view is skipped without looking at its points.
 
+#include "base/point_range.h"
+#include "base/types.h"
 #include "base/workers.h"
 #include "view/camera.h"
 
@@ -16,17 +18,23 @@ inline constexpr std::size_t points_in_chunk = 1024;
 // The boxes of points 0 … 1023, 1024 … 2047 and so on; of finite points only. A chunk without any has lowest
 // > highest.
 struct Chunk {
-    glm::vec3 lowest{0.0f}, highest{0.0f};
+    glm::vec3 lowest{1.0f}, highest{-1.0f};
     bool empty() const { return !(lowest.x <= highest.x); }
 };
-void bound_chunks(std::span<const float> positions, std::vector<Chunk>& chunks, Workers& workers);
+// Bounds the chunks with these numbers; `chunks` has chunks_of() entries, and the others stay as they are.
+void bound_chunks(std::span<const float> positions, std::span<const Index> numbers,
+                  std::vector<Chunk>& chunks, Workers& workers);
+
+constexpr std::size_t chunks_of(std::size_t points) {
+    return (points + points_in_chunk - 1) / points_in_chunk;
+}
+
+// The numbers of the chunks that these points lie in, ascending, each once. The ranges ascend.
+void chunks_with(std::span<const PointRange> points, std::vector<Index>& numbers);
 
 // The box around all of them; the unit box where all are empty.
 Box3 box_around(std::span<const Chunk> chunks);
 
-struct PointRange {
-    std::size_t first = 0, end = 0;
-};
 struct InView {
     std::vector<PointRange> ranges; // a chunk each, the nearest first: what is hidden then costs less
     std::size_t points = 0;

@@ -2,6 +2,7 @@
 #include "render/shaders.h"
 #include "render/splats.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -43,6 +44,22 @@ void upload(GLuint buffer, std::span<const Item> items) {
     glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(items.size_bytes()), items.data());
 }
 
+// Three floats a point, of these chunks: those that follow each other at once.
+void upload(GLuint buffer, std::span<const float> vectors, std::span<const Index> chunks) {
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    for (std::size_t at = 0; at < chunks.size();) {
+        std::size_t end = at + 1;
+        while (end < chunks.size() && chunks[end] == chunks[end - 1] + 1) ++end;
+        const std::size_t first = 3 * points_in_chunk * chunks[at];
+        const std::size_t count =
+            std::min(3 * points_in_chunk * (std::size_t{chunks[end - 1]} + 1), vectors.size()) - first;
+        const std::span<const float> part = vectors.subspan(first, count);
+        glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(first * sizeof(float)),
+                        static_cast<GLsizeiptr>(part.size_bytes()), part.data());
+        at = end;
+    }
+}
+
 void allocate(GLuint buffer, std::size_t bytes) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_DRAW);
@@ -62,11 +79,13 @@ public:
         allocate(positions_, 12 * n);
         allocate(colors_, 4 * n);
     }
-    void set_positions(std::span<const float> positions) override { upload(positions_, positions); }
-    void set_normals(std::span<const float> normals) override {
+    void set_positions(std::span<const float> positions, std::span<const Index> chunks) override {
+        upload(positions_, positions, chunks);
+    }
+    void set_normals(std::span<const float> normals, std::span<const Index> chunks) override {
         if (!has_normal_buffer_) allocate(normals_, 12 * n_);
         has_normal_buffer_ = true;
-        upload(normals_, normals);
+        upload(normals_, normals, chunks);
     }
     void set_widths(std::span<const std::uint8_t> widths) override {
         has_widths_ = !widths.empty();

@@ -52,12 +52,13 @@ struct PointRenderer::State {
     // --- The points ---
     std::size_t n = 0;
     double spacing = 0;
-    bool has_normals = false;
+    bool has_positions = false, has_normals = false;
     std::vector<std::uint32_t> colors, tinted;
     std::vector<std::uint8_t> marks;
     std::vector<HandleLook> looks;
     bool tints_are_stale = false;
     std::vector<Chunk> chunks;
+    std::vector<Index> changed_chunks;
     std::uint8_t widest_width = 0; // of the splats, see Splats::set_widths()
     Workers workers;
     std::unique_ptr<Splats> splats;
@@ -81,6 +82,7 @@ struct PointRenderer::State {
     std::uint64_t finished_overlay = 0;
 
     void refresh_tints();
+    std::span<const Index> chunks_to_take(bool all, std::span<const PointRange> changed);
     bool matches(const Scene& other) const;
     void project_onto(Box3 box);
     void begin(const Scene& next, std::size_t budget);
@@ -100,6 +102,12 @@ void PointRenderer::State::refresh_tints() {
     tinted.resize(n);
     tint_colors(colors, marks, looks, tinted);
     splats->set_tinted(tinted);
+}
+
+std::span<const Index> PointRenderer::State::chunks_to_take(bool all, std::span<const PointRange> changed) {
+    const PointRange whole{0, n};
+    chunks_with(all ? std::span(&whole, 1) : changed, changed_chunks);
+    return changed_chunks;
 }
 
 bool PointRenderer::State::matches(const Scene& other) const {
@@ -279,7 +287,8 @@ void PointRenderer::set_points(std::size_t n, double spacing) {
     s.tints_are_stale = true;
     s.widest_width = 0;
     s.splats->set_points(n);
-    s.chunks.clear();
+    s.has_positions = false;
+    s.chunks.assign(chunks_of(n), Chunk{});
     ++s.points_version;
 }
 
@@ -288,16 +297,29 @@ std::size_t PointRenderer::points() const {
 }
 
 void PointRenderer::set_positions(std::span<const float> positions) {
-    require(positions.size() == 3 * state_->n, "three coordinates a point");
-    state_->splats->set_positions(positions);
-    bound_chunks(positions, state_->chunks, state_->workers);
-    ++state_->points_version;
+    state_->has_positions = false;
+    set_positions(positions, {});
+}
+
+void PointRenderer::set_positions(std::span<const float> positions, std::span<const PointRange> changed) {
+    State& s = *state_;
+    require(positions.size() == 3 * s.n, "three coordinates a point");
+    const std::span<const Index> chunks = s.chunks_to_take(!s.has_positions, changed);
+    s.splats->set_positions(positions, chunks);
+    bound_chunks(positions, chunks, s.chunks, s.workers);
+    s.has_positions = true;
+    ++s.points_version;
 }
 
 void PointRenderer::set_normals(std::span<const float> normals) {
+    state_->has_normals = false;
+    set_normals(normals, {});
+}
+
+void PointRenderer::set_normals(std::span<const float> normals, std::span<const PointRange> changed) {
     State& s = *state_;
     require(normals.empty() || normals.size() == 3 * s.n, "three numbers a normal");
-    if (!normals.empty()) s.splats->set_normals(normals);
+    if (!normals.empty()) s.splats->set_normals(normals, s.chunks_to_take(!s.has_normals, changed));
     s.has_normals = !normals.empty();
     ++s.points_version;
 }

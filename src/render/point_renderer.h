@@ -11,6 +11,7 @@
 // them, evenly spread along it, is a subset of the surface, with larger splats, which is what is drawn where
 // the whole cloud would take too long; and ranges of points that lie outside the view are skipped.
 
+#include "base/point_range.h"
 #include "view/camera.h"
 #include "view/marks.h"
 
@@ -89,6 +90,10 @@ public:
     // are not finite are not drawn.
     void set_positions(std::span<const float> positions); // 3n
     void set_normals(std::span<const float> normals);     // 3n, unit; or empty: none
+    // The same of positions and normals that differ from those before in these ranges only, which ascend: no
+    // more is copied.
+    void set_positions(std::span<const float> positions, std::span<const PointRange> changed);
+    void set_normals(std::span<const float> normals, std::span<const PointRange> changed);
     void set_colors(std::span<const std::uint32_t> rgba); // bytes r, g, b, ignored
     // How far apart the points lie around each, in the same unit as `spacing`, which is the least that
     // counts: splats are so much wider. Or empty: all alike.

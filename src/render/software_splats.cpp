@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace knead {
 
@@ -204,13 +205,22 @@ public:
         points_.positions.resize(3 * n);
         points_.tinted.resize(n);
         points_.widths.clear();
+        all_chunks_.resize(chunks_of(n));
+        std::iota(all_chunks_.begin(), all_chunks_.end(), Index{0});
     }
-    void set_positions(std::span<const float> positions) override {
-        scatter<3>(positions, points_.positions);
+    void set_positions(std::span<const float> positions, std::span<const Index> chunks) override {
+        scatter<3>(positions, chunks, points_.positions);
     }
-    void set_normals(std::span<const float> normals) override { scatter<3>(normals, points_.normals); }
-    void set_widths(std::span<const std::uint8_t> widths) override { scatter<1>(widths, points_.widths); }
-    void set_tinted(std::span<const std::uint32_t> tinted) override { scatter<1>(tinted, points_.tinted); }
+    void set_normals(std::span<const float> normals, std::span<const Index> chunks) override {
+        scatter<3>(normals, chunks, points_.normals);
+    }
+    void set_widths(std::span<const std::uint8_t> widths) override {
+        points_.widths.clear();
+        if (!widths.empty()) scatter<1>(widths, all_chunks_, points_.widths);
+    }
+    void set_tinted(std::span<const std::uint32_t> tinted) override {
+        scatter<1>(tinted, all_chunks_, points_.tinted);
+    }
 
     // The result does not depend on the number of threads: every band of rows belongs to one, who draws all
     // splats in their order.
@@ -248,10 +258,11 @@ private:
 
     // `size` numbers a point.
     template<std::size_t size, typename Number>
-    void scatter(std::span<const Number> from, std::vector<Number>& to) {
+    void scatter(std::span<const Number> from, std::span<const Index> chunks, std::vector<Number>& to) {
         to.resize(from.size());
         const std::size_t points = from.size() / size;
-        workers_.for_each((points + points_in_chunk - 1) / points_in_chunk, 16, [&](std::size_t chunk) {
+        workers_.for_each(chunks.size(), 16, [&](std::size_t at) {
+            const std::size_t chunk = chunks[at];
             const Number* const own = from.data() + size * chunk * points_in_chunk;
             Number* next = to.data() + size * chunk * points_in_chunk;
             for (const std::uint16_t place : order_of(chunk, points))
@@ -330,6 +341,7 @@ private:
     Workers& workers_;
     const std::vector<std::uint16_t> order_ = scattered_order(points_in_chunk);
     std::vector<std::uint16_t> last_order_; // of the last chunk, if that is smaller
+    std::vector<Index> all_chunks_;
     Points points_;
     Pixels pixels_;
     SoftwareScreen screen_;

@@ -48,8 +48,9 @@ public:
     virtual ~Splats() = default;
 
     virtual void set_points(std::size_t n) = 0; // the rest comes before draw()
-    virtual void set_positions(std::span<const float> positions) = 0;
-    virtual void set_normals(std::span<const float> normals) = 0; // not empty
+    // All of them, of which these chunks differ from those before; the first time all chunks.
+    virtual void set_positions(std::span<const float> positions, std::span<const Index> chunks) = 0;
+    virtual void set_normals(std::span<const float> normals, std::span<const Index> chunks) = 0; // not empty
     // Splats by distance are 2^(w / widths_in_double) as wide as the view says; empty: all 0.
     virtual void set_widths(std::span<const std::uint8_t> widths) = 0;
     virtual void set_tinted(std::span<const std::uint32_t> tinted) = 0;

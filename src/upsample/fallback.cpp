@@ -25,12 +25,13 @@ public:
         }
     }
 
-    void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override {
+    std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
+                               std::span<float> normals, Held held) override {
         try {
-            current_->run(motions, positions, normals);
+            return current_->run(motions, positions, normals, held);
         } catch (const DeviceFailure& failure) {
             replace(failure);
-            current_->run(motions, positions, normals);
+            return current_->run(motions, positions, normals, Held::nothing); // they may be half written
         }
     }
 

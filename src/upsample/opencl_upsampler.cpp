@@ -1,10 +1,12 @@
 // The upsampling kernel on an OpenCL device: kernels/upsample.cl, built and fed.
 
 #include "base/require.h"
+#include "upsample/changed_blocks.h"
 #include "upsample/opencl_devices.h"
-#include "upsample/packed_motions.h"
+#include "upsample/point_blocks.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace knead {
@@ -14,8 +16,6 @@ extern const char* const upsample_kernel;
 }
 
 namespace {
-
-constexpr std::size_t points_per_group = 256; // one item each, or all by one: POINTS_PER_ITEM of the kernel
 
 // What exists once a device: opened by the first prepare().
 struct OpenedDevice {
@@ -52,7 +52,8 @@ std::string build_log(cl_program program, cl_device_id device) {
 
 // Root and quotient are rounded correctly where the device can do so: then it agrees with C++ to the bit.
 std::string build_options(cl_device_id device, KernelKind kind) {
-    std::string options = kind.wide ? "-D WIDE" : "";
+    std::string options = "-D POINTS_IN_BLOCK=" + std::to_string(points_in_block);
+    if (kind.wide) options += " -D WIDE";
     if (kind.sixteen) options += " -D SIXTEEN";
     cl_device_fp_config floats = 0;
     if (clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof floats, &floats, nullptr) == CL_SUCCESS &&
@@ -165,26 +166,23 @@ public:
             row_count_ = input.rows->size();
             paper_ = input.weights == InfluenceWeights::paper ? 1 : 0;
             make_motions();
+            make_blocks(blocks_of(input.mover.size()));
+            changes_.prepare(input, motions);
             if (!shares_memory_) make_results(input);
             launch_once(input);
         }
         input_ = input;
     }
 
-    void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override {
+    std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
+                               std::span<float> normals, Held held) override {
         require_valid_frame(input_, motion_count_, motions, positions, normals);
-        if (positions.empty()) return;
-        const EventHandle written = write_motions(motions);
-        if (shares_memory_) {
-            wrap(positions, moved_positions_);
-            if (!normals.empty()) wrap(normals, moved_normals_);
-        }
-        const EventHandle moved =
-            launch(input_.mover.size(), input_.mover.size(), moved_positions_.buffer.get(),
-                   moved_normals_.buffer.get(), After(written));
-        const EventHandle seen =
-            read(moved_positions_, positions, normals.empty() ? CL_TRUE : CL_FALSE, After(moved));
-        if (!normals.empty()) read(moved_normals_, normals, CL_TRUE, After(seen));
+        if (positions.empty()) return {};
+        pack_motions(motions, input_.weights, packed_);
+        const std::span<const Index> blocks = changes_.of_frame(packed_, positions, normals, held);
+        if (!blocks.empty()) move(blocks, positions, normals);
+        changes_.note_written();
+        return blocks;
     }
 
 private:
@@ -214,6 +212,17 @@ private:
                         packed_.size() * sizeof(PackedMotion), shares_memory_ ? packed_.data() : nullptr);
     }
 
+    // The list of blocks that a frame moves: all of them to begin with.
+    void make_blocks(std::size_t count) {
+        listed_.resize(count);
+        std::iota(listed_.begin(), listed_.end(), Index{0});
+        listed_count_ = count;
+        ranges_.reserve(most_ranges);
+        const cl_mem_flags how = shares_memory_ ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
+        blocks_ =
+            make_buffer(opened_.context.get(), CL_MEM_READ_ONLY | how, count * sizeof(Index), listed_.data());
+    }
+
     void make_results(const UpsampleInput& input) {
         moved_positions_.buffer =
             make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, input.positions.size_bytes(), nullptr);
@@ -222,28 +231,56 @@ private:
                 make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, input.normals.size_bytes(), nullptr);
     }
 
-    // Compiles what a runtime compiles at the first launch, and makes it start its threads. The grid is that
-    // of a frame, as PoCL compiles small and large grids differently; all but the first items have no point
-    // to move.
+    // Compiles what a runtime compiles at the first launch, and makes it start its threads. The grids are
+    // those of the largest frame and of the smallest, as PoCL compiles small and large grids differently; all
+    // but the first block have no point to move.
     void launch_once(const UpsampleInput& input) {
-        const std::vector<Motion> unmoved(motion_count_);
-        const EventHandle written = write_motions(unmoved);
-        const std::size_t points = std::min(input.mover.size(), points_per_group);
+        pack_motions(std::vector<Motion>(motion_count_), input.weights, packed_);
+        const EventHandle written = write_motions();
+        const std::size_t points = std::min(input.mover.size(), points_in_block);
         const std::size_t bytes = 3 * points * sizeof(float);
         const BufferHandle positions = make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, bytes, nullptr);
         const BufferHandle normals = make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, bytes, nullptr);
-        const EventHandle moved =
-            launch(points, input.mover.size(), positions.get(), normals.get(), After(written));
-        check_opencl(clWaitForEvents(1, After(moved).list()), "the first launch");
+        const EventHandle largest =
+            launch(points, listed_.size(), positions.get(), normals.get(), After(written));
+        const EventHandle smallest = launch(points, 1, positions.get(), normals.get(), After(largest));
+        check_opencl(clWaitForEvents(1, After(smallest).list()), "the first launch");
     }
 
-    EventHandle write_motions(std::span<const Motion> motions) {
-        pack_motions(motions, packed_);
+    // The frame's motions are packed.
+    void move(std::span<const Index> blocks, std::span<float> positions, std::span<float> normals) {
+        if (shares_memory_) {
+            wrap(positions, moved_positions_);
+            if (!normals.empty()) wrap(normals, moved_normals_);
+        }
+        EventHandle done = write_motions();
+        const bool is_listed = std::ranges::equal(blocks, std::span(listed_).first(listed_count_));
+        listed_count_ = 0; // until this frame has succeeded nobody knows what the device has
+        if (!is_listed) done = write_blocks(blocks, After(done));
+        done = launch(input_.mover.size(), blocks.size(), moved_positions_.buffer.get(),
+                      moved_normals_.buffer.get(), After(done));
+        note_ranges(blocks);
+        done = read(moved_positions_, positions, normals.empty(), std::move(done));
+        if (!normals.empty()) read(moved_normals_, normals, true, std::move(done));
+        listed_count_ = blocks.size();
+    }
+
+    EventHandle write_motions() {
         cl_event written = nullptr;
         check_opencl(clEnqueueWriteBuffer(opened_.queue.get(), motions_.get(), CL_FALSE, 0,
                                           packed_.size() * sizeof(PackedMotion), packed_.data(), 0, nullptr,
                                           &written),
                      "writing the motions");
+        return EventHandle(written);
+    }
+
+    EventHandle write_blocks(std::span<const Index> blocks, const After& after) {
+        std::ranges::copy(blocks, listed_.begin());
+        cl_event written = nullptr;
+        check_opencl(clEnqueueWriteBuffer(opened_.queue.get(), blocks_.get(), CL_FALSE, 0,
+                                          blocks.size_bytes(), listed_.data(), after.count(), after.list(),
+                                          &written),
+                     "writing what moves");
         return EventHandle(written);
     }
 
@@ -255,9 +292,10 @@ private:
         result.wrapped = array;
     }
 
-    // Moves the first `points` by a grid made for `grid_points`.
-    EventHandle launch(cl_ulong points, std::size_t grid_points, cl_mem moved_positions, cl_mem moved_normals,
+    // Moves what the first so many blocks of the list have of the first `points`.
+    EventHandle launch(cl_ulong points, std::size_t blocks, cl_mem moved_positions, cl_mem moved_normals,
                        const After& after) {
+        cl_mem const listed = blocks_.get();
         cl_mem const positions = positions_.get();
         cl_mem const mover = mover_.get();
         cl_mem const rows = rows_.get();
@@ -265,13 +303,13 @@ private:
         cl_mem const normals = normals_.get();
         cl_kernel kernel = normals ? built_.move_both.get() : built_.move_positions.get();
         if (normals)
-            set_arguments(kernel, points, positions, mover, row_count_, rows, paper_, motions,
+            set_arguments(kernel, points, listed, positions, mover, row_count_, rows, paper_, motions,
                           moved_positions, normals, moved_normals);
         else
-            set_arguments(kernel, points, positions, mover, row_count_, rows, paper_, motions,
+            set_arguments(kernel, points, listed, positions, mover, row_count_, rows, paper_, motions,
                           moved_positions);
-        const std::size_t items_per_group = built_.kind.sixteen ? 1 : points_per_group;
-        const std::size_t items = (grid_points + points_per_group - 1) / points_per_group * items_per_group;
+        const std::size_t items_per_group = built_.kind.sixteen ? 1 : points_in_block;
+        const std::size_t items = blocks * items_per_group;
         cl_event moved = nullptr;
         check_opencl(clEnqueueNDRangeKernel(opened_.queue.get(), kernel, 1, nullptr, &items, &items_per_group,
                                             after.count(), after.list(), &moved),
@@ -279,14 +317,28 @@ private:
         return EventHandle(moved);
     }
 
-    // Makes the result visible in the caller's array. With CL_TRUE it waits for that.
-    EventHandle read(const Result& result, std::span<float> array, cl_bool waits, const After& after) {
-        cl_event read = nullptr;
-        check_opencl(clEnqueueReadBuffer(opened_.queue.get(), result.buffer.get(), waits, 0,
-                                         array.size_bytes(), array.data(), after.count(), after.list(),
-                                         &read),
-                     "reading the result");
-        return EventHandle(read);
+    // What read() fetches: where memory is shared, all at once, as nothing is copied.
+    void note_ranges(std::span<const Index> blocks) {
+        if (shares_memory_) return ranges_.assign(1, {0, input_.mover.size()});
+        ranges_.clear();
+        for (const Index block : blocks) append_block(block, input_.mover.size(), ranges_);
+    }
+
+    // Makes what moved visible in the caller's array. `waits`: until that is done.
+    EventHandle read(const Result& result, std::span<float> array, bool waits, EventHandle done) {
+        for (const PointRange& range : ranges_) {
+            const std::span<float> part = array.subspan(3 * range.first, 3 * (range.end - range.first));
+            const bool is_last = &range == &ranges_.back();
+            const After after(done);
+            cl_event read = nullptr;
+            check_opencl(clEnqueueReadBuffer(opened_.queue.get(), result.buffer.get(),
+                                             waits && is_last ? CL_TRUE : CL_FALSE,
+                                             3 * range.first * sizeof(float), part.size_bytes(), part.data(),
+                                             after.count(), after.list(), &read),
+                         "reading the result");
+            done.reset(read);
+        }
+        return done;
     }
 
     OpenClDevice device_;
@@ -301,7 +353,11 @@ private:
     std::vector<PackedMotion> packed_; // the motions as the device reads them
     cl_ulong row_count_ = 0;
     cl_uint paper_ = 0; // whether the weights are those of the paper
-    BufferHandle positions_, normals_, mover_, rows_, motions_;
+    ChangedBlocks changes_;
+    std::vector<Index> listed_; // the blocks of the last frame, and room for all of them
+    std::size_t listed_count_ = 0;
+    std::vector<PointRange> ranges_; // of them, that are read
+    BufferHandle positions_, normals_, mover_, rows_, motions_, blocks_;
     Result moved_positions_, moved_normals_;
 };
 

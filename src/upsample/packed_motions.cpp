@@ -40,6 +40,23 @@ std::size_t one_past_largest_sample(const std::vector<SampleRow<Number>>& rows) 
 
 } // namespace
 
+void pack_motions(std::span<const Motion> motions, InfluenceWeights weights, std::span<PackedMotion> packed) {
+    const float half = weights == InfluenceWeights::paper ? 0.0F : 0.5F;
+    for (std::size_t m = 0; m < motions.size(); ++m) {
+        const float* const map = motions[m].map;
+        const float* const place = motions[m].place;
+        const float c[3] = {half * place[0], half * place[1], half * place[2]};
+        auto& column = packed[m].column;
+        for (std::size_t row = 0; row < 3; ++row) {
+            const float* const from = map + 4 * row;
+            for (std::size_t axis = 0; axis < 3; ++axis) column[axis][row] = from[axis];
+            column[3][row] = from[3] + (from[0] * c[0] + from[1] * c[1] + from[2] * c[2]);
+            column[row + 1][3] = c[row];
+        }
+        column[0][3] = 1.0F;
+    }
+}
+
 void require_valid_input(const UpsampleInput& input, std::size_t motions) {
     const std::size_t points = input.mover.size();
     require(input.positions.size() == 3 * points, "something that moves every point");

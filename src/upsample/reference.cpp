@@ -1,7 +1,8 @@
 // The upsampling kernel in plain C++: kernels/upsample.cl, operation by operation.
 
 #include "base/workers.h"
-#include "upsample/packed_motions.h"
+#include "upsample/changed_blocks.h"
+#include "upsample/point_blocks.h"
 
 #include <cfloat>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace knead {
 
 namespace {
 
-constexpr std::size_t points_per_chunk = 8192;
+constexpr std::size_t blocks_per_chunk = 32;
 
 struct Vector {
     float x, y, z;
@@ -50,7 +51,7 @@ Four load_four(const float* from) {
     return four;
 }
 
-// A blend of motions, by columns.
+// A blend of motions, as PackedMotion has them.
 struct Blend {
     Four a0, a1, a2, b;
 };
@@ -68,7 +69,7 @@ void add(float weight, const PackedMotion& motion, Blend& sum) {
     sum.b += weight * one.b;
 }
 
-// Σ_s w_s [A_s | b_s] of a row with empty places, equal distances, or a sample right at the point.
+// Σ_s w_s [A_s | d_s] of a row with empty places, equal distances, or a sample right at the point.
 template<typename Number>
 Blend rarely_blended(const SampleRow<Number>& row, InfluenceWeights weights, const PackedMotion* motions) {
     if (row.sample[0] == row.none) return {Four{0, 0, 0, 1}, Four{}, Four{}, Four{}};
@@ -79,7 +80,8 @@ Blend rarely_blended(const SampleRow<Number>& row, InfluenceWeights weights, con
     return sum;
 }
 
-// Σ_s w_s [A_s | b_s] of one row, and in a0[3] the sum of the weights, by which it is to be divided.
+// Σ_s w_s [A_s | d_s] of one row, in a0[3] the sum of the weights, by which it is to be divided, and Σ_s w_s
+// c_s.
 template<typename Number>
 Blend blended(const SampleRow<Number>& row, InfluenceWeights weights, const PackedMotion* motions) {
     const Number nearest = row.distance.front(), farthest = row.distance.back();
@@ -111,7 +113,9 @@ float same_or(float rest, float value) {
 }
 
 Vector moved(Vector p, const Blend& map) {
-    const Four d = (map.a0 * p.x + map.a1 * p.y + map.a2 * p.z + map.b) * (1.0F / map.a0[3]);
+    const float share = 1.0F / map.a0[3];
+    const Vector q = {p.x - map.a1[3] * share, p.y - map.a2[3] * share, p.z - map.b[3] * share};
+    const Four d = (map.a0 * q.x + map.a1 * q.y + map.a2 * q.z + map.b) * share;
     return {plus(p.x, d[0]), plus(p.y, d[1]), plus(p.z, d[2])};
 }
 
@@ -144,31 +148,41 @@ public:
         require_valid_input(input, motions);
         input_ = input;
         packed_.assign(motions, {});
+        changes_.prepare(input, motions);
     }
 
-    void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override {
+    std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
+                               std::span<float> normals, Held held) override {
         require_valid_frame(input_, packed_.size(), motions, positions, normals);
-        pack_motions(motions, packed_);
+        pack_motions(motions, input_.weights, packed_);
+        const std::span<const Index> blocks = changes_.of_frame(packed_, positions, normals, held);
         if (input_.rows)
-            std::visit([&](const auto& rows) { move_all(rows, positions, normals); }, input_.rows->rows);
+            std::visit([&](const auto& rows) { move(blocks, rows, positions, normals); }, input_.rows->rows);
+        changes_.note_written();
+        return blocks;
     }
 
 private:
     template<typename Row>
-    void move_all(const std::vector<Row>& rows, std::span<float> positions, std::span<float> normals) {
+    void move(std::span<const Index> blocks, const std::vector<Row>& rows, std::span<float> positions,
+              std::span<float> normals) {
         const PackedMotion* motions = packed_.data();
-        workers_.for_each(input_.mover.size(), points_per_chunk, [&](std::size_t i) {
-            const std::size_t mover = input_.mover[i];
-            const Blend blend = mover < rows.size() ? blended(rows[mover], input_.weights, motions)
-                                                    : one_motion(motions[mover - rows.size()]);
-            store(moved(load(&input_.positions[3 * i]), blend), &positions[3 * i]);
-            if (!normals.empty()) store(turned(load(&input_.normals[3 * i]), blend), &normals[3 * i]);
+        workers_.for_each(blocks.size(), blocks_per_chunk, [&](std::size_t at) {
+            const PointRange own = points_of(blocks[at], input_.mover.size());
+            for (std::size_t i = own.first; i < own.end; ++i) {
+                const std::size_t mover = input_.mover[i];
+                const Blend blend = mover < rows.size() ? blended(rows[mover], input_.weights, motions)
+                                                        : one_motion(motions[mover - rows.size()]);
+                store(moved(load(&input_.positions[3 * i]), blend), &positions[3 * i]);
+                if (!normals.empty()) store(turned(load(&input_.normals[3 * i]), blend), &normals[3 * i]);
+            }
         });
     }
 
     Workers& workers_;
     UpsampleInput input_;
     std::vector<PackedMotion> packed_;
+    ChangedBlocks changes_;
 };
 
 } // namespace

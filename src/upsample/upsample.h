@@ -2,13 +2,20 @@
 // From the motions of the samples to every point's new position and normal: Equations (4) to (6) of the
 // paper.
 //
-// In the form that is computed here, a motion displaces a point p by A p + b, and a point is displaced by the
-// weighted mean over its influences (graph/influences.h),
+// A motion displaces a point p by A p + b. For a rotation R about a sample that moved from p_s to x_s, A = R
+// - I and b = x_s - p_s - A p_s. A point goes by the weighted mean over its influences (graph/influences.h),
 //
-//     p' = p + Σ_s w_s (A_s p + b_s),    n' ∥ cof(I + Σ_s w_s A_s) n,    |n'| = |n|.
+//     p' = p + Σ_s w_s (x_s - p_s + ½ (A_s + A̅) (p - p_s)),   A̅ = Σ_s w_s A_s,   with smooth weights,
+//     p' = p + Σ_s w_s (A_s p + b_s)                                              with those of the paper,
 //
-// For a rotation R about a sample that moved from p_s to x_s, A = R - I and b = x_s - p_s - A p_s, which
-// makes it Equation (4); where nothing moves, A and b are zero and p' is p to the last bit. The cofactor
+// which are the same wherever all samples around it move alike. The second is Equation (4). Where a surface
+// is bent, each sample there sends the point along its own tangent, off to the outer side; in the first, the
+// way from sample to point is turned midway between both their turns, as the chord of an arc is. Where
+// nothing moves, A and b are zero and p' is p to the last bit.
+//
+//     n' ∥ cof(I + A̅) n,    |n'| = |n|.
+//
+// The cofactor
 // matrix is the right one for normals of any linear map, scaled handles included; for one rotation it is that
 // rotation, Equation (5). A normal that the map flattens to zero, or whose length squared does not fit a
 // float, stays as it was at rest.
@@ -32,6 +39,8 @@ class Workers;
 // origin.
 struct Motion {
     float map[12] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}; // A00 A01 A02 b0  A10 A11 A12 b1  A20 A21 A22 b2
+    // p_s, for smooth weights. A point that a handle holds goes by that alone, from any place.
+    float place[3] = {0, 0, 0};
 };
 
 // The rest shape and who moves it. Views: the arrays must stay unchanged for as long as an Upsampler holds
@@ -51,6 +60,10 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+// What the caller's spans hold when a frame begins. The points of last_frame are those that the last frame
+// wrote into the same spans, and nobody has touched them since.
+enum class Held { nothing, last_frame };
+
 // Moves all points. One object a device; set-up and per-frame work are separate. One thread at a time.
 class Upsampler {
 public:
@@ -65,12 +78,20 @@ public:
     // rows have become narrow or wide), uploading, and a first small launch.
     virtual void prepare(const UpsampleInput& input, std::size_t motions) = 0;
 
-    // One frame: takes all `motions` that prepare() was told of, writes 3n posed positions, and 3n normals if
+    // One frame: takes all `motions` that prepare() was told of, for 3n posed positions, and 3n normals if
     // the input had them (else `normals` must be empty). The results must not overlap the rest shape. The
     // spans are the caller's; on a CPU device nothing is copied on the way if they are the same
     // as in the last frame. Allocates nothing after the first frame.
-    virtual void run(std::span<const Motion> motions, std::span<float> positions,
-                     std::span<float> normals) = 0;
+    //
+    // With Held::last_frame a frame costs what moves: blocks of points (point_blocks.h) that one motion alone
+    // moves, and that it moved in the last frame as in this one, are not computed, written or fetched from
+    // the device again. Those are handles that are held still, what lies outside a region of interest, and
+    // parts that nothing moves. In the first frame after prepare(), and after one that failed, nothing counts
+    // as held. Every bit is the same either way.
+    //
+    // Returns the blocks that were written, ascending, good until the next call.
+    virtual std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
+                                       std::span<float> normals, Held held) = 0;
 
     // What the user should know about the last calls (a device that failed and was replaced), once; else
     // empty.

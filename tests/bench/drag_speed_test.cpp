@@ -28,8 +28,16 @@ TEST(DragSpeed, FewSamplesAnswerSoonerAndComeToTheSameRest) {
     EXPECT_LT(row.coarse.to_rest.rms, row.coarse.last_step.rms) << "no jump";
     EXPECT_LT(row.apart.largest, 1e-3);
 
+    EXPECT_EQ(speeds.region.points, 400U); // 5 %
+    for (const RegionSpeed::Frames& way : {speeds.region.whole, speeds.region.region}) {
+        EXPECT_GE(way.samples, 2000U);
+        EXPECT_EQ(way.upsample.count, 39U);
+        EXPECT_GT(way.frame.median, way.upsample.median);
+    }
+
     const auto json = nlohmann::json::parse(drag_speeds_json(speeds));
     EXPECT_EQ(json["rows"][0]["coarse"]["last_step"]["rms"].get<double>(), row.coarse.last_step.rms);
+    EXPECT_EQ(json["region"]["with"]["upsample_seconds"].get<double>(), speeds.region.region.upsample.median);
     EXPECT_NE(drag_speeds_text(speeds).find("8,000 points"), std::string::npos);
 }
 

@@ -63,8 +63,8 @@ void count(benchmark::State& state, std::size_t points, std::size_t bytes) {
 void run_frames(benchmark::State& state, Upsampler& upsampler) {
     Scene scene(static_cast<std::size_t>(state.range(0)), state.range(1) != 0);
     upsampler.prepare({scene.positions, scene.normals, scene.mover, &scene.rows}, scene.motions.size());
-    upsampler.run(scene.motions, scene.moved, scene.turned);
-    while (state.KeepRunning()) upsampler.run(scene.motions, scene.moved, scene.turned);
+    upsampler.run(scene.motions, scene.moved, scene.turned, Held::nothing);
+    while (state.KeepRunning()) upsampler.run(scene.motions, scene.moved, scene.turned, Held::nothing);
     count(state, scene.mover.size(), scene.bytes_a_frame());
 }
 

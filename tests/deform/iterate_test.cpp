@@ -114,6 +114,46 @@ TEST(Iterate, IsTheIterationOfTheDesignUnderAScalingHandle) {
     expect_as_reference(test::bar(250), scaled);
 }
 
+TEST(Iterate, IsTheIterationOfTheDesignForSheetsOfHardlyAnyStiffness) {
+    SampleRest rest = test::bar(250);
+    rest.stiffness = 1e-4; // γ is one half
+    expect_as_reference(rest, bend());
+}
+
+// A straight wire of length 1 along z, three samples of it held at each end.
+SampleRest wire(std::size_t links) {
+    SampleRest rest;
+    rest.graph.first.push_back(0);
+    for (std::size_t s = 0; s <= links + 4; ++s) {
+        if (s > 0) rest.graph.neighbor.push_back(static_cast<Index>(s - 1));
+        if (s < links + 4) rest.graph.neighbor.push_back(static_cast<Index>(s + 1));
+        rest.graph.first.push_back(static_cast<Index>(rest.graph.neighbor.size()));
+        rest.position.emplace_back(0, 0, (static_cast<double>(s) - 2) / static_cast<double>(links));
+        rest.handle.push_back(s <= 2 ? 0 : s >= links + 2 ? 1 : no_index);
+    }
+    rest.weight.assign(rest.graph.neighbor.size(), 1);
+    rest.stiffness = 0.002;
+    return rest;
+}
+
+TEST(Iterate, BendsAWireAlikeHoweverManySamplesItHas) {
+    // Its end is shifted to the side: it gets longer, and how sharply it bends at both ends is its stiffness.
+    const std::vector<HandleMotion> handles{
+        {}, test::motion_about(Vec3d(0, 1, 0), 0, Vec3d::Zero(), Vec3d(0.5, 0, 0))};
+    const auto settled = [&](std::size_t links) {
+        SampleSystem system;
+        EXPECT_TRUE(test::built(wire(links), system).solved);
+        const SampleState state = deformed(system, handles, 20'000);
+        std::vector<Vec3d> eighths;
+        for (std::size_t s = 2; s <= links + 2; s += links / 8) eighths.push_back(posed(system, state, s));
+        return eighths;
+    };
+    const std::vector<Vec3d> few = settled(8), many = settled(64);
+    double largest = 0;
+    for (std::size_t s = 0; s < few.size(); ++s) largest = std::max(largest, (few[s] - many[s]).norm());
+    EXPECT_LT(largest, 0.007); // the polygon itself; 0.011 where links resist being bent
+}
+
 TEST(Iterate, ReturnsTheLongestWay) {
     SampleSystem system;
     ASSERT_TRUE(test::built(test::bar(800), system).solved);

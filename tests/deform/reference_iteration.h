@@ -1,6 +1,6 @@
 #pragma once
-// One iteration as DESIGN 2 writes it, with dense matrices, the singular value decomposition and positions
-// instead of displacements: the yardstick for iterate().
+// One iteration as sample_system.h writes it for ν = 0, with dense matrices, the singular value decomposition
+// and positions instead of displacements: the yardstick for iterate().
 
 #include "deform/sample_rest.h"
 
@@ -84,10 +84,14 @@ private:
         for_links(i, [&](Index j, double weight, const Vec3d& e) {
             star.weights += weight;
             star.lengths += weight * e.squaredNorm();
-            star.spread += weight * (position[j] - position[i]) * e.transpose();
+            const Mat3d midway = linear_[i] + 0.5 * gamma() * (linear_[j] - linear_[i]);
+            const Vec3d expected = midway * e;
+            star.spread += weight * (rotation[i] * e + position[j] - position[i] - expected) * e.transpose();
         });
         return star;
     }
+
+    double gamma() const { return std::pow(rest_.stiffness, 2) / (std::pow(rest_.stiffness, 2) + 1e-8); }
 
     double mean_square_length() const {
         double sum = 0;

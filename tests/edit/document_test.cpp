@@ -2,6 +2,8 @@
 
 #include "edit/editing.h"
 
+#include <cstring>
+
 namespace knead {
 namespace {
 

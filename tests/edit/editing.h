@@ -7,19 +7,21 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <numbers>
+#include <span>
 
 namespace knead::test {
 
 class Desk {
 public:
     explicit Desk(PointCloud cloud, const Settings& settings = {}, unsigned threads = 2,
-                  const std::string& device = "reference", Document::Mode mode = Document::Mode::real)
-        : workers_(threads), upsampler_(make_upsampler(device, workers_, threads).upsampler),
+                  const std::string& device = "reference", Document::Mode mode = Document::Mode::real,
+                  const UpsamplerMaker& maker = make_upsampler)
+        : workers_(threads), upsampler_(maker(device, workers_, threads).upsampler),
           document_(std::move(cloud), settings, workers_, *upsampler_, mode) {}
 
     // Carries out session lines, without their header; line 1 is the first of them.
@@ -76,7 +78,7 @@ inline bool says(const std::string& words, const std::string& part) {
 #define EXPECT_SAYS(words, part) EXPECT_PRED2(::knead::test::says, words, part)
 
 inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+    return std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
 }
 
 inline PointCloud made(Shape shape, std::size_t points) {
@@ -100,6 +102,13 @@ inline const std::string top =
     R"({"op":"handle","name":"top","role":"moving","region":{"halfspace":{"point":[0,0,2],"normal":[0,0,1]}}})"
     "\n";
 inline const std::string ends = foot + top;
+
+// A handle of all that lies higher.
+inline std::string above(const std::string& name, double z, const std::string& role = "roi") {
+    return R"({"op":"handle","name":")" + name + R"(","role":")" + role +
+           R"(","region":{"halfspace":{"point":[0,0,)" + std::to_string(z) + R"(],"normal":[0,0,1]}}})" +
+           "\n";
+}
 
 // A drag in one frame, which is given in JSON, about the middle of the top.
 inline std::string drag(const std::string& frame, const std::string& handle = "top") {

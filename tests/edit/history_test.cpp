@@ -23,6 +23,13 @@ TEST(History, ADragAfterAnUndoneOneStartsFromTheSameWarmState) {
         same_bits(shape_after(ends + bend + settle(9) + undo + twist), shape_after(ends + bend + twist)));
 }
 
+// What an elastic material was stretched to in an undone act must not be where the next one starts.
+TEST(History, ASettlingAfterAnUndoneOneHasTheSameBitsInAnElasticMaterial) {
+    const std::string cork = set(R"("poisson":0.3)") + ends + bend;
+    EXPECT_TRUE(same_bits(shape_after(cork + settle(9) + undo + settle(2)), shape_after(cork + settle(2))));
+    EXPECT_TRUE(same_bits(shape_after(cork + twist + undo + settle(2)), shape_after(cork + settle(2))));
+}
+
 TEST(History, UndoBringsBackEveryShapeAndRedoRepeatsIt) {
     const std::string acts[] = {ends,
                                 bend,

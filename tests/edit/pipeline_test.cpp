@@ -2,6 +2,7 @@
 
 #include "edit/editing.h"
 
+#include <cstring>
 #include <set>
 
 namespace knead {

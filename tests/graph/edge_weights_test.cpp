@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
+#include <numeric>
 
 namespace knead {
 namespace {
@@ -112,6 +113,19 @@ TEST(IsotropicWeights, LetPullsCancelOnASurfaceWithoutBorder) {
     const std::vector<double> uniform(cloud.graph.neighbor.size(), 1);
     // Not to nothing: a vertex has about seven links, and each weight serves both its ends.
     EXPECT_LT(unevenness(cloud, weights_for(cloud.graph, places(cloud))), 0.6 * unevenness(cloud, uniform));
+}
+
+TEST(IsotropicWeights, AddUpAlikeForAnyNumberOfLinksAndToHalfOnAStraightBorder) {
+    const Lattice lattice(1);
+    const std::vector<double> weight = weights_for(lattice.graph, lattice.position);
+    const auto sum_of = [&](Index v) {
+        const auto first = weight.begin() + lattice.graph.first[v];
+        return std::accumulate(first, weight.begin() + lattice.graph.first[v + 1], 0.0);
+    };
+    const Index middle = Lattice::edge / 2;
+    const double inside = sum_of(middle * Lattice::edge + middle);
+    EXPECT_NEAR(inside, 6, 0.1); // of eight
+    EXPECT_NEAR(sum_of(middle) / inside, 0.5, 0.1);
 }
 
 TEST(IsotropicWeights, DoNotDependOnTheUnit) {

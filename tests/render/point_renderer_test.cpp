@@ -397,6 +397,42 @@ TEST_P(Drawing, both_ways_draw_the_same) {
     }
 }
 
+TEST_P(Drawing, only_ranges_of_points_may_be_handed_over_again) {
+    constexpr std::size_t n = 5 * points_in_chunk + 77;
+    const std::vector<std::vector<PointRange>> changes = {
+        {{0, 1}}, {{n - 1, n}}, {{1023, 1025}, {1500, 1501}, {4000, n}}, {}, {{2048, 3072}, {3072, 3073}},
+        {{0, n}}};
+    std::vector<float> positions = ball(n), normals = positions;
+    const PointLook look; // with the normals
+    put(positions, many_colors(n));
+    renderer->set_normals(normals);
+    PointRenderer anew(GetParam());
+    const auto picture = [&](PointRenderer& one) {
+        EXPECT_TRUE(one.draw(some_camera(false), screen, look, n, target(screen)).complete);
+        return read(screen);
+    };
+    for (const std::vector<PointRange>& changed : changes) {
+        for (const PointRange& range : changed)
+            for (std::size_t i = 3 * range.first; i < 3 * range.end; ++i) {
+                positions[i] *= -1.7f; // beyond the chunk's box, too
+                normals[i] = -normals[i];
+            }
+        renderer->set_positions(positions, changed);
+        renderer->set_normals(normals, changed);
+        anew.set_points(n, 0.1);
+        anew.set_positions(positions);
+        anew.set_normals(normals);
+        anew.set_colors(many_colors(n));
+        ASSERT_EQ(picture(*renderer), picture(anew));
+    }
+    // The first time everything is handed over, whatever changed.
+    renderer->set_points(n, 0.1);
+    renderer->set_positions(positions, changes[0]);
+    renderer->set_normals(normals, changes[0]);
+    renderer->set_colors(many_colors(n));
+    EXPECT_EQ(picture(*renderer), picture(anew));
+}
+
 INSTANTIATE_TEST_SUITE_P(Splats, Drawing, both_ways, name_of_way);
 
 } // namespace

@@ -36,7 +36,7 @@ TEST(FallbackUpsampler, GivesTheRightResultInTheCallThatFails) {
         EXPECT_EQ(upsampler->device(), "a flaky device");
         EXPECT_EQ(upsampled(*upsampler, scene), expected);
         Posed second = {std::vector<float>(15'000), std::vector<float>(15'000)};
-        upsampler->run(scene.motions, second.positions, second.normals);
+        upsampler->run(scene.motions, second.positions, second.normals, Held::nothing);
         EXPECT_EQ(second, expected);
         EXPECT_EQ(upsampler->device(), "reference");
         EXPECT_NE(upsampler->take_warning().find("a flaky device"), std::string::npos);

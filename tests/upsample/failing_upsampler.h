@@ -21,13 +21,14 @@ public:
         works_->prepare(input, motions);
     }
 
-    void run(std::span<const Motion> motions, std::span<float> positions, std::span<float> normals) override {
+    std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
+                               std::span<float> normals, Held held) override {
         if (fails()) {
             std::ranges::fill(positions, 7.0F); // half-written results
             std::ranges::fill(normals, 7.0F);
             throw DeviceFailure("the device was lost");
         }
-        works_->run(motions, positions, normals);
+        return works_->run(motions, positions, normals, held);
     }
 
 private:

@@ -56,11 +56,14 @@ std::vector<double> exact_weights(const WideRow& row, InfluenceWeights kind) {
     return weight;
 }
 
+Eigen::Matrix<double, 3, 4> matrix_of(const Motion& motion) {
+    return Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(motion.map).cast<double>();
+}
+
 Eigen::Matrix<double, 3, 4> exact_blend(const Scene& scene, std::size_t point) {
     Eigen::Matrix<double, 3, 4> sum = Eigen::Matrix<double, 3, 4>::Zero();
     const auto add = [&](double weight, std::size_t motion) {
-        const Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>> map(scene.motions.at(motion).map);
-        sum += weight * map.cast<double>();
+        sum += weight * matrix_of(scene.motions.at(motion));
     };
     const std::size_t mover = scene.mover[point];
     if (mover >= scene.rows.size()) {
@@ -92,6 +95,8 @@ Scene random_scene(std::size_t points, std::size_t motions, unsigned seed, bool 
         const Vec3d axis = (in_cube(random) + Vec3d(0, 1.5, 0)).normalized();
         const Mat3d turn = Eigen::AngleAxisd(between(random, 0, 3.1), axis).toRotationMatrix();
         scene.motions.push_back(motion_of(turn, in_cube(random)));
+        const Vec3d place = in_cube(random);
+        for (int i = 0; i < 3; ++i) scene.motions.back().place[i] = static_cast<float>(place[i]);
     }
     return scene;
 }
@@ -109,14 +114,27 @@ Posed upsampled(Upsampler& upsampler, const Scene& scene) {
     posed.positions.assign(scene.positions.size(), -1);
     posed.normals.assign(scene.normals.size(), -1);
     upsampler.prepare(scene.input(), scene.motions.size());
-    upsampler.run(scene.motions, posed.positions, posed.normals);
+    upsampler.run(scene.motions, posed.positions, posed.normals, Held::nothing);
     return posed;
 }
 
 Vec3d exact_position(const Scene& scene, std::size_t point) {
     const Eigen::Matrix<double, 3, 4> map = exact_blend(scene, point);
     const Vec3d p = at(scene.positions, point);
-    return p + map.leftCols<3>() * p + map.col(3);
+    const std::size_t mover = scene.mover[point];
+    if (scene.weights == InfluenceWeights::paper || mover >= scene.rows.size())
+        return p + map.leftCols<3>() * p + map.col(3);
+    const WideRow row = scene.rows[mover];
+    const std::vector<double> weights = exact_weights(row, scene.weights);
+    Vec3d displacement = Vec3d::Zero();
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+        const Motion& motion = scene.motions[row.sample.at(k)];
+        const auto own = matrix_of(motion);
+        const Vec3d place = Eigen::Map<const Vec3f>(motion.place).cast<double>();
+        const Vec3d moved = own.leftCols<3>() * place + own.col(3); // x_s - p_s
+        displacement += weights[k] * (moved + 0.5 * (own + map).leftCols<3>() * (p - place));
+    }
+    return p + displacement;
 }
 
 Vec3d exact_turned(const Scene& scene, std::size_t point) {

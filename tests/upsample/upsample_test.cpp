@@ -2,14 +2,9 @@
 // made to copy as a GPU does.
 
 #include "base/require.h"
-#include "base/workers.h"
-#include "upsample/devices.h"
-#include "upsample/scene.h"
-
-#include <gtest/gtest.h>
+#include "upsample/every_upsampler.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace knead {
 namespace {
@@ -26,51 +21,7 @@ constexpr double position_tolerance = 40 * 4 * epsilon;
 constexpr double least_length = 0.1;
 constexpr double normal_tolerance = 2 * position_tolerance / least_length;
 
-enum class Path { reference, device, device_with_own_memory };
-
-class EveryUpsampler : public ::testing::TestWithParam<Path> {
-protected:
-    // One of each device there is; empty where the test is to be skipped.
-    std::vector<std::unique_ptr<Upsampler>> all(unsigned threads = 0) {
-        std::vector<std::unique_ptr<Upsampler>> made;
-        if (GetParam() == Path::reference) {
-            workers_.push_back(std::make_unique<Workers>(threads));
-            made.push_back(make_reference_upsampler(*workers_.back()));
-            return made;
-        }
-        const bool own = GetParam() == Path::device_with_own_memory;
-        const std::size_t devices = list_devices().size();
-        for (std::size_t i = 0; i < devices; ++i)
-            made.push_back(make_opencl_upsampler(
-                i, threads, own ? DeviceMemory::own : DeviceMemory::as_the_device_has_it));
-        return made;
-    }
-
-    void SetUp() override {
-        if (GetParam() != Path::reference && list_devices().empty())
-            GTEST_SKIP() << "there is no OpenCL device";
-    }
-
-private:
-    std::vector<std::unique_ptr<Workers>> workers_; // outlive what all() made
-};
-
-INSTANTIATE_TEST_SUITE_P(, EveryUpsampler,
-                         ::testing::Values(Path::reference, Path::device, Path::device_with_own_memory),
-                         [](const auto& tested) {
-                             return tested.param == Path::reference ? "Reference"
-                                    : tested.param == Path::device  ? "Device"
-                                                                    : "DeviceWithOwnMemory";
-                         });
-
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
-}
-
-bool same_bits(const Posed& a, const Posed& b) {
-    return same_bits(a.positions, b.positions) && same_bits(a.normals, b.normals);
-}
+INSTANTIATE_TEST_SUITE_P(, EveryUpsampler, all_paths, name_of_path);
 
 TEST_P(EveryUpsampler, LeavesEveryBitWhereNothingMoves) {
     Scene scene = random_scene(1001, 40, 1);
@@ -107,7 +58,8 @@ TEST_P(EveryUpsampler, MovesEverythingRigidlyByOneMotion) {
     Scene scene = random_scene(3001, 30, 3);
     const Mat3d turn = Eigen::AngleAxisd(1.9, Vec3d(1, 2, -1).normalized()).toRotationMatrix();
     const Vec3d shift(0.5, -0.25, 0.75);
-    scene.motions.assign(30, motion_of(turn, shift));
+    for (Motion& motion : scene.motions) // each of another place, which must not matter
+        std::ranges::copy(motion_of(turn, shift).map, motion.map);
     for (const auto& upsampler : all()) {
         const Posed posed = upsampled(*upsampler, scene);
         for (std::size_t i = 0; i < scene.mover.size(); ++i) {
@@ -185,7 +137,7 @@ TEST_P(EveryUpsampler, GivesTheSameBytesAgainAndOnAnyNumberOfThreads) {
             Posed posed = upsampled(*upsamplers[i], scene);
             EXPECT_TRUE(same_bits(posed, expected[i])) << threads << " threads";
             std::fill(posed.positions.begin(), posed.positions.end(), 0.0F);
-            upsamplers[i]->run(scene.motions, posed.positions, posed.normals);
+            upsamplers[i]->run(scene.motions, posed.positions, posed.normals, Held::nothing);
             EXPECT_TRUE(same_bits(posed, expected[i])) << threads << " threads, again";
         }
     }
@@ -280,11 +232,12 @@ TEST_P(EveryUpsampler, TakesNewMotionsAndOtherArraysEveryFrame) {
         const Posed first = upsampled(*upsampler, scene);
         Posed a = first;
         Posed b = first;
-        upsampler->run(other, a.positions, a.normals);
-        upsampler->run(scene.motions, b.positions, b.normals);
+        upsampler->run(other, a.positions, a.normals, Held::nothing);
+        upsampler->run(scene.motions, b.positions, b.normals, Held::nothing);
         EXPECT_FALSE(same_bits(a, first));
         EXPECT_TRUE(same_bits(b, first));
-        upsampler->run(scene.motions, a.positions, a.normals); // into the array of two frames ago
+        upsampler->run(scene.motions, a.positions, a.normals,
+                       Held::nothing); // into the array of two frames ago
         EXPECT_TRUE(same_bits(a, first));
     }
 }
@@ -301,8 +254,8 @@ TEST_P(EveryUpsampler, RefusesRowsAndSamplesThatDoNotExist) {
         std::get<std::vector<NarrowRow>>(scene.rows.rows)[1].sample[0] = 4;
         upsampler->prepare(scene.input(), 5);
         std::vector<float> places(30);
-        EXPECT_THROW(upsampler->run(scene.motions, places, {}), BrokenInvariant);
-        EXPECT_THROW(upsampler->run({}, places, places), BrokenInvariant);
+        EXPECT_THROW(upsampler->run(scene.motions, places, {}, Held::nothing), BrokenInvariant);
+        EXPECT_THROW(upsampler->run({}, places, places, Held::nothing), BrokenInvariant);
     }
 }
 

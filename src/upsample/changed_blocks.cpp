@@ -1,0 +1,73 @@
+#include "upsample/changed_blocks.h"
+
+#include "upsample/point_blocks.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace knead {
+
+namespace {
+
+bool same_bits(const PackedMotion& a, const PackedMotion& b) {
+    using Bits = std::array<std::uint32_t, sizeof(PackedMotion) / sizeof(std::uint32_t)>;
+    return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
+
+// The motion that alone moves all these points; no_index where there is none.
+Index lone_motion(std::span<const Index> movers, std::size_t rows) {
+    const Index first = movers.front();
+    if (first < rows || std::ranges::any_of(movers, [&](Index mover) { return mover != first; }))
+        return no_index;
+    return static_cast<Index>(first - rows);
+}
+
+} // namespace
+
+void ChangedBlocks::prepare(const UpsampleInput& input, std::size_t motions) {
+    const std::size_t points = input.mover.size();
+    lone_mover_.assign(blocks_of(points), no_index);
+    lone_motions_.clear();
+    std::vector<Index> place(motions, no_index); // of a motion in lone_motions_
+    for (std::size_t block = 0; block < lone_mover_.size(); ++block) {
+        const PointRange own = points_of(block, points);
+        const Index motion =
+            lone_motion(input.mover.subspan(own.first, own.end - own.first), input.rows->size());
+        if (motion == no_index) continue;
+        if (place[motion] == no_index) {
+            place[motion] = static_cast<Index>(lone_motions_.size());
+            lone_motions_.push_back(motion);
+        }
+        lone_mover_[block] = place[motion];
+    }
+    before_.assign(lone_motions_.size(), {});
+    is_other_.assign(lone_motions_.size(), 1);
+    changed_.clear();
+    changed_.reserve(lone_mover_.size());
+    last_is_whole_ = false;
+}
+
+std::span<const Index> ChangedBlocks::of_frame(std::span<const PackedMotion> motions,
+                                               std::span<const float> positions,
+                                               std::span<const float> normals, Held held) {
+    const bool goes_on = last_is_whole_ && held == Held::last_frame && positions.data() == positions_ &&
+                         normals.data() == normals_;
+    last_is_whole_ = false;
+    positions_ = positions.data();
+    normals_ = normals.data();
+    for (std::size_t m = 0; m < lone_motions_.size(); ++m) {
+        const PackedMotion& now = motions[lone_motions_[m]];
+        is_other_[m] = same_bits(before_[m], now) ? 0 : 1;
+        before_[m] = now;
+    }
+    changed_.clear();
+    for (std::size_t block = 0; block < lone_mover_.size(); ++block) {
+        const Index lone = lone_mover_[block];
+        if (!goes_on || lone == no_index || is_other_[lone] != 0)
+            changed_.push_back(static_cast<Index>(block));
+    }
+    return changed_;
+}
+
+} // namespace knead

@@ -1,8 +1,8 @@
 // Moves every point by the motions of the samples around it: src/upsample/upsample.h holds the formulas, and
 // src/upsample/reference.cpp the same arithmetic in C++, operation by operation, so that both give the same bits.
 //
-// Built with -D POINTS_IN_BLOCK=256; with -D WIDE for wide rows of influences, without for narrow ones; with
-// -D SIXTEEN for a CPU, without for a GPU. Motions are packed by columns, 16 floats each, [A column 0 | A column 1 |
+// Built with -D POINTS_IN_BLOCK=256 and -D HANDLE_REACH=0.2f (src/graph/influences.h); with -D WIDE for wide rows of
+// influences, without for narrow ones; with -D SIXTEEN for a CPU, without for a GPU. Motions are packed by columns, 16 floats each, [A column 0 | A column 1 |
 // A column 2 | d] with a fourth row of 1 c0 c1 c2 (src/upsample/packed_motions.h): blending one is then a single
 // vector operation, and the weights are summed on the way.
 // A GPU's item moves one point. A CPU's takes sixteen at once: it blends the motions of each, and transposes
@@ -22,55 +22,89 @@ typedef ushort8 number8;
 #define NONE USHRT_MAX
 #endif
 
+// What the rows are read by.
+typedef struct {
+    uint first_handle; // numbers from here on are handles
+    uint paper;        // whether the weights are the paper's
+} reading;
+
 // weights_of() in src/graph/influences.h, of one place that is not empty.
-inline float weight_of(number distance, number nearest, number farthest, uint paper) {
+inline float weight_of(number sample, number distance, number nearest, number farthest, reading how) {
     if (nearest == farthest) return 1.0f;
-    if (paper) return 1.0f / ((float)distance * (float)distance);
+    if (how.paper) return 1.0f / ((float)distance * (float)distance);
     const float nearness = (float)(number)(farthest - distance);
-    return nearness * nearness;
+    const float weight = nearness * nearness;
+    return sample >= how.first_handle ? weight * (HANDLE_REACH * (float)farthest / (float)distance) : weight;
 }
 
-// Σ_s w_s [A_s | d_s] of a row with empty places, equal distances, or a sample right at the point. Kept out
-// of the way of all others.
-__attribute__((noinline)) float16 rarely_blended(__global const number* row, uint paper,
-                                                 __global const float* motions) {
+// What the handles of a row add to a blend for having no place: theirs is the point p itself.
+inline float16 places_of_handles(__global const number* row, reading how, const float* weight, int count,
+                                 __global const float* motions, float3 p) {
+    const float3 half_way = 0.5f * p;
+    float16 sum = (float16)(0.0f);
+    for (int k = 0; k < count; ++k) {
+        if (row[k] < how.first_handle) continue;
+        const float16 handle = vload16(row[k], motions);
+        float4 turned = handle.s0123 * half_way.x + handle.s4567 * half_way.y + handle.s89ab * half_way.z;
+        turned.w = half_way.z;
+        sum.s7 += weight[k] * half_way.x;
+        sum.sb += weight[k] * half_way.y;
+        sum.scdef += weight[k] * turned;
+    }
+    return sum;
+}
+
+// blended() for a row with empty places, equal distances, or a sample right at the point. Kept out of the way
+// of all others.
+__attribute__((noinline)) float16 rarely_blended(__global const number* row, reading how,
+                                                 __global const float* motions, float3 p) {
     if (row[0] == NONE) return (float16)(0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
                                          0.0f, 0.0f, 0.0f, 0.0f);
     if (row[8] == 0) return vload16(row[0], motions);
     int count = 1;
     while (count < 8 && row[count] != NONE) ++count;
+    float weight[8];
     float16 sum = (float16)(0.0f);
-    for (int k = 0; k < count; ++k)
-        sum += weight_of(row[8 + k], row[8], row[7 + count], paper) * vload16(row[k], motions);
-    return sum;
+    for (int k = 0; k < count; ++k) {
+        weight[k] = weight_of(row[k], row[8 + k], row[8], row[7 + count], how);
+        sum += weight[k] * vload16(row[k], motions);
+    }
+    return how.paper ? sum : sum + places_of_handles(row, how, weight, count, motions, p);
 }
 
-// Σ_s w_s [A_s | d_s] of one row, in .s3 the sum of the weights, by which it is to be divided, and Σ_s w_s c_s.
-__attribute__((always_inline)) inline float16 blended(__global const number* row, uint paper,
-                                                      __global const float* motions) {
+// Σ_s w_s [A_s | d_s] of one row at the point p, in .s3 the sum of the weights, by which it is to be divided, and
+// Σ_s w_s c_s.
+__attribute__((always_inline)) inline float16 blended(__global const number* row, reading how,
+                                                      __global const float* motions, float3 p) {
     const number nearest = row[8], farthest = row[15];
-    if (row[7] == NONE || nearest == 0 || nearest == farthest) return rarely_blended(row, paper, motions);
+    if (row[7] == NONE || nearest == 0 || nearest == farthest) return rarely_blended(row, how, motions, p);
     const number8 distance = vload8(1, row);
     float weight[8]; // in memory: from there they are multiplied with all of a motion at once
-    if (paper) {
+    bool near_handle = false;
+    if (how.paper) {
         const float8 d = convert_float8(distance);
         vstore8(1.0f / (d * d), 0, weight);
     } else {
         const float8 nearness = convert_float8((number8)(farthest) - distance);
         vstore8(nearness * nearness, 0, weight);
+        near_handle = any(vload8(0, row) >= (number8)(min(how.first_handle, (uint)NONE)));
+        if (near_handle)
+            for (int k = 0; k < 7; ++k) weight[k] = weight_of(row[k], row[8 + k], nearest, farthest, how);
     }
     float16 sum = weight[0] * vload16(row[0], motions);
 #pragma unroll
     for (int k = 1; k < 7; ++k) sum += weight[k] * vload16(row[k], motions);
-    if (paper) sum += weight[7] * vload16(row[7], motions); // else it is the farthest, and weighs nothing
+    if (how.paper) sum += weight[7] * vload16(row[7], motions); // else it is the farthest, and weighs nothing
+    if (near_handle) sum += places_of_handles(row, how, weight, 7, motions, p);
     return sum;
 }
 
 // What moves a point: one of the rows, or from their number on one motion alone.
 __attribute__((always_inline)) inline float16 map_of(uint mover, ulong rows, __global const number* row,
-                                                     uint paper, __global const float* motions) {
+                                                     reading how, __global const float* motions,
+                                                     __global const float* p) {
     if (mover >= rows) return vload16(mover - rows, motions);
-    return blended(row + 16 * (size_t)mover, paper, motions);
+    return blended(row + 16 * (size_t)mover, how, motions, vload3(0, p));
 }
 
 #ifdef SIXTEEN
@@ -152,9 +186,13 @@ __attribute__((always_inline)) inline void store(vector v, __global float* to, s
 
 // The blends of `count` points: number c of all of them in blend[c].
 __attribute__((always_inline)) inline void load_blends(__global const uint* mover, size_t count, ulong rows,
-                                                       __global const number* row, uint paper,
-                                                       __global const float* motions, real* blend) {
-    for (size_t i = 0; i < 16; ++i) blend[i] = map_of(mover[min(i, count - 1)], rows, row, paper, motions);
+                                                       __global const number* row, reading how,
+                                                       __global const float* motions,
+                                                       __global const float* positions, real* blend) {
+    for (size_t i = 0; i < 16; ++i) {
+        const size_t point = min(i, count - 1);
+        blend[i] = map_of(mover[point], rows, row, how, motions, positions + 3 * point);
+    }
     transpose(blend);
 }
 #else
@@ -168,8 +206,9 @@ inline void store(vector v, __global float* to, size_t count) {
 }
 
 inline void load_blends(__global const uint* mover, size_t count, ulong rows, __global const number* row,
-                        uint paper, __global const float* motions, real* blend) {
-    vstore16(map_of(*mover, rows, row, paper, motions), 0, blend);
+                        reading how, __global const float* motions, __global const float* positions,
+                        real* blend) {
+    vstore16(map_of(*mover, rows, row, how, motions, positions), 0, blend);
 }
 #endif
 
@@ -223,7 +262,7 @@ inline vector turned(vector n, const real* blend) {
 // Moves this group's block of those listed. `normals` is null, or `moved_normals` has room for them.
 __attribute__((always_inline)) inline void
 upsample(ulong points, __global const uint* block, __global const float* positions, __global const uint* mover,
-         ulong rows, __global const number* row, uint paper, __global const float* motions,
+         ulong rows, __global const number* row, reading how, __global const float* motions,
          __global float* moved_positions, __global const float* normals, __global float* moved_normals) {
     const size_t begin =
         POINTS_IN_BLOCK * (size_t)block[get_group_id(0)] + POINTS_PER_ITEM * get_local_id(0);
@@ -231,7 +270,7 @@ upsample(ulong points, __global const uint* block, __global const float* positio
     for (size_t first = begin; first < end; first += POINTS_AT_ONCE) {
         const size_t count = min((size_t)POINTS_AT_ONCE, end - first);
         real blend[16];
-        load_blends(mover + first, count, rows, row, paper, motions, blend);
+        load_blends(mover + first, count, rows, row, how, motions, positions + 3 * first, blend);
         store(moved(load(positions + 3 * first, count), blend), moved_positions + 3 * first, count);
         if (normals) store(turned(load(normals + 3 * first, count), blend), moved_normals + 3 * first, count);
     }
@@ -239,16 +278,18 @@ upsample(ulong points, __global const uint* block, __global const float* positio
 
 __kernel void upsample_positions(const ulong points, __global const uint* block,
                                  __global const float* positions, __global const uint* mover,
-                                 const ulong rows, __global const number* row, const uint paper,
-                                 __global const float* motions, __global float* moved_positions) {
-    upsample(points, block, positions, mover, rows, row, paper, motions, moved_positions, 0, 0);
+                                 const ulong rows, __global const number* row, const uint first_handle,
+                                 const uint paper, __global const float* motions, __global float* moved_positions) {
+    const reading how = {first_handle, paper};
+    upsample(points, block, positions, mover, rows, row, how, motions, moved_positions, 0, 0);
 }
 
 __kernel void upsample_positions_and_normals(const ulong points, __global const uint* block,
                                              __global const float* positions, __global const uint* mover,
-                                             const ulong rows, __global const number* row, const uint paper,
-                                             __global const float* motions, __global float* moved_positions,
+                                             const ulong rows, __global const number* row,
+                                             const uint first_handle, const uint paper, __global const float* motions, __global float* moved_positions,
                                              __global const float* normals, __global float* moved_normals) {
-    upsample(points, block, positions, mover, rows, row, paper, motions, moved_positions, normals,
+    const reading how = {first_handle, paper};
+    upsample(points, block, positions, mover, rows, row, how, motions, moved_positions, normals,
              moved_normals);
 }

@@ -132,7 +132,8 @@ public:
     // Counts how often samples() and sample_graph() changed together; 0: never yet.
     std::uint64_t samples_version() const { return samples_version_; }
     const HandleLabels& labels() const { return labels_; }
-    // Which samples move a vertex that no handle holds.
+    // Which motions move a vertex that no handle holds: those of samples, and from samples().size() on those
+    // of handles.
     Influence influence(Index vertex) const {
         return influence_of(nearest_, input_.settings.weights, vertex);
     }
@@ -157,6 +158,8 @@ private:
     void prepare_bridges(Progress& progress);
     void prepare_samples(Progress& progress);
     void prepare_handles(Progress& progress);
+    void link_samples(std::span<const Index> added, Progress& progress);
+    std::vector<FloodStart> handle_starts(std::span<const BorderVertex> borders) const;
     void find_pulled();
     void choose_coarse_samples();
     void label_vertices();

@@ -39,21 +39,46 @@ void Pipeline::prepare_handles(Progress& progress) {
     }
     const VertexShape shape{order_.code, vertex_positions(), *graph_, *components_};
     const auto budget = static_cast<std::size_t>(handle_share * static_cast<double>(base_samples_));
-    const std::vector<Index> added =
-        shuffled(handle_samples(shape, labels_.vertex, samples_, budget, workers_));
+    HandleSamples needed = handle_samples(shape, labels_.vertex, samples_, budget, workers_);
+    const std::vector<Index> added = shuffled(std::move(needed.added));
     samples_.insert(samples_.end(), added.begin(), added.end());
     seconds_.sampling += clock.lap();
 
     stale_.samples = true; // a flood that is cancelled leaves lists that nothing can revert
-    handle_flood_ = add_samples(nearest_, *graph_, link_lengths_, added, static_cast<Index>(base_samples_),
-                                workers_, progress);
+    link_samples(added, progress);
+    nearest_.first_handle = static_cast<Index>(samples_.size());
+    handle_flood_ =
+        add_starts(nearest_, *graph_, link_lengths_, handle_starts(needed.borders), workers_, progress);
     stale_.samples = false;
-    sample_graph_ = knead::sample_graph(
-        nearest_, samples_,
-        territory_borders_after(base_borders_, *handle_flood_, nearest_, *graph_, workers_), workers_);
     find_pulled();
     choose_coarse_samples();
     seconds_.geodesic += clock.lap();
+}
+
+// The graph of all samples, by a flood from those that handles added.
+void Pipeline::link_samples(std::span<const Index> added, Progress& progress) {
+    const FloodPatch flood = add_samples(nearest_, *graph_, link_lengths_, added,
+                                         static_cast<Index>(base_samples_), workers_, progress);
+    sample_graph_ = knead::sample_graph(
+        nearest_, samples_, territory_borders_after(base_borders_, flood, nearest_, *graph_, workers_),
+        workers_);
+    revert(nearest_, flood);
+}
+
+// Between samples, a handle is near where its border is near, not where a sample of it is: it starts from all
+// along the border, with the number of its own motion. One that leaves rotation free turns with each of its
+// samples, and those start for it.
+std::vector<FloodStart> Pipeline::handle_starts(std::span<const BorderVertex> borders) const {
+    const auto turns_freely = [&](Index label) {
+        return label < input_.handles.size() && input_.handles[label].free_rotation;
+    };
+    const auto first_handle = static_cast<Index>(samples_.size());
+    std::vector<FloodStart> starts;
+    for (auto s = static_cast<Index>(base_samples_); s < first_handle; ++s)
+        if (turns_freely(labels_.vertex[samples_[s]])) starts.push_back({samples_[s], s});
+    for (const BorderVertex& border : borders)
+        if (!turns_freely(border.label)) starts.push_back({border.vertex, first_handle + border.label});
+    return starts;
 }
 
 void Pipeline::choose_coarse_samples() {

@@ -119,14 +119,14 @@ public:
             tiles_[t].first_vertex = static_cast<Index>(t * vertices_a_tile);
     }
 
-    // Samples are numbered from `first`. Rows are kept as they were before, if `keep_old` says so. Returns
-    // whether all distances fit into the rows; if not, the flood was broken off.
-    bool run(std::span<const Index> starts, Index first, bool keep_old, Progress& progress) {
-        require(first + starts.size() <= Places::none, "numbers of samples fit into the rows");
+    // Rows are kept as they were before, if `keep_old` says so. Returns whether all distances fit into the
+    // rows; if not, the flood was broken off.
+    bool run(std::span<const FloodStart> starts, bool keep_old, Progress& progress) {
         if (keep_old) kept_.assign(graph_.size(), 0);
-        for (std::size_t i = 0; i < starts.size(); ++i) {
-            Arrived& arriving = tiles_[starts[i] / vertices_a_tile].arriving;
-            arriving.all.push_back({starts[i], static_cast<Number>(first + i), 0});
+        for (const FloodStart& start : starts) {
+            require(start.number < Places::none, "numbers of samples fit into the rows");
+            Arrived& arriving = tiles_[start.vertex / vertices_a_tile].arriving;
+            arriving.all.push_back({start.vertex, static_cast<Number>(start.number), 0});
             arriving.lowest = 0;
         }
         std::vector<OnTheWay> of_worker(workers_.threads());
@@ -287,16 +287,25 @@ private:
     Gathered<Old> old_rows_;
 };
 
+// The samples, numbered from `first`.
+std::vector<FloodStart> starts_of(std::span<const Index> samples, Index first) {
+    std::vector<FloodStart> starts;
+    starts.reserve(samples.size());
+    for (const Index vertex : samples) starts.push_back({vertex, first++});
+    return starts;
+}
+
 // Floods narrow rows where they will do, else wide ones, and returns what use(rows) makes of them.
 template<typename Narrow, typename Wide, typename Use>
 auto flooded(const Graph& graph, std::span<const std::uint8_t> lengths, std::span<const Index> samples,
              Workers& workers, Progress& progress, Use&& use) {
+    const std::vector<FloodStart> starts = starts_of(samples, 0);
     if (samples.size() < Narrow::none) {
         std::vector<Narrow> rows(graph.size(), empty_row<Narrow>());
-        if (Flood(rows, graph, lengths, workers).run(samples, 0, false, progress)) return use(rows);
+        if (Flood(rows, graph, lengths, workers).run(starts, false, progress)) return use(rows);
     }
     std::vector<Wide> rows(graph.size(), empty_row<Wide>());
-    require(Flood(rows, graph, lengths, workers).run(samples, 0, false, progress),
+    require(Flood(rows, graph, lengths, workers).run(starts, false, progress),
             "a way along the surface is shorter than 2^32 levels");
     return use(rows);
 }
@@ -364,18 +373,23 @@ std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t>
 
 FloodPatch add_samples(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
                        std::span<const Index> added, Index first_new, Workers& workers, Progress& progress) {
+    return add_starts(nearest, graph, lengths, starts_of(added, first_new), workers, progress);
+}
+
+FloodPatch add_starts(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
+                      std::span<const FloodStart> starts, Workers& workers, Progress& progress) {
     auto* narrow = std::get_if<std::vector<NarrowRow>>(&nearest.rows);
-    if (narrow && first_new + added.size() <= NarrowRow::none) {
+    const auto is_narrow = [](const FloodStart& start) { return start.number < NarrowRow::none; };
+    if (narrow && std::ranges::all_of(starts, is_narrow)) {
         Flood flood(*narrow, graph, lengths, workers);
-        const bool fits = flood.run(added, first_new, true, progress);
+        const bool fits = flood.run(starts, true, progress);
         auto old_rows = flood.take_old_rows();
         if (fits) return {std::move(old_rows)};
         put_back(old_rows, *narrow);
     }
     widen(nearest);
     Flood flood(std::get<std::vector<WideRow>>(nearest.rows), graph, lengths, workers);
-    require(flood.run(added, first_new, true, progress),
-            "a way along the surface is shorter than 2^32 levels");
+    require(flood.run(starts, true, progress), "a way along the surface is shorter than 2^32 levels");
     return {flood.take_old_rows()};
 }
 

@@ -61,12 +61,22 @@ struct FloodPatch {
     std::variant<OldRows<NarrowRow>, OldRows<WideRow>> blocks;
 };
 
+// Where a flood starts, and what: the number that rows will hold.
+struct FloodStart {
+    Index vertex;
+    Index number;
+};
+
 // Adds the samples number first_new, first_new + 1, … at the vertices `added`, which hold no sample yet, as
 // if they had been in the flood from the start; only what they reach is flooded. Rows that have become too
 // narrow are made wide. revert() takes it back, while they are as it left them; wide rows stay wide. A flood
 // that is cancelled leaves rows that are good for nothing.
 FloodPatch add_samples(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
                        std::span<const Index> added, Index first_new, Workers& workers, Progress& progress);
+// The same for what starts from several vertices at once, and is as far from any other as the nearest of
+// them.
+FloodPatch add_starts(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
+                      std::span<const FloodStart> starts, Workers& workers, Progress& progress);
 void revert(InfluenceRows& nearest, const FloodPatch& patch);
 
 } // namespace knead

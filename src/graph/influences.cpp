@@ -42,7 +42,7 @@ Influence influence_of(const InfluenceRows& rows, InfluenceWeights weights, Inde
     }
     const WideRow row = rows[number];
     result.count = row.count();
-    const auto weight = weights_of(row, weights);
+    const auto weight = weights_of(row, rows.first_handle, weights);
     const double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
     for (std::size_t k = 0; k < result.count; ++k) {
         result.motion[k] = row.sample[k];

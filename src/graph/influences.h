@@ -38,6 +38,8 @@ using WideRow = SampleRow<Index>;
 // flood and a frame have to move, else wide; flood() decides. What they mean is the same.
 struct InfluenceRows {
     std::variant<std::vector<NarrowRow>, std::vector<WideRow>> rows;
+    // Numbers from here on are not samples but handles, which start from all along their borders.
+    Index first_handle = no_index;
 
     std::size_t size() const;
     bool are_wide() const { return rows.index() == 1; }
@@ -55,16 +57,23 @@ void widen(InfluenceRows& rows);
 // How a sample's weight falls with its distance d from the point.
 enum class InfluenceWeights {
     smooth, // (1 - d/d_max)² with d_max the farthest of the row: nothing jumps where the set of the nearest
-            // changes
+            // changes; of a handle times handle_reach · d_max/d: nothing jumps at its border, either
     paper,  // 1/d²
 };
+
+// So far from its border, as a share of d_max, a handle weighs what a sample there would; nearer by it more,
+// and without bound. Less leaves a seam of stretched links along the border, more is stiff beside it and
+// bends farther out (knead evaluate, the unevenness of links with 50 to 200 samples).
+inline constexpr float handle_reach = 0.2F;
 
 // The weight of each place of a row, times the same for all: they are to be divided by their sum, which is 0
 // only for an empty row. Empty places have 0. A sample at d = 0 is taken alone, and equal distances share
 // evenly. kernels/upsample.cl does the same operations, so that both have the same bits: smooth is
-// (d_max - d)², distances being whole numbers, and exact where that is below 2^24.
+// (d_max - d)², distances being whole numbers, and exact where that is below 2^24. `first_handle`: of
+// InfluenceRows.
 template<typename Number>
-std::array<float, influences_per_row> weights_of(const SampleRow<Number>& row, InfluenceWeights weights) {
+std::array<float, influences_per_row> weights_of(const SampleRow<Number>& row, Index first_handle,
+                                                 InfluenceWeights weights) {
     std::array<float, influences_per_row> weight{};
     const std::size_t count = row.count();
     if (count == 0) return weight;
@@ -82,6 +91,9 @@ std::array<float, influences_per_row> weights_of(const SampleRow<Number>& row, I
         for (std::size_t k = 0; k < count; ++k) {
             const auto nearness = static_cast<float>(static_cast<Number>(farthest - row.distance[k]));
             weight[k] = nearness * nearness;
+            if (row.sample[k] >= first_handle)
+                weight[k] *=
+                    handle_reach * static_cast<float>(farthest) / static_cast<float>(row.distance[k]);
         }
     }
     return weight;

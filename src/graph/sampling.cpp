@@ -18,20 +18,20 @@ constexpr std::size_t grain = 1 << 14;
 // The label of a vertex and its component.
 using Part = std::pair<Index, Index>;
 
-struct Labelled {
-    std::vector<std::pair<Index, Index>> border; // (label, vertex) of those with a free neighbour, ascending
-    std::set<Part> parts;                        // that labels reach into
-};
-
 bool touches_free(const Graph& graph, std::span<const Index> label, Index v) {
     return std::ranges::any_of(graph.row(v), [&](Index u) { return label[u] == no_index; });
 }
 
+struct Labelled {
+    std::vector<BorderVertex> borders; // ascending
+    std::set<Part> parts;              // that labels reach into
+};
+
 Labelled find_labelled(const VertexShape& shape, std::span<const Index> label, Workers& workers) {
-    Gathered<std::pair<Index, Index>> border;
+    Gathered<BorderVertex> borders;
     Gathered<Part> parts;
     workers.for_chunks(label.size(), grain, [&](std::size_t begin, std::size_t end) {
-        Gathered<std::pair<Index, Index>>::Block border_here(border);
+        Gathered<BorderVertex>::Block borders_here(borders);
         std::set<Part> parts_here;
         Part last{no_index, no_index};
         for (auto v = static_cast<Index>(begin); v < end; ++v) {
@@ -39,14 +39,14 @@ Labelled find_labelled(const VertexShape& shape, std::span<const Index> label, W
             const Part part{label[v], shape.components.component[v]};
             if (part != last) parts_here.insert(part);
             last = part;
-            if (touches_free(shape.graph, label, v)) border_here.push({label[v], v});
+            if (touches_free(shape.graph, label, v)) borders_here.push({label[v], v});
         }
         Gathered<Part>::Block found(parts);
         for (const Part& part : parts_here) found.push(part);
     });
     Labelled result;
-    border.take([&](const auto& each) { result.border.push_back(each); });
-    std::ranges::sort(result.border);
+    borders.take([&](const BorderVertex& each) { result.borders.push_back(each); });
+    std::ranges::sort(result.borders);
     parts.take([&](const Part& part) { result.parts.insert(part); });
     return result;
 }
@@ -94,26 +94,26 @@ std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
     return samples;
 }
 
-std::vector<Index> handle_samples(const VertexShape& shape, std::span<const Index> label,
-                                  std::span<const Index> base, std::size_t budget, Workers& workers) {
+HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> label,
+                             std::span<const Index> base, std::size_t budget, Workers& workers) {
     const auto part_of = [&](Index v) { return Part{label[v], shape.components.component[v]}; };
-    Labelled labelled = find_labelled(shape, label, workers);
+    auto [borders, parts] = find_labelled(shape, label, workers);
     std::vector<bool> taken(label.size(), false);
     for (const Index v : base) {
         taken[v] = true;
-        labelled.parts.erase(part_of(v));
+        parts.erase(part_of(v));
     }
     std::map<Index, std::vector<Index>> border; // by label, ascending within each
-    for (const auto& [handle, v] : labelled.border)
+    for (const auto& [handle, v] : borders)
         if (!taken[v]) border[handle].push_back(v);
     std::vector<Index> added;
     for (const auto& [handle, vertices] : border)
         for (const Index v : octree_samples(shape.code, shape.positions, vertices, budget / border.size())) {
             added.push_back(v);
-            labelled.parts.erase(part_of(v));
+            parts.erase(part_of(v));
         }
-    for (const Index v : one_of_each(labelled.parts, shape, label)) added.push_back(v);
-    return added;
+    for (const Index v : one_of_each(parts, shape, label)) added.push_back(v);
+    return {std::move(added), std::move(borders)};
 }
 
 SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples,

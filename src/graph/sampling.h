@@ -5,6 +5,7 @@
 #include "graph/neighbors.h"
 #include "graph/territory_borders.h"
 
+#include <compare>
 #include <span>
 #include <utility>
 #include <vector>
@@ -28,15 +29,25 @@ std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
                            std::span<const std::uint8_t> lengths, std::span<const float> positions,
                            int rounds, Workers& workers, Progress& progress);
 
-// The samples that a set of handles needs beside the base samples. Labels tell the handles apart: label[v] is
-// the handle of vertex v, or no_index where it is free.
+// A vertex of a handle that has a free neighbour.
+struct BorderVertex {
+    Index label, vertex;
+    auto operator<=>(const BorderVertex&) const = default;
+};
+
+// What a set of handles needs beside the base samples.
+struct HandleSamples {
+    std::vector<Index> added;          // vertices that hold no base sample, pairwise different
+    std::vector<BorderVertex> borders; // all of them, ascending
+};
+
+// Labels tell the handles apart: label[v] is the handle of vertex v, or no_index where it is free.
 //   - Up to `budget` in all, shared out evenly between the labels that have a border, are spread along the
-//   borders: the
-//     vertices of a handle that have a free neighbour.
+//     borders.
 //   - Every label owns at least one sample in every component that it reaches into, budget or not.
-// Returns vertices that hold no base sample, pairwise different. `base`: vertices, in any order.
-std::vector<Index> handle_samples(const VertexShape& shape, std::span<const Index> label,
-                                  std::span<const Index> base, std::size_t budget, Workers& workers);
+// `base`: vertices, in any order.
+HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> label,
+                             std::span<const Index> base, std::size_t budget, Workers& workers);
 
 // The graph between samples, and how long a border the territories of two linked ones share.
 struct SampleGraph {

@@ -52,7 +52,8 @@ std::string build_log(cl_program program, cl_device_id device) {
 
 // Root and quotient are rounded correctly where the device can do so: then it agrees with C++ to the bit.
 std::string build_options(cl_device_id device, KernelKind kind) {
-    std::string options = "-D POINTS_IN_BLOCK=" + std::to_string(points_in_block);
+    std::string options = "-D POINTS_IN_BLOCK=" + std::to_string(points_in_block) +
+                          " -D HANDLE_REACH=" + std::to_string(handle_reach) + "f";
     if (kind.wide) options += " -D WIDE";
     if (kind.sixteen) options += " -D SIXTEEN";
     cl_device_fp_config floats = 0;
@@ -164,6 +165,7 @@ public:
             rows_ =
                 std::visit([&](const auto& rows) { return hand_over(std::span(rows)); }, input.rows->rows);
             row_count_ = input.rows->size();
+            first_handle_ = input.rows->first_handle;
             paper_ = input.weights == InfluenceWeights::paper ? 1 : 0;
             make_motions();
             make_blocks(blocks_of(input.mover.size()));
@@ -303,11 +305,11 @@ private:
         cl_mem const normals = normals_.get();
         cl_kernel kernel = normals ? built_.move_both.get() : built_.move_positions.get();
         if (normals)
-            set_arguments(kernel, points, listed, positions, mover, row_count_, rows, paper_, motions,
-                          moved_positions, normals, moved_normals);
+            set_arguments(kernel, points, listed, positions, mover, row_count_, rows, first_handle_, paper_,
+                          motions, moved_positions, normals, moved_normals);
         else
-            set_arguments(kernel, points, listed, positions, mover, row_count_, rows, paper_, motions,
-                          moved_positions);
+            set_arguments(kernel, points, listed, positions, mover, row_count_, rows, first_handle_, paper_,
+                          motions, moved_positions);
         const std::size_t items_per_group = built_.kind.sixteen ? 1 : points_in_block;
         const std::size_t items = blocks * items_per_group;
         cl_event moved = nullptr;
@@ -352,6 +354,7 @@ private:
     std::size_t motion_count_ = 0;
     std::vector<PackedMotion> packed_; // the motions as the device reads them
     cl_ulong row_count_ = 0;
+    cl_uint first_handle_ = 0;
     cl_uint paper_ = 0; // whether the weights are those of the paper
     ChangedBlocks changes_;
     std::vector<Index> listed_; // the blocks of the last frame, and room for all of them

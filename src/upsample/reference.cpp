@@ -4,6 +4,7 @@
 #include "upsample/changed_blocks.h"
 #include "upsample/point_blocks.h"
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <cstring>
@@ -69,36 +70,80 @@ void add(float weight, const PackedMotion& motion, Blend& sum) {
     sum.b += weight * one.b;
 }
 
-// Σ_s w_s [A_s | d_s] of a row with empty places, equal distances, or a sample right at the point.
+// What the rows are read by.
+struct Reading {
+    Index first_handle; // numbers from here on are handles
+    bool paper;         // whether the weights are the paper's
+    const PackedMotion* motions;
+};
+
 template<typename Number>
-Blend rarely_blended(const SampleRow<Number>& row, InfluenceWeights weights, const PackedMotion* motions) {
-    if (row.sample[0] == row.none) return {Four{0, 0, 0, 1}, Four{}, Four{}, Four{}};
-    if (row.distance[0] == 0) return one_motion(motions[row.sample[0]]);
-    const auto weight = weights_of(row, weights);
+bool has_handle(const SampleRow<Number>& row, Index first_handle) {
+    return std::ranges::any_of(row.sample, [&](Number number) { return number >= first_handle; });
+}
+
+void add(const Blend& one, Blend& sum) {
+    sum.a0 += one.a0;
+    sum.a1 += one.a1;
+    sum.a2 += one.a2;
+    sum.b += one.b;
+}
+
+// What the handles of a row add to a blend for having no place: theirs is the point p itself.
+template<typename Number, typename Weights>
+Blend places_of_handles(const SampleRow<Number>& row, const Reading& how, const Weights& weight, Vector p) {
+    const Vector half = {0.5F * p.x, 0.5F * p.y, 0.5F * p.z};
     Blend sum = {};
-    for (std::size_t k = 0; k < row.count(); ++k) add(weight[k], motions[row.sample[k]], sum);
+    for (std::size_t k = 0; k < influences_per_row && row.sample[k] != row.none; ++k) {
+        if (row.sample[k] < how.first_handle) continue;
+        const Blend handle = one_motion(how.motions[row.sample[k]]);
+        Four turned = handle.a0 * half.x + handle.a1 * half.y + handle.a2 * half.z;
+        turned[3] = half.z;
+        sum.a1[3] += weight[k] * half.x;
+        sum.a2[3] += weight[k] * half.y;
+        sum.b += weight[k] * turned;
+    }
     return sum;
 }
 
-// Σ_s w_s [A_s | d_s] of one row, in a0[3] the sum of the weights, by which it is to be divided, and Σ_s w_s
-// c_s.
+// blended() for a row with empty places, equal distances, or a sample right at the point.
 template<typename Number>
-Blend blended(const SampleRow<Number>& row, InfluenceWeights weights, const PackedMotion* motions) {
+Blend rarely_blended(const SampleRow<Number>& row, const Reading& how, Vector p) {
+    if (row.sample[0] == row.none) return {Four{0, 0, 0, 1}, Four{}, Four{}, Four{}};
+    if (row.distance[0] == 0) return one_motion(how.motions[row.sample[0]]);
+    const auto weight =
+        weights_of(row, how.first_handle, how.paper ? InfluenceWeights::paper : InfluenceWeights::smooth);
+    Blend sum = {};
+    for (std::size_t k = 0; k < row.count(); ++k) add(weight[k], how.motions[row.sample[k]], sum);
+    if (!how.paper) add(places_of_handles(row, how, weight, p), sum);
+    return sum;
+}
+
+// Σ_s w_s [A_s | d_s] of one row at the point p, in a0[3] the sum of the weights, by which it is to be
+// divided, and Σ_s w_s c_s.
+template<typename Number>
+Blend blended(const SampleRow<Number>& row, const Reading& how, Vector p) {
     const Number nearest = row.distance.front(), farthest = row.distance.back();
     if (row.sample.back() == row.none || nearest == 0 || nearest == farthest)
-        return rarely_blended(row, weights, motions);
+        return rarely_blended(row, how, p);
     // weights_of() a row without exceptions, all places at once.
     using Numbers = std::conditional_t<sizeof(Number) == 2, EightNarrow, EightWide>;
     Numbers distance;
     std::memcpy(&distance, row.distance.data(), sizeof distance);
-    const bool paper = weights == InfluenceWeights::paper;
-    Eight weight = __builtin_convertvector(paper ? distance : farthest - distance, Eight);
+    Eight weight = __builtin_convertvector(how.paper ? distance : farthest - distance, Eight);
     weight *= weight;
-    if (paper) weight = 1.0F / weight;
-    const Blend first = one_motion(motions[row.sample[0]]);
+    if (how.paper) weight = 1.0F / weight;
+    const bool near_handle = !how.paper && has_handle(row, how.first_handle);
+    if (near_handle)
+        for (std::size_t k = 0; k < influences_per_row; ++k)
+            if (row.sample[k] >= how.first_handle)
+                weight[k] *=
+                    handle_reach * static_cast<float>(farthest) / static_cast<float>(row.distance[k]);
+    const Blend first = one_motion(how.motions[row.sample[0]]);
     Blend sum = {weight[0] * first.a0, weight[0] * first.a1, weight[0] * first.a2, weight[0] * first.b};
-    for (std::size_t k = 1; k < influences_per_row - 1; ++k) add(weight[k], motions[row.sample[k]], sum);
-    if (paper) add(weight[7], motions[row.sample.back()], sum);
+    for (std::size_t k = 1; k < influences_per_row - 1; ++k) add(weight[k], how.motions[row.sample[k]], sum);
+    if (how.paper) add(weight[7], how.motions[row.sample.back()], sum);
+    if (near_handle) add(places_of_handles(row, how, weight, p), sum);
     return sum;
 }
 
@@ -163,17 +208,19 @@ public:
     }
 
 private:
-    template<typename Row>
-    void move(std::span<const Index> blocks, const std::vector<Row>& rows, std::span<float> positions,
-              std::span<float> normals) {
-        const PackedMotion* motions = packed_.data();
+    template<typename Number>
+    void move(std::span<const Index> blocks, const std::vector<SampleRow<Number>>& rows,
+              std::span<float> positions, std::span<float> normals) {
+        const Reading how{input_.rows->first_handle, input_.weights == InfluenceWeights::paper,
+                          packed_.data()};
         workers_.for_each(blocks.size(), blocks_per_chunk, [&](std::size_t at) {
             const PointRange own = points_of(blocks[at], input_.mover.size());
             for (std::size_t i = own.first; i < own.end; ++i) {
                 const std::size_t mover = input_.mover[i];
-                const Blend blend = mover < rows.size() ? blended(rows[mover], input_.weights, motions)
-                                                        : one_motion(motions[mover - rows.size()]);
-                store(moved(load(&input_.positions[3 * i]), blend), &positions[3 * i]);
+                const Vector p = load(&input_.positions[3 * i]);
+                const Blend blend = mover < rows.size() ? blended(rows[mover], how, p)
+                                                        : one_motion(how.motions[mover - rows.size()]);
+                store(moved(p, blend), &positions[3 * i]);
                 if (!normals.empty()) store(turned(load(&input_.normals[3 * i]), blend), &normals[3 * i]);
             }
         });

@@ -10,8 +10,9 @@
 //
 // which are the same wherever all samples around it move alike. The second is Equation (4). Where a surface
 // is bent, each sample there sends the point along its own tangent, off to the outer side; in the first, the
-// way from sample to point is turned midway between both their turns, as the chord of an arc is. Where
-// nothing moves, A and b are zero and p' is p to the last bit.
+// way from sample to point is turned midway between both their turns, as the chord of an arc is. For a
+// handle, whose border is all around, p_s is p itself. Where nothing moves, A and b are zero and p' is p to
+// the last bit.
 //
 //     n' ∥ cof(I + A̅) n,    |n'| = |n|.
 //
@@ -39,7 +40,7 @@ class Workers;
 // origin.
 struct Motion {
     float map[12] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}; // A00 A01 A02 b0  A10 A11 A12 b1  A20 A21 A22 b2
-    // p_s, for smooth weights. A point that a handle holds goes by that alone, from any place.
+    // p_s, for smooth weights; a handle's stays zero, it has none (InfluenceRows::first_handle).
     float place[3] = {0, 0, 0};
 };
 

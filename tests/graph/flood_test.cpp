@@ -145,6 +145,37 @@ TEST(Flood, AddsSamplesAsIfTheyHadBeenThereAndTakesThemBack) {
     }
 }
 
+TEST(Flood, StartsFromSeveralVerticesAsFromTheNearestOfThem) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::knot, 20'000));
+    const std::vector<Index> samples = test::random_vertices(cloud.size(), 40, 9);
+    const std::vector<Index> ones = test::random_vertices(cloud.size(), 60, 10);
+    std::vector<FloodStart> starts;
+    for (std::size_t i = 0; i < ones.size(); ++i)
+        starts.push_back({ones[i], static_cast<Index>(i < 50 ? 40 : 41)}); // 50 of one, 10 of another
+    const auto before = flooded(cloud, cloud.lengths, samples);
+    auto nearest = before;
+    Machine machine;
+    const FloodPatch patch =
+        add_starts(nearest, cloud.graph, cloud.lengths, starts, machine.workers, machine.progress);
+    // From every vertex: what the 100 starts are apart, of each number the nearest.
+    std::vector<Index> all = samples;
+    for (const FloodStart& start : starts) all.push_back(start.vertex);
+    for (Index v = 0; v < cloud.size(); v += 97) {
+        std::vector<test::Reached> expected;
+        for (test::Reached reached :
+             test::nearest_by_length(cloud.graph, cloud.lengths, all, v, all.size())) {
+            if (reached.sample >= 40) reached.sample = starts[reached.sample - 40].number;
+            if (std::ranges::find(expected, reached.sample, &test::Reached::sample) == expected.end())
+                expected.push_back(reached);
+        }
+        std::ranges::sort(expected, {}, [](const auto& each) { return std::pair(each.hops, each.sample); });
+        expected.resize(std::min(expected.size(), influences_per_row));
+        expect_reached(nearest[v], expected, v);
+    }
+    revert(nearest, patch);
+    EXPECT_TRUE(same_rows(nearest, before));
+}
+
 TEST(Flood, LeavesFarRowsAloneWhenASampleIsAdded) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::plane, 5000));
     std::vector<Index> samples = test::random_vertices(cloud.size(), 501, 7);

@@ -100,6 +100,34 @@ TEST(Influences, ThatAreSmoothFallToNothingAtTheFarthest) {
     }
 }
 
+TEST(Influences, OfAHandleGrowWithoutBoundTowardsItsBorder) {
+    // The first of the row is a handle; from one level on, its share falls steadily to what a sample has at
+    // handle_reach of the way to the farthest, and further.
+    double before = 1;
+    for (std::uint32_t distance = 1; distance < 1000; ++distance) {
+        std::vector<std::uint32_t> distances{distance, 1000, 1000, 1000, 1100, 1300, 1500, 2000};
+        InfluenceRows narrow{std::vector{row_of<std::uint16_t>(distances)}};
+        std::get<0>(narrow.rows)[0].sample[0] = 90;
+        narrow.first_handle = 90;
+        InfluenceRows wide = narrow;
+        widen(wide);
+        const Influence influence = influence_of(narrow, InfluenceWeights::smooth, 0);
+        EXPECT_EQ(influence.weight, influence_of(wide, InfluenceWeights::smooth, 0).weight);
+        const double share = static_cast<double>(influence.weight[0]);
+        EXPECT_LT(share, before);
+        before = share;
+        if (distance == 1) {
+            EXPECT_GT(share, 0.99);
+        }
+        if (distance == 400) {
+            narrow.first_handle = no_index;
+            EXPECT_EQ(influence_of(narrow, InfluenceWeights::smooth, 0).weight, influence.weight);
+        }
+        EXPECT_EQ(influence_of(narrow, InfluenceWeights::paper, 0).weight,
+                  influence_of({narrow.rows}, InfluenceWeights::paper, 0).weight);
+    }
+}
+
 TEST(Influences, BeyondTheRowsAreOneMotion) {
     const InfluenceRows rows{std::vector(3, row_of<std::uint16_t>({1, 2, 3}))};
     for (const Index number : {3U, 42U}) {

@@ -88,7 +88,7 @@ TEST(Relaxed, IsTheSameForAnyNumberOfThreads) {
 std::vector<Index> handle_samples_of(const VertexShape& shape, std::span<const Index> label,
                                      std::span<const Index> base, std::size_t budget) {
     Machine machine;
-    return handle_samples(shape, label, base, budget, machine.workers);
+    return handle_samples(shape, label, base, budget, machine.workers).added;
 }
 
 using Part = std::pair<Index, Index>; // handle, component

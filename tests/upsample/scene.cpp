@@ -41,13 +41,15 @@ NarrowRow random_row(Random& random, std::size_t number, std::size_t motions) {
 }
 
 // What graph/influences.h says of the weights, in double.
-std::vector<double> exact_weights(const WideRow& row, InfluenceWeights kind) {
+std::vector<double> exact_weights(const WideRow& row, Index first_handle, InfluenceWeights kind) {
     std::vector<double> weight;
     const double farthest = row.count() > 0 ? row.distance.at(row.count() - 1) : 0;
     for (std::size_t k = 0; k < row.count(); ++k) {
         const double d = row.distance.at(k);
         const double nearness = 1 - d / farthest;
-        weight.push_back(kind == InfluenceWeights::paper ? 1 / (d * d) : nearness * nearness);
+        const bool of_handle = row.sample.at(k) >= first_handle;
+        const double grows = of_handle ? static_cast<double>(handle_reach) * farthest / d : 1;
+        weight.push_back(kind == InfluenceWeights::paper ? 1 / (d * d) : grows * nearness * nearness);
     }
     if (row.distance[0] == 0) weight = {1};
     double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
@@ -71,7 +73,7 @@ Eigen::Matrix<double, 3, 4> exact_blend(const Scene& scene, std::size_t point) {
         return sum;
     }
     const WideRow row = scene.rows[mover];
-    const std::vector<double> weights = exact_weights(row, scene.weights);
+    const std::vector<double> weights = exact_weights(row, scene.rows.first_handle, scene.weights);
     for (std::size_t k = 0; k < weights.size(); ++k) add(weights[k], row.sample.at(k));
     return sum;
 }
@@ -86,6 +88,7 @@ Scene random_scene(std::size_t points, std::size_t motions, unsigned seed, bool 
     std::vector<NarrowRow> narrow;
     for (std::size_t r = 0; r < rows; ++r) narrow.push_back(random_row(random, r, motions));
     scene.rows.rows = narrow;
+    scene.rows.first_handle = static_cast<Index>(motions - motions / 5);
     for (std::size_t i = 0; i < points; ++i) {
         append(in_cube(random), scene.positions);
         if (with_normals) append((in_cube(random) + Vec3d(0, 0, 1.5)).normalized(), scene.normals);
@@ -95,6 +98,7 @@ Scene random_scene(std::size_t points, std::size_t motions, unsigned seed, bool 
         const Vec3d axis = (in_cube(random) + Vec3d(0, 1.5, 0)).normalized();
         const Mat3d turn = Eigen::AngleAxisd(between(random, 0, 3.1), axis).toRotationMatrix();
         scene.motions.push_back(motion_of(turn, in_cube(random)));
+        if (m >= scene.rows.first_handle) continue;
         const Vec3d place = in_cube(random);
         for (int i = 0; i < 3; ++i) scene.motions.back().place[i] = static_cast<float>(place[i]);
     }
@@ -125,12 +129,13 @@ Vec3d exact_position(const Scene& scene, std::size_t point) {
     if (scene.weights == InfluenceWeights::paper || mover >= scene.rows.size())
         return p + map.leftCols<3>() * p + map.col(3);
     const WideRow row = scene.rows[mover];
-    const std::vector<double> weights = exact_weights(row, scene.weights);
+    const std::vector<double> weights = exact_weights(row, scene.rows.first_handle, scene.weights);
     Vec3d displacement = Vec3d::Zero();
     for (std::size_t k = 0; k < weights.size(); ++k) {
         const Motion& motion = scene.motions[row.sample.at(k)];
         const auto own = matrix_of(motion);
-        const Vec3d place = Eigen::Map<const Vec3f>(motion.place).cast<double>();
+        const bool of_handle = row.sample.at(k) >= scene.rows.first_handle;
+        const Vec3d place = of_handle ? p : Vec3d(Eigen::Map<const Vec3f>(motion.place).cast<double>());
         const Vec3d moved = own.leftCols<3>() * place + own.col(3); // x_s - p_s
         displacement += weights[k] * (moved + 0.5 * (own + map).leftCols<3>() * (p - place));
     }

@@ -28,7 +28,8 @@ struct Posed {
 
 // Positions in [-1, 1]^3, unit normals, narrow rows of random distances (every fourth with one sample, others
 // with five, with a sample right at the point, or with all of them equally far), every seventh point moved by
-// one motion alone, rotations of any angle with a shift of up to 1.
+// one motion alone, rotations of any angle with a shift of up to 1; the last fifth of the motions are
+// handles.
 Scene random_scene(std::size_t points, std::size_t motions, unsigned seed, bool with_normals = true);
 
 // The motion that takes p to M p + shift.

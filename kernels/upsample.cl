@@ -2,9 +2,10 @@
 // src/upsample/reference.cpp the same arithmetic in C++, operation by operation, so that both give the same bits.
 //
 // Built with -D POINTS_IN_BLOCK=256 and -D HANDLE_REACH=0.2f (src/graph/influences.h); with -D WIDE for wide rows of
-// influences, without for narrow ones; with -D SIXTEEN for a CPU, without for a GPU. Motions are packed by columns, 16 floats each, [A column 0 | A column 1 |
-// A column 2 | d] with a fourth row of 1 c0 c1 c2 (src/upsample/packed_motions.h): blending one is then a single
-// vector operation, and the weights are summed on the way.
+// influences, without for narrow ones; with -D SIXTEEN for a CPU, without for a GPU. Motions are packed by columns, 16
+// floats each, [A column 0 | A column 1 | A column 2 | d] with a fourth row of 1 c0 c1 c2
+// (src/upsample/packed_motions.h): blending one is then a single vector operation, and the weights are summed on the
+// way.
 // A GPU's item moves one point. A CPU's takes sixteen at once: it blends the motions of each, and transposes
 // the sixteen, so that what follows is the same arithmetic with a point in every lane.
 //
@@ -29,17 +30,20 @@ typedef struct {
 } reading;
 
 // weights_of() in src/graph/influences.h, of one place that is not empty.
-inline float weight_of(number sample, number distance, number nearest, number farthest, reading how) {
-    if (nearest == farthest) return 1.0f;
+__attribute__((always_inline)) inline float weight_of(number sample, number distance, number nearest,
+                                                      number farthest, bool is_full, reading how) {
+    if (is_full && nearest == farthest) return 1.0f;
     if (how.paper) return 1.0f / ((float)distance * (float)distance);
-    const float nearness = (float)(number)(farthest - distance);
+    float nearness = (float)(number)(farthest - distance);
+    if (!is_full) nearness += (float)farthest;
     const float weight = nearness * nearness;
     return sample >= how.first_handle ? weight * (HANDLE_REACH * (float)farthest / (float)distance) : weight;
 }
 
 // What the handles of a row add to a blend for having no place: theirs is the point p itself.
-inline float16 places_of_handles(__global const number* row, reading how, const float* weight, int count,
-                                 __global const float* motions, float3 p) {
+__attribute__((always_inline)) inline float16 places_of_handles(__global const number* row, reading how,
+                                                                const float* weight, int count,
+                                                                __global const float* motions, float3 p) {
     const float3 half_way = 0.5f * p;
     float16 sum = (float16)(0.0f);
     for (int k = 0; k < count; ++k) {
@@ -66,7 +70,7 @@ __attribute__((noinline)) float16 rarely_blended(__global const number* row, rea
     float weight[8];
     float16 sum = (float16)(0.0f);
     for (int k = 0; k < count; ++k) {
-        weight[k] = weight_of(row[k], row[8 + k], row[8], row[7 + count], how);
+        weight[k] = weight_of(row[k], row[8 + k], row[8], row[7 + count], count == 8, how);
         sum += weight[k] * vload16(row[k], motions);
     }
     return how.paper ? sum : sum + places_of_handles(row, how, weight, count, motions, p);
@@ -89,7 +93,8 @@ __attribute__((always_inline)) inline float16 blended(__global const number* row
         vstore8(nearness * nearness, 0, weight);
         near_handle = any(vload8(0, row) >= (number8)(min(how.first_handle, (uint)NONE)));
         if (near_handle)
-            for (int k = 0; k < 7; ++k) weight[k] = weight_of(row[k], row[8 + k], nearest, farthest, how);
+            for (int k = 0; k < 7; ++k)
+                weight[k] = weight_of(row[k], row[8 + k], nearest, farthest, true, how);
     }
     float16 sum = weight[0] * vload16(row[0], motions);
 #pragma unroll
@@ -287,7 +292,8 @@ __kernel void upsample_positions(const ulong points, __global const uint* block,
 __kernel void upsample_positions_and_normals(const ulong points, __global const uint* block,
                                              __global const float* positions, __global const uint* mover,
                                              const ulong rows, __global const number* row,
-                                             const uint first_handle, const uint paper, __global const float* motions, __global float* moved_positions,
+                                             const uint first_handle, const uint paper,
+                                             __global const float* motions, __global float* moved_positions,
                                              __global const float* normals, __global float* moved_normals) {
     const reading how = {first_handle, paper};
     upsample(points, block, positions, mover, rows, row, how, motions, moved_positions, normals,

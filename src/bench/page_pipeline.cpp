@@ -1,5 +1,6 @@
 // In place of Figure 3 of the paper, which nothing here describes: from the cloud to the posed cloud.
 
+#include "base/require.h"
 #include "bench/page_studio.h"
 #include "bench/posing.h"
 #include "bench/text_table.h"
@@ -55,13 +56,17 @@ std::vector<float> influence_of(const Pipeline& pipeline, Index sample) {
     return values;
 }
 
+// Of those that move points: the free ones.
 Index sample_near(const Pipeline& pipeline, const Vec3d& place) {
-    Index nearest = 0;
+    Index nearest = no_index;
     const auto away = [&](Index s) {
         return (place_of(pipeline, pipeline.opened().positions, s).cast<double>() - place).squaredNorm();
     };
-    for (Index s = 0; s < pipeline.samples().size(); ++s)
-        if (away(s) < away(nearest)) nearest = s;
+    for (Index s = 0; s < pipeline.samples().size(); ++s) {
+        if (pipeline.labels().vertex[pipeline.samples()[s]] != no_index) continue;
+        if (nearest == no_index || away(s) < away(nearest)) nearest = s;
+    }
+    require(nearest != no_index, "the page's handles leave samples free");
     return nearest;
 }
 

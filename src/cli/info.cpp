@@ -91,13 +91,13 @@ void count_components(const PointCloud& cloud, Progress& progress, Facts& facts)
     };
     Stopwatch clock;
     const Graph graph = neighbor_graph(positions, neighbors, workers, progress);
-    const Components components = find_components(graph);
+    const Components components = find_components(graph, workers);
     facts.neighbors_seconds = clock.lap();
     facts.components = components.size.size();
     facts.largest_component = largest(components);
     clock.lap();
     const BridgedGraph joined = bridged(graph, positions, workers, progress);
-    const Components bodies = find_components(joined.graph);
+    const Components bodies = find_components(joined.graph, workers);
     facts.bridged = {bodies.size.size(), largest(bodies), joined.outliers, clock.lap()};
 }
 

@@ -4,6 +4,7 @@
 #include "base/require.h"
 #include "graph/flood.h"
 #include "graph/point_order.h"
+#include "graph/relaxing.h"
 
 #include <algorithm>
 #include <cmath>

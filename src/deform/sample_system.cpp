@@ -15,8 +15,8 @@ namespace {
 constexpr double next_to_nothing = 1e-4;
 
 // Which samples hang together with no handle.
-std::vector<bool> find_left_out(const SampleRest& rest) {
-    const Components components = find_components(rest.graph);
+std::vector<bool> find_left_out(const SampleRest& rest, Workers& workers) {
+    const Components components = find_components(rest.graph, workers);
     std::vector<bool> held(components.size.size(), false);
     for (std::size_t s = 0; s < rest.handle.size(); ++s)
         if (rest.handle[s] != no_index) held[components.component[s]] = true;
@@ -169,7 +169,7 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     require(rest.position.size() == rest.graph.size() && rest.handle.size() == rest.graph.size(),
             "an entry a sample");
     system.rest = std::move(rest);
-    system.left_out = find_left_out(system.rest);
+    system.left_out = find_left_out(system.rest, workers);
     number_unknowns(system);
     const double square_length = mean_square_length(system);
     system.mean_length = std::sqrt(square_length);

@@ -7,6 +7,7 @@
 #include "graph/bridges.h"
 #include "graph/edge_weights.h"
 #include "graph/octree.h"
+#include "graph/relaxing.h"
 #include "graph/solid_links.h"
 
 #include <algorithm>
@@ -21,7 +22,8 @@ constexpr int relaxing_rounds = 2;
 } // namespace
 
 Pipeline::Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampler)
-    : cloud_(cloud), workers_(workers), upsampler_(upsampler), cloud_size_(knead::cloud_size(cloud)) {}
+    : cloud_(cloud), workers_(workers), upsampler_(upsampler),
+      cloud_size_(knead::cloud_size(cloud, workers)) {}
 
 void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
     note_changes(input.settings);
@@ -128,7 +130,7 @@ void Pipeline::prepare_bridges(Progress& progress) {
         graph_ = std::make_shared<const Graph>(std::move(joined.graph));
         if (joined.outliers > 0) hanging_ = std::move(joined.hanging);
     }
-    components_ = std::make_shared<const Components>(find_components(*graph_));
+    components_ = std::make_shared<const Components>(find_components(*graph_, workers_));
     link_lengths_ = link_lengths(*graph_, vertex_positions(), workers_);
     seconds_.neighbors += clock.seconds();
 }

@@ -5,8 +5,8 @@
 //     neighbors                 → order, graph, components
 //     strays: bridge or not     → bridges between components, outliers, components again (graph/bridges.h)
 //     samples                   → base samples and their flood
-//     handle set                → labels, handle samples (which flood only what they reach), sample graph,
-//                                 coarse samples
+//     handle set                → labels, handle samples, sample graph, coarse samples; the flood from the
+//                                 borders of the handles (both flood only what they reach)
 //     weights, strays           → what moves each point; what carries the parts without a handle
 //                                 (edit/carried_parts.h)
 //     rest shape                → the weights of the sample graph's links
@@ -159,7 +159,9 @@ private:
     void prepare_samples(Progress& progress);
     void prepare_handles(Progress& progress);
     void link_samples(std::span<const Index> added, Progress& progress);
+    bool turns_freely(Index label) const;
     std::vector<FloodStart> handle_starts(std::span<const BorderVertex> borders) const;
+    Index followed_by(std::size_t point) const;
     void find_pulled();
     void choose_coarse_samples();
     void label_vertices();

@@ -55,7 +55,8 @@ void Pipeline::prepare_handles(Progress& progress) {
     seconds_.geodesic += clock.lap();
 }
 
-// The graph of all samples, by a flood from those that handles added.
+// The graph of all samples, by a flood from those that handles added, which is taken back: points are moved
+// by the handles themselves, see handle_starts().
 void Pipeline::link_samples(std::span<const Index> added, Progress& progress) {
     const FloodPatch flood = add_samples(nearest_, *graph_, link_lengths_, added,
                                          static_cast<Index>(base_samples_), workers_, progress);
@@ -65,13 +66,14 @@ void Pipeline::link_samples(std::span<const Index> added, Progress& progress) {
     revert(nearest_, flood);
 }
 
+bool Pipeline::turns_freely(Index label) const {
+    return label < input_.handles.size() && input_.handles[label].free_rotation;
+}
+
 // Between samples, a handle is near where its border is near, not where a sample of it is: it starts from all
 // along the border, with the number of its own motion. One that leaves rotation free turns with each of its
 // samples, and those start for it.
 std::vector<FloodStart> Pipeline::handle_starts(std::span<const BorderVertex> borders) const {
-    const auto turns_freely = [&](Index label) {
-        return label < input_.handles.size() && input_.handles[label].free_rotation;
-    };
     const auto first_handle = static_cast<Index>(samples_.size());
     std::vector<FloodStart> starts;
     for (auto s = static_cast<Index>(base_samples_); s < first_handle; ++s)
@@ -127,6 +129,14 @@ void Pipeline::count_strays() {
     strays_.points = points;
 }
 
+// The handle that moves a point alone, or no_index. Beside what a handle holds itself, that is what is right
+// there, inside of it: twins of what it holds, and outliers that hang on it.
+Index Pipeline::followed_by(std::size_t point) const {
+    if (labels_.point[point] != no_index || every_point_) return labels_.point[point];
+    const Index label = labels_.vertex[order_.vertex[point]];
+    return label != no_index && !turns_freely(label) ? label : no_index;
+}
+
 void Pipeline::prepare_influences() {
     Stopwatch clock;
     // A held point is moved by its handle alone, whatever samples are near, and a point of a stray part by
@@ -142,9 +152,8 @@ void Pipeline::prepare_influences() {
     workers_.for_each(order_.points(), grain, [&](std::size_t i) {
         const Index vertex = order_.vertex[i];
         const Index component = components_->component[vertex];
-        const Index label = labels_.point[i];
         Index& mover = mover_of_point_[i];
-        if (label != no_index)
+        if (const Index label = followed_by(i); label != no_index)
             mover = mover_of_label[label];
         else if (held_component_[component])
             mover = vertex;

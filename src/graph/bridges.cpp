@@ -81,7 +81,7 @@ BridgedGraph bridged(const Graph& graph, std::span<const float> positions, Worke
     result.hanging = find_outliers(graph, positions, spacings, workers);
     progress.step("joining parts", 0.5);
     const std::vector<std::uint8_t> stays = between_standing(graph, result.hanging, workers);
-    const Components components = find_components(rewired(graph, stays, {}, workers));
+    const Components components = find_components(rewired(graph, stays, {}, workers), workers);
     const std::vector<Index> group = standing(components, result.hanging);
     const GroupTree tree = group_tree(positions, group, workers);
     Links links = find_bridges(tree, spacings.around, components, workers);

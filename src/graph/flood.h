@@ -46,8 +46,9 @@ InfluenceRows flood(const Graph& graph, std::span<const std::uint8_t> lengths, s
 std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t> lengths,
                                std::span<const Index> samples, Workers& workers, Progress& progress);
 
-// What add_samples() changed: whole rows as they were before, each vertex once, in no particular order, block
-// after block: these are many, and to put them into one array would need room for both.
+// What add_samples() or add_starts() changed: whole rows as they were before, each vertex once, in no
+// particular order, block after block: these are many, and to put them into one array would need room for
+// both.
 template<typename Row>
 struct OldRow {
     Index vertex;
@@ -74,7 +75,7 @@ struct FloodStart {
 FloodPatch add_samples(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
                        std::span<const Index> added, Index first_new, Workers& workers, Progress& progress);
 // The same for what starts from several vertices at once, and is as far from any other as the nearest of
-// them.
+// them. The vertices may hold samples; the numbers are none that rows hold already.
 FloodPatch add_starts(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
                       std::span<const FloodStart> starts, Workers& workers, Progress& progress);
 void revert(InfluenceRows& nearest, const FloodPatch& patch);

@@ -1,7 +1,7 @@
 #pragma once
-// Which samples move a point, and how much each: the w_s of Equations (4) and (5).
+// Which samples and handles move a point, and how much each: the w_s of Equations (4) and (5).
 //
-// What is kept are the nearest samples of every vertex and how far they are along the surface. The weights
+// What is kept are the nearest of every vertex and how far they are along the surface. The weights
 // are computed from that where they are used: fetching them from memory would take longer, and neither is the
 // kind of weights anything that a row would have to be made again for.
 
@@ -18,8 +18,8 @@ namespace knead {
 
 inline constexpr std::size_t influences_per_row = 8; // K of the paper
 
-// The K nearest samples of a vertex, by (distance, sample number). A vertex whose component has fewer than K
-// keeps the last places empty: `none` for sample and distance.
+// The K nearest samples and handles of a vertex, by (distance, number). A vertex whose component has fewer
+// than K keeps the last places empty: `none` for sample and distance.
 template<typename Number>
 struct alignas(2 * influences_per_row * sizeof(Number)) SampleRow { // within a cache line
     static constexpr Number none = std::numeric_limits<Number>::max();
@@ -34,8 +34,8 @@ struct alignas(2 * influences_per_row * sizeof(Number)) SampleRow { // within a 
 using NarrowRow = SampleRow<std::uint16_t>;
 using WideRow = SampleRow<Index>;
 
-// One row a vertex. They are narrow where all samples and distances are below 65,535, which halves what a
-// flood and a frame have to move, else wide; flood() decides. What they mean is the same.
+// One row a vertex. They are narrow where all numbers and distances are below 65,535, which halves what a
+// flood and a frame have to move, else wide; the flood decides. What they mean is the same.
 struct InfluenceRows {
     std::variant<std::vector<NarrowRow>, std::vector<WideRow>> rows;
     // Numbers from here on are not samples but handles, which start from all along their borders.
@@ -56,9 +56,10 @@ void widen(InfluenceRows& rows);
 
 // How a sample's weight falls with its distance d from the point.
 enum class InfluenceWeights {
-    smooth, // (1 - d/d_max)² with d_max the farthest of the row: nothing jumps where the set of the nearest
-            // changes; of a handle times handle_reach · d_max/d: nothing jumps at its border, either
-    paper,  // 1/d²
+    smooth, // (1 - d/d_max)² with d_max the farthest of a full row: nothing jumps where the set of the
+            // nearest changes; where the row is not full the set is the same everywhere, and d_max twice as
+            // far; of a handle times handle_reach · farthest/d: nothing jumps at its border, either
+    paper, // 1/d²
 };
 
 // So far from its border, as a share of d_max, a handle weighs what a sample there would; nearer by it more,
@@ -66,11 +67,17 @@ enum class InfluenceWeights {
 // bends farther out (knead evaluate, the unevenness of links with 50 to 200 samples).
 inline constexpr float handle_reach = 0.2F;
 
+// By how much a handle weighs more than a sample as far away.
+template<typename Number>
+float growth_of_handle(Number distance, Number farthest) {
+    return handle_reach * static_cast<float>(farthest) / static_cast<float>(distance);
+}
+
 // The weight of each place of a row, times the same for all: they are to be divided by their sum, which is 0
-// only for an empty row. Empty places have 0. A sample at d = 0 is taken alone, and equal distances share
-// evenly. kernels/upsample.cl does the same operations, so that both have the same bits: smooth is
-// (d_max - d)², distances being whole numbers, and exact where that is below 2^24. `first_handle`: of
-// InfluenceRows.
+// only for an empty row. Empty places have 0. A sample at d = 0 is taken alone, and a full row of equal
+// distances shares evenly. kernels/upsample.cl does the same operations, so that both have the same bits:
+// smooth is (d_max - d)², distances being whole numbers, and exact where that is below 2^24. `first_handle`:
+// of InfluenceRows.
 template<typename Number>
 std::array<float, influences_per_row> weights_of(const SampleRow<Number>& row, Index first_handle,
                                                  InfluenceWeights weights) {
@@ -80,7 +87,7 @@ std::array<float, influences_per_row> weights_of(const SampleRow<Number>& row, I
     const Number nearest = row.distance[0], farthest = row.distance[count - 1];
     if (nearest == 0) {
         weight[0] = 1;
-    } else if (nearest == farthest) {
+    } else if (count == influences_per_row && nearest == farthest) {
         std::fill_n(weight.begin(), count, 1.0F);
     } else if (weights == InfluenceWeights::paper) {
         for (std::size_t k = 0; k < count; ++k) {
@@ -89,11 +96,10 @@ std::array<float, influences_per_row> weights_of(const SampleRow<Number>& row, I
         }
     } else {
         for (std::size_t k = 0; k < count; ++k) {
-            const auto nearness = static_cast<float>(static_cast<Number>(farthest - row.distance[k]));
+            auto nearness = static_cast<float>(static_cast<Number>(farthest - row.distance[k]));
+            if (count < influences_per_row) nearness += static_cast<float>(farthest);
             weight[k] = nearness * nearness;
-            if (row.sample[k] >= first_handle)
-                weight[k] *=
-                    handle_reach * static_cast<float>(farthest) / static_cast<float>(row.distance[k]);
+            if (row.sample[k] >= first_handle) weight[k] *= growth_of_handle(row.distance[k], farthest);
         }
     }
     return weight;

@@ -1,14 +1,18 @@
 #include "graph/neighbors.h"
 
+#include "base/gathered.h"
 #include "graph/nearest_lists.h"
 #include "graph/symmetric_graph.h"
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace knead {
 
 namespace {
+
+constexpr std::size_t vertices_a_range = 1 << 14;
 
 Index find_root(std::vector<Index>& parent, Index v) {
     while (parent[v] != v) {
@@ -16,6 +20,40 @@ Index find_root(std::vector<Index>& parent, Index v) {
         v = parent[v];
     }
     return v;
+}
+
+// Joins what the two belong to. The root of a component is its first vertex, whoever is joined first.
+void join(std::vector<Index>& parent, Index v, Index u) {
+    const Index a = find_root(parent, v);
+    const Index b = find_root(parent, u);
+    if (a != b) parent[std::max(a, b)] = std::min(a, b);
+}
+
+// The first vertex of each vertex's component. Each worker joins what is linked inside of a range of
+// vertices; few links lead out of one, to near numbers as they do.
+std::vector<Index> roots_of(const Graph& graph, Workers& workers) {
+    std::vector<Index> parent(graph.size());
+    std::iota(parent.begin(), parent.end(), Index{0});
+    Gathered<std::pair<Index, Index>> leaving;
+    workers.for_chunks(graph.size(), vertices_a_range, [&](std::size_t begin, std::size_t end) {
+        Gathered<std::pair<Index, Index>>::Block out(leaving);
+        for (auto v = static_cast<Index>(begin); v < end; ++v)
+            for (const Index u : graph.row(v)) {
+                if (u > v) break; // rows ascend, and the edge is met again from its other end
+                if (u >= begin)
+                    join(parent, v, u);
+                else
+                    out.push({v, u});
+            }
+    });
+    leaving.take([&](const auto& link) { join(parent, link.first, link.second); });
+    std::vector<Index> root(graph.size());
+    workers.for_each(graph.size(), vertices_a_range, [&](std::size_t v) {
+        Index at = parent[v];
+        while (parent[at] != at) at = parent[at];
+        root[v] = at;
+    });
+    return root;
 }
 
 } // namespace
@@ -33,24 +71,14 @@ Graph neighbor_graph(std::span<const float> positions, std::size_t k, Workers& w
     return symmetric_graph(lists, k, workers);
 }
 
-Components find_components(const Graph& graph) {
-    std::vector<Index> parent(graph.size());
-    std::iota(parent.begin(), parent.end(), Index{0});
-    for (Index v = 0; v < graph.size(); ++v) {
-        for (const Index u : graph.row(v)) {
-            if (u > v) break; // rows ascend, and the edge is met again from its other end
-            const Index a = find_root(parent, v);
-            const Index b = find_root(parent, u);
-            if (a != b) parent[std::max(a, b)] = std::min(a, b);
-        }
-    }
+Components find_components(const Graph& graph, Workers& workers) {
+    const std::vector<Index> root = roots_of(graph, workers);
     Components components;
     components.component.resize(graph.size());
-    for (Index v = 0; v < graph.size(); ++v) {
-        const Index root = find_root(parent, v);
-        if (root == v) components.size.push_back(0);
+    for (Index v = 0; v < graph.size(); ++v) { // a root stands before all others of its component
+        if (root[v] == v) components.size.push_back(0);
         components.component[v] =
-            root == v ? static_cast<Index>(components.size.size() - 1) : components.component[root];
+            root[v] == v ? static_cast<Index>(components.size.size() - 1) : components.component[root[v]];
         ++components.size[components.component[v]];
     }
     return components;

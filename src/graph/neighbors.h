@@ -19,6 +19,6 @@ struct Components {
     std::vector<Index> component;
     std::vector<Index> size; // vertices in each
 };
-Components find_components(const Graph& graph);
+Components find_components(const Graph& graph, Workers& workers);
 
 } // namespace knead

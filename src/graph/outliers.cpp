@@ -35,7 +35,7 @@ Components cut_long_links(const Graph& graph, std::span<const float> positions,
             is_short[link] = static_cast<double>(distance_between(positions, v, u)) <= limit ? 1 : 0;
         }
     });
-    return find_components(rewired(graph, is_short, {}, workers));
+    return find_components(rewired(graph, is_short, {}, workers), workers);
 }
 
 // Of each vertex, whether it sticks out from the pieces that are larger than crumbs.

@@ -5,7 +5,6 @@
 #include "graph/symmetric_graph.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -67,32 +66,6 @@ std::vector<Index> one_of_each(const std::set<Part>& parts, const VertexShape& s
 }
 
 } // namespace
-
-std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
-                           std::span<const std::uint8_t> lengths, std::span<const float> positions,
-                           int rounds, Workers& workers, Progress& progress) {
-    for (int round = 0; round < rounds; ++round) {
-        const std::vector<Index> nearest = territories(graph, lengths, samples, workers, progress);
-        std::vector<Vec3d> mean(samples.size(), Vec3d::Zero());
-        std::vector<double> count(samples.size(), 0);
-        for (std::size_t v = 0; v < graph.size(); ++v) {
-            if (nearest[v] == no_index) continue;
-            mean[nearest[v]] += point_at(positions, v);
-            count[nearest[v]] += 1;
-        }
-        for (std::size_t s = 0; s < samples.size(); ++s) mean[s] /= count[s];
-        std::vector<double> smallest(samples.size(), std::numeric_limits<double>::infinity());
-        for (std::size_t v = 0; v < graph.size(); ++v) {
-            if (nearest[v] == no_index) continue;
-            const Index s = nearest[v];
-            const double squared = (point_at(positions, v) - mean[s]).squaredNorm();
-            if (squared >= smallest[s]) continue;
-            smallest[s] = squared;
-            samples[s] = static_cast<Index>(v);
-        }
-    }
-    return samples;
-}
 
 HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> label,
                              std::span<const Index> base, std::size_t budget, Workers& workers) {

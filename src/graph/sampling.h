@@ -20,15 +20,6 @@ struct VertexShape {
     const Components& components;
 };
 
-// Moves samples to the middle of what they are nearest to: each round floods the graph from all of them, and
-// each goes to the vertex of its territory that is nearest to the territory's mean position (Lloyd's method
-// along the surface). Cells of an octree are up to twice as long as wide, all the same way, and samples left
-// at their centres would link along rows only. A few rounds leave them evenly spaced in all directions, and
-// still denser where the points are.
-std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
-                           std::span<const std::uint8_t> lengths, std::span<const float> positions,
-                           int rounds, Workers& workers, Progress& progress);
-
 // A vertex of a handle that has a free neighbour.
 struct BorderVertex {
     Index label, vertex;

@@ -6,6 +6,8 @@
 #include "upsample/point_blocks.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <numeric>
 #include <utility>
 
@@ -50,10 +52,18 @@ std::string build_log(cl_program program, cl_device_id device) {
     return log;
 }
 
+// As a number of OpenCL C, in hexadecimal digits: with all its bits.
+std::string exactly(float value) {
+    std::array<char, 32> digits{};
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::hex);
+    return "0x" + std::string(digits.data(), end.ptr) + "f";
+}
+
 // Root and quotient are rounded correctly where the device can do so: then it agrees with C++ to the bit.
 std::string build_options(cl_device_id device, KernelKind kind) {
-    std::string options = "-D POINTS_IN_BLOCK=" + std::to_string(points_in_block) +
-                          " -D HANDLE_REACH=" + std::to_string(handle_reach) + "f";
+    std::string options =
+        "-D POINTS_IN_BLOCK=" + std::to_string(points_in_block) + " -D HANDLE_REACH=" + exactly(handle_reach);
     if (kind.wide) options += " -D WIDE";
     if (kind.sixteen) options += " -D SIXTEEN";
     cl_device_fp_config floats = 0;

@@ -136,9 +136,7 @@ Blend blended(const SampleRow<Number>& row, const Reading& how, Vector p) {
     const bool near_handle = !how.paper && has_handle(row, how.first_handle);
     if (near_handle)
         for (std::size_t k = 0; k < influences_per_row; ++k)
-            if (row.sample[k] >= how.first_handle)
-                weight[k] *=
-                    handle_reach * static_cast<float>(farthest) / static_cast<float>(row.distance[k]);
+            if (row.sample[k] >= how.first_handle) weight[k] *= growth_of_handle(row.distance[k], farthest);
     const Blend first = one_motion(how.motions[row.sample[0]]);
     Blend sum = {weight[0] * first.a0, weight[0] * first.a1, weight[0] * first.a2, weight[0] * first.b};
     for (std::size_t k = 1; k < influences_per_row - 1; ++k) add(weight[k], how.motions[row.sample[k]], sum);

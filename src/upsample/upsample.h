@@ -40,7 +40,8 @@ class Workers;
 // origin.
 struct Motion {
     float map[12] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}; // A00 A01 A02 b0  A10 A11 A12 b1  A20 A21 A22 b2
-    // p_s, for smooth weights; a handle's stays zero, it has none (InfluenceRows::first_handle).
+    // p_s, for smooth weights. Of no account for what moves a point alone, and zero for the handles that rows
+    // name (InfluenceRows::first_handle).
     float place[3] = {0, 0, 0};
 };
 

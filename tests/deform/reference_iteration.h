@@ -11,7 +11,8 @@ namespace knead::test {
 class ReferenceIteration {
 public:
     explicit ReferenceIteration(const SampleRest& rest) : rest_(rest) {
-        const Components components = find_components(rest.graph);
+        Workers workers(1);
+        const Components components = find_components(rest.graph, workers);
         std::vector<bool> held(components.size.size(), false);
         for (Index s = 0; s < rest.graph.size(); ++s)
             if (rest.handle[s] != no_index) held[components.component[s]] = true;

@@ -142,6 +142,35 @@ TEST(Pipeline, FewSamplesLeaveNoSeamAtAHandlesBorder) {
     }
 }
 
+TEST(Pipeline, HandlesMovePointsByThemselvesUnlessTheyTurnFreely) {
+    Settings settings;
+    settings.samples = 100;
+    Desk desk(bar(6000), settings);
+    desk.play(R"({"op":"handle","name":"top","role":"moving","rotation":"free","region":{"halfspace":)"
+              R"({"point":[0,0,2],"normal":[0,0,1]}}})"
+              "\n" +
+              box_handle("middle", "fixed", "[-9,-9,-0.2]", "[9,9,0.2]") + above("region", -1.5) +
+              drag(lift));
+    const Pipeline& pipeline = desk.pipeline();
+    const HandleLabels& labels = pipeline.labels();
+    const auto samples = static_cast<Index>(pipeline.samples().size());
+    std::set<Index> movers; // beyond the samples: the handles' numbers
+    bool by_samples_of_top = false;
+    for (Index v = 0; v < labels.vertex.size(); ++v) {
+        if (labels.vertex[v] != no_index) continue;
+        const Influence influence = pipeline.influence(v);
+        for (std::size_t k = 0; k < influence.count; ++k) {
+            const Index motion = influence.motion.at(k);
+            if (motion >= samples)
+                movers.insert(motion - samples);
+            else
+                by_samples_of_top |= labels.vertex[pipeline.samples()[motion]] == 0;
+        }
+    }
+    EXPECT_EQ(movers, (std::set<Index>{1, labels.outside}));
+    EXPECT_TRUE(by_samples_of_top);
+}
+
 TEST(Pipeline, AHandleMayHoldEverything) {
     for (const bool every_point : {false, true}) {
         Settings settings;
@@ -226,6 +255,24 @@ TEST(Pipeline, DuplicatesMayBelongToDifferentHandles) {
         EXPECT_EQ(at(shape, i), at(shape, i + 700)); // free ones stay together
     EXPECT_TRUE(all_finite(shape));
     EXPECT_LT(desk.handle_error(), 1e-6);
+}
+
+TEST(Pipeline, WhatLiesOnAHeldPointFollowsItsHandle) {
+    const PointCloud once = bar(700);
+    std::vector<std::string> held;
+    for (std::size_t i = 0; i < once.size(); ++i)
+        if (once.position(i).z() > 1) held.push_back(std::to_string(i));
+    std::string points;
+    for (const std::string& i : held) points += (points.empty() ? "" : ",") + i;
+    for (const char* samples : {"5", "300", "\"all\""}) {
+        Desk desk(joined(once, once, {0, 0, 0})); // point i + 700 lies on point i, and no handle holds it
+        desk.play(set(std::string(R"("samples":)") + samples) + foot + point_handle("top", "moving", points) +
+                  drag(turn('x', 70)) + settle(3));
+        const std::vector<float> shape = desk.shape();
+        for (const std::string& i : held)
+            EXPECT_LT((at(shape, std::stoul(i)) - at(shape, std::stoul(i) + 700)).norm(), 1e-6);
+        EXPECT_GT(farthest(desk, every, stays), 0.5);
+    }
 }
 
 TEST(Pipeline, SmallAndFlatCloudsNeitherCrashNorTurnToNothing) {

@@ -25,7 +25,7 @@ std::vector<float> plates(double gap, double spacing_above = 1) {
 }
 
 std::size_t parts(const Graph& graph) {
-    return find_components(graph).size.size();
+    return test::components_of(graph).size.size();
 }
 
 TEST(Bridges, JoinPlatesThatAreNearAndNoOthers) {
@@ -111,7 +111,7 @@ TEST(Outliers, HangOnOneVertexThatIsNone) {
         ASSERT_FALSE(joined.hanging[joined.graph.row(v).front()]);
     }
     EXPECT_EQ(hanging, joined.outliers);
-    const Components components = find_components(joined.graph);
+    const Components components = test::components_of(joined.graph);
     EXPECT_GT(*std::ranges::max_element(components.size), 19900U);
 }
 

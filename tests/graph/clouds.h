@@ -46,9 +46,14 @@ inline Cloud cloud_of(const std::vector<float>& file_positions, std::size_t k = 
     cloud.positions = vertex_positions(order, ordered, machine.workers);
     cloud.code = order.code;
     cloud.graph = neighbor_graph(cloud.positions, k, machine.workers, machine.progress);
-    cloud.components = find_components(cloud.graph);
+    cloud.components = find_components(cloud.graph, machine.workers);
     cloud.lengths = link_lengths(cloud.graph, cloud.positions, machine.workers);
     return cloud;
+}
+
+inline Components components_of(const Graph& graph) {
+    Machine machine;
+    return find_components(graph, machine.workers);
 }
 
 inline std::vector<float> shape_positions(Shape shape, std::size_t points, double gradient = 1) {

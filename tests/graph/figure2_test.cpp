@@ -2,6 +2,7 @@
 
 #include "graph/clouds.h"
 #include "graph/octree.h"
+#include "graph/relaxing.h"
 #include "graph/sampling.h"
 
 #include <cmath>

@@ -136,7 +136,7 @@ std::vector<Index> plain_components(const Graph& graph) {
 }
 
 void expect_plain_components(const Graph& graph) {
-    const Components found = find_components(graph);
+    const Components found = test::components_of(graph);
     const std::vector<Index> plain = plain_components(graph);
     EXPECT_EQ(found.component, plain);
     std::vector<Index> size(found.size.size(), 0);
@@ -149,6 +149,8 @@ TEST(Components, AreThoseOfABreadthFirstSearch) {
         expect_plain_components(neighbors(test::random_positions(2000, 4), k));
         expect_plain_components(neighbors(test::shape_positions(Shape::creature, 3000), k));
     }
+    for (const std::size_t k : {1U, 2U}) // joined by several workers, and between what they join
+        expect_plain_components(neighbors(test::random_positions(50'000, 5), k));
     expect_plain_components(test::cloud_of(test::two_patches(false)).graph);
     expect_plain_components(Graph{});
     expect_plain_components(neighbors({1, 2, 3}, 6));

@@ -35,7 +35,7 @@ std::vector<Index> octree_of(const Cloud& cloud, std::size_t count) {
 
 // Two samples hang together exactly if their vertices do.
 void expect_same_components(const Cloud& cloud, const Sampled& sampled) {
-    const Components components = find_components(sampled.graph.graph);
+    const Components components = test::components_of(sampled.graph.graph);
     std::map<Index, Index> seen; // of each component of the points: that of its samples
     std::set<Index> used;
     for (std::size_t s = 0; s < sampled.samples.size(); ++s) {
@@ -91,7 +91,7 @@ TEST(SampleGraph, CrossesAThinNeck) {
             EXPECT_EQ(result.nearest[samples[s]].sample.at(place) < 10, s < 10)
                 << "the test means the nearest to be on one side";
     expect_same_components(cloud, result);
-    EXPECT_EQ(find_components(result.graph.graph).size.size(), 1U);
+    EXPECT_EQ(test::components_of(result.graph.graph).size.size(), 1U);
 }
 
 TEST(SampleGraph, LinksTheNearestAndWhatTouches) {

@@ -1,5 +1,6 @@
 #include "graph/clouds.h"
 #include "graph/octree.h"
+#include "graph/relaxing.h"
 #include "graph/sampling.h"
 
 #include <map>
@@ -75,8 +76,29 @@ TEST(Relaxed, SpacesSamplesMoreEvenly) {
     }
 }
 
+TEST(Relaxed, TakesTheVertexNearestToTheMiddle) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::knot, 40'000));
+    const std::vector<Index> before = test::random_vertices(cloud.size(), 100, 11);
+    const std::vector<Index> after = relaxed_of(cloud, before, 1);
+    Machine machine;
+    const std::vector<Index> nearest =
+        territories(cloud.graph, cloud.lengths, before, machine.workers, machine.progress);
+    for (Index s = 0; s < before.size(); ++s) {
+        Vec3d middle = Vec3d::Zero();
+        double count = 0;
+        for (Index v = 0; v < cloud.size(); ++v)
+            if (nearest[v] == s) middle += cloud.at(v), count += 1;
+        middle /= count;
+        ASSERT_EQ(nearest[after[s]], s);
+        for (Index v = 0; v < cloud.size(); ++v) {
+            if (nearest[v] != s) continue;
+            ASSERT_LE((cloud.at(after[s]) - middle).norm(), (cloud.at(v) - middle).norm() + 1e-12);
+        }
+    }
+}
+
 TEST(Relaxed, IsTheSameForAnyNumberOfThreads) {
-    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 20000));
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 40'000));
     const std::vector<Index> samples = shuffled(octree_of(cloud, 500));
     const std::vector<Index> one = relaxed_of(cloud, samples, 3, 1);
     EXPECT_EQ(relaxed_of(cloud, samples, 3, 2), one);

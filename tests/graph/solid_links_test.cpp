@@ -57,7 +57,7 @@ TEST(SolidLinks, OfASolidAreMoreAndOneBody) {
     const Graph graph = solid_links_of(cloud);
     EXPECT_GT(graph.neighbor.size(), 12 * graph.size());
     EXPECT_LT(graph.neighbor.size(), 18 * graph.size());
-    EXPECT_EQ(find_components(graph).component, cloud.components.component);
+    EXPECT_EQ(test::components_of(graph).component, cloud.components.component);
     test::expect_well_formed(graph);
     for (Index v = 0; v < graph.size(); ++v)
         EXPECT_TRUE(std::ranges::includes(graph.row(v), cloud.graph.row(v)));

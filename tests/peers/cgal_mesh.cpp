@@ -26,7 +26,8 @@ Components parts_of(std::size_t points, const std::vector<Triangle>& triangles) 
         for (const std::size_t c : {0U, 1U, 2U}) edges.emplace_back(triangle[c], triangle[(c + 1) % 3]);
     Graph unlinked;
     unlinked.first.assign(points + 1, 0);
-    return find_components(with_edges(unlinked, edges));
+    Workers workers(1);
+    return find_components(with_edges(unlinked, edges), workers);
 }
 
 } // namespace

@@ -21,7 +21,7 @@ std::size_t largest_component(const PointCloud& cloud) {
     Workers workers(2);
     SilentProgress progress;
     const Graph graph = neighbor_graph(cloud.positions, 6, workers, progress);
-    const Components components = find_components(graph);
+    const Components components = find_components(graph, workers);
     return *std::max_element(components.size.begin(), components.size.end());
 }
 

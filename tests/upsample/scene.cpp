@@ -46,7 +46,7 @@ std::vector<double> exact_weights(const WideRow& row, Index first_handle, Influe
     const double farthest = row.count() > 0 ? row.distance.at(row.count() - 1) : 0;
     for (std::size_t k = 0; k < row.count(); ++k) {
         const double d = row.distance.at(k);
-        const double nearness = 1 - d / farthest;
+        const double nearness = row.count() < influences_per_row ? 2 - d / farthest : 1 - d / farthest;
         const bool of_handle = row.sample.at(k) >= first_handle;
         const double grows = of_handle ? static_cast<double>(handle_reach) * farthest / d : 1;
         weight.push_back(kind == InfluenceWeights::paper ? 1 / (d * d) : grows * nearness * nearness);

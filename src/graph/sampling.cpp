@@ -22,7 +22,7 @@ bool touches_free(const Graph& graph, std::span<const Index> label, Index v) {
 }
 
 struct Labelled {
-    std::vector<BorderVertex> borders; // ascending
+    std::vector<BorderVertex> borders; // ascending by (label, vertex)
     std::set<Part> parts;              // that labels reach into
 };
 
@@ -45,7 +45,8 @@ Labelled find_labelled(const VertexShape& shape, std::span<const Index> label, W
     });
     Labelled result;
     borders.take([&](const BorderVertex& each) { result.borders.push_back(each); });
-    std::ranges::sort(result.borders);
+    std::ranges::sort(result.borders, {},
+                      [](const BorderVertex& each) { return std::pair(each.label, each.vertex); });
     parts.take([&](const Part& part) { result.parts.insert(part); });
     return result;
 }
@@ -60,6 +61,7 @@ std::vector<Index> one_of_each(const std::set<Part>& parts, const VertexShape& s
             if (label[v] != no_index && parts.contains(part)) vertices[part].push_back(v);
         }
     std::vector<Index> chosen;
+    chosen.reserve(vertices.size());
     for (const auto& [part, among] : vertices)
         chosen.push_back(octree_samples(shape.code, shape.positions, among, 1).front());
     return chosen;

@@ -5,7 +5,6 @@
 #include "graph/neighbors.h"
 #include "graph/territory_borders.h"
 
-#include <compare>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,13 +22,12 @@ struct VertexShape {
 // A vertex of a handle that has a free neighbour.
 struct BorderVertex {
     Index label, vertex;
-    auto operator<=>(const BorderVertex&) const = default;
 };
 
 // What a set of handles needs beside the base samples.
 struct HandleSamples {
     std::vector<Index> added;          // vertices that hold no base sample, pairwise different
-    std::vector<BorderVertex> borders; // all of them, ascending
+    std::vector<BorderVertex> borders; // all of them, ascending by (label, vertex)
 };
 
 // Labels tell the handles apart: label[v] is the handle of vertex v, or no_index where it is free.

@@ -90,11 +90,14 @@ __attribute__((always_inline)) inline float16 blended(__global const number* row
         vstore8(1.0f / (d * d), 0, weight);
     } else {
         const float8 nearness = convert_float8((number8)(farthest) - distance);
-        vstore8(nearness * nearness, 0, weight);
-        near_handle = any(vload8(0, row) >= (number8)(min(how.first_handle, (uint)NONE)));
-        if (near_handle)
-            for (int k = 0; k < 7; ++k)
-                weight[k] = weight_of(row[k], row[8 + k], nearest, farthest, true, how);
+        float8 all = nearness * nearness;
+        const uint8 sample = convert_uint8(vload8(0, row));
+        near_handle = any(sample >= how.first_handle);
+        if (near_handle) {
+            const float8 grown = all * (HANDLE_REACH * (float)farthest / convert_float8(distance));
+            all = select(all, grown, sample >= how.first_handle);
+        }
+        vstore8(all, 0, weight);
     }
     float16 sum = weight[0] * vload16(row[0], motions);
 #pragma unroll

@@ -48,8 +48,8 @@ private:
     PosedFrame back_; // the next frame to hand over; the window gives the one before back
     std::uint64_t frames_ = 0;
     std::vector<std::uint64_t> changed_in_; // of each block of points, the frame
-    std::uint64_t shown_upsampling_ =
-        0; // of the pipeline's, that the last frame shows; 0: it shows another shape
+    // Which of the pipeline's the last frame shows; 0: it shows another shape.
+    std::uint64_t shown_upsampling_ = 0;
     std::string told_of_strays_, told_of_demand_;
     // Copies for the window, which may look at them while the pipeline makes others.
     std::uint64_t samples_seen_ = 0;

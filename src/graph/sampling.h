@@ -30,7 +30,8 @@ struct HandleSamples {
     std::vector<BorderVertex> borders; // all of them, ascending by (label, vertex)
 };
 
-// Labels tell the handles apart: label[v] is the handle of vertex v, or no_index where it is free.
+// The samples that a set of handles adds. Labels tell the handles apart: label[v] is the handle of vertex v,
+// or no_index where it is free.
 //   - Up to `budget` in all, shared out evenly between the labels that have a border, are spread along the
 //     borders.
 //   - Every label owns at least one sample in every component that it reaches into, budget or not.

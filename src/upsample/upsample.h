@@ -16,10 +16,9 @@
 //
 //     n' ∥ cof(I + A̅) n,    |n'| = |n|.
 //
-// The cofactor
-// matrix is the right one for normals of any linear map, scaled handles included; for one rotation it is that
-// rotation, Equation (5). A normal that the map flattens to zero, or whose length squared does not fit a
-// float, stays as it was at rest.
+// The cofactor matrix is the right one for normals of any linear map, scaled handles included; for one
+// rotation it is that rotation, Equation (5). A normal that the map flattens to zero, or whose length squared
+// does not fit a float, stays as it was at rest.
 //
 // The result has the same bits on every run and for any number of threads. Kernel and reference do the same
 // operations in the same order, unfused, and agree to the bit on a device that rounds as IEEE 754 does.

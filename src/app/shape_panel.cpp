@@ -178,7 +178,7 @@ constexpr StraysWords strays_words[] = {
      "Each part that holds no handle follows the nearest that does, as one rigid piece."},
     {Strays::bridge, "Join",
      "Parts with no more than a few point spacings between them are one body: for scans that fall apart. "
-     "Outliers hang on the surface and do not pull at it; what is too far away follows, as one rigid piece."},
+     "What is too far away follows, as one rigid piece."},
 };
 
 void strays_choice(const Ui& ui, const Settings& settings) {

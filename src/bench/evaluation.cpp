@@ -75,7 +75,7 @@ void evaluate_studies(const EvaluationOptions& options, Workers& workers, Upsamp
         result.stretches = evaluate_elasticity(counts, workers, upsampler, progress);
     }
     if (is_chosen(options, sampling_name))
-        result.samplings = evaluate_sampling(options.survey, workers, upsampler, progress);
+        result.samplings = evaluate_sampling(options.survey, options.scans, workers, upsampler, progress);
     if (is_chosen(options, turns_name)) result.turns = evaluate_turns(workers, upsampler, progress);
     if (is_chosen(options, stiffness_name))
         result.stiffnesses = evaluate_stiffness(workers, upsampler, progress);

@@ -2,6 +2,8 @@
 
 #include "bench/made_cloud.h"
 #include "bench/posing.h"
+#include "io/cloud_file.h"
+#include "shapes/random.h"
 
 #include <cmath>
 #include <utility>
@@ -43,6 +45,7 @@ struct Pair {
     DeformationTask task, twin;
     std::size_t counted = 0;
     Strays strays = Strays::freeze; // of the cloud; its twin has none
+    std::vector<std::optional<std::uint64_t>> samples{{}, 1000U};
 };
 
 constexpr std::size_t made_points = 10'000;
@@ -103,7 +106,37 @@ DeformationTask resampled(const DeformationTask& cylinder, Workers& workers, Pro
     return task;
 }
 
-std::vector<Pair> all_pairs(const DataFolders& survey, Workers& workers, Progress& progress) {
+// The same with so many more points, evenly in its box, enlarged by a tenth of its diagonal all round: behind
+// its own, and held by no handle.
+DeformationTask with_dust(DeformationTask task, double fraction) {
+    constexpr std::uint64_t purpose = 1;
+    const std::size_t own = task.cloud.size();
+    const Bounds bounds = bounds_of(task.cloud);
+    const Vec3d margin = Vec3d::Constant(0.1 * bounds.diagonal());
+    std::vector<float> positions = in_file_coordinates(task.cloud, task.cloud.positions);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(fraction * static_cast<double>(own)); ++i) {
+        Random random(1, purpose, i);
+        for (Eigen::Index axis = 0; axis < 3; ++axis)
+            positions.push_back(static_cast<float>(
+                random.between(bounds.lowest[axis] - margin[axis], bounds.highest[axis] + margin[axis])));
+    }
+    task.cloud = make_cloud(positions);
+    return task;
+}
+
+// The dragon, whose coils lie close together, among strays.
+void add_dusty_dragon(const DataFolders& scans, Progress& progress, std::vector<Pair>& pairs) {
+    const auto path = find_data_file(scans, "dragon.ply");
+    if (!path) return;
+    const DeformationTask twin = bending_task("dragon", read_cloud(*path, progress), 60);
+    const std::size_t points = twin.cloud.size();
+    for (const auto& [words, strays] :
+         {std::pair{"2 % strays", Strays::freeze}, {"2 % strays, bridged", Strays::bridge}})
+        pairs.push_back({"dragon, bent 60°", words, with_dust(twin, 0.02), twin, points, strays, {1000U}});
+}
+
+std::vector<Pair> all_pairs(const DataFolders& survey, const DataFolders& scans, Workers& workers,
+                            Progress& progress) {
     const auto task = [&](const char* name, const ShapeOptions& options) {
         return generated_task(name, options, workers, progress);
     };
@@ -131,6 +164,7 @@ std::vector<Pair> all_pairs(const DataFolders& survey, Workers& workers, Progres
         for (const auto& each : samplings)
             pairs.push_back(
                 {words, each.words, task(name, each.options), task(name, even()), made_points, each.strays});
+    add_dusty_dragon(scans, progress, pairs);
     return pairs;
 }
 
@@ -154,11 +188,11 @@ SamplingResult compare_samplings(const DeformationTask& task, std::size_t counte
     return result;
 }
 
-std::vector<SamplingResult> evaluate_sampling(const DataFolders& survey, Workers& workers,
-                                              Upsampler& upsampler, Progress& progress) {
+std::vector<SamplingResult> evaluate_sampling(const DataFolders& survey, const DataFolders& scans,
+                                              Workers& workers, Upsampler& upsampler, Progress& progress) {
     std::vector<SamplingResult> results;
-    for (const Pair& pair : all_pairs(survey, workers, progress))
-        for (const std::optional<std::uint64_t> samples : {std::optional<std::uint64_t>{}, {1000U}}) {
+    for (const Pair& pair : all_pairs(survey, scans, workers, progress))
+        for (const std::optional<std::uint64_t>& samples : pair.samples) {
             results.push_back(compare_samplings(pair.task, pair.counted, pair.twin, samples, pair.strays,
                                                 workers, upsampler, progress));
             results.back().shape = pair.shape;

@@ -31,9 +31,9 @@ struct SamplingResult {
 
 // All pairs: even twins with another seed (what is left between them is the yardstick), rings (with the
 // survey's cylinder, where its folder is at hand), densities of 1 : 20, noise, strays, and both; each
-// with every point a sample and with 1000.
-std::vector<SamplingResult> evaluate_sampling(const DataFolders& survey, Workers& workers,
-                                              Upsampler& upsampler, Progress& progress);
+// with every point a sample and with 1000. And, with 1000, the dragon among strays, where it is at hand.
+std::vector<SamplingResult> evaluate_sampling(const DataFolders& survey, const DataFolders& scans,
+                                              Workers& workers, Upsampler& upsampler, Progress& progress);
 
 // One pair. `counted`: how many of the first cloud's points are no strays; they come first. `strays`: what
 // becomes of them. Both tasks have the same motion.

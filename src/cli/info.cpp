@@ -96,7 +96,7 @@ void count_components(const PointCloud& cloud, Progress& progress, Facts& facts)
     facts.components = components.size.size();
     facts.largest_component = largest(components);
     clock.lap();
-    const BridgedGraph joined = bridged(graph, positions, workers, progress);
+    const JoinedGraph joined = bridged(graph, positions, workers, progress);
     const Components bodies = find_components(joined.graph, workers);
     facts.bridged = {bodies.size.size(), largest(bodies), joined.outliers, clock.lap()};
 }

@@ -76,8 +76,8 @@ std::vector<Index> choose(const Graph& graph, std::span<const Index> handle, con
     chosen.resize(std::min(chosen.size(), count));
     for (Index& s : chosen) s = ordered.place[s];
     SilentProgress progress;
-    chosen = relaxed(std::move(chosen), ordered.graph, lengths, ordered.positions, relaxing_rounds, workers,
-                     progress);
+    chosen = relaxed(std::move(chosen), ordered.graph, lengths, ordered.positions, {}, relaxing_rounds,
+                     workers, progress);
     const double spacing = std::sqrt(static_cast<double>(handle.size()) / static_cast<double>(count));
     for (const auto& [whose, samples] : border_samples(graph, handle)) {
         const auto share = static_cast<std::size_t>(std::ceil(static_cast<double>(samples.size()) / spacing));

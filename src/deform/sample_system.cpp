@@ -14,6 +14,9 @@ namespace {
 // The stiffness for which γ is one half.
 constexpr double next_to_nothing = 1e-4;
 
+// Of the weight of a leaf's link.
+constexpr double leaf_share = 1e-3;
+
 // Which samples hang together with no handle.
 std::vector<bool> find_left_out(const SampleRest& rest, Workers& workers) {
     const Components components = find_components(rest.graph, workers);
@@ -127,11 +130,25 @@ void find_pull(SampleSystem& system) {
     }
 }
 
+// Whether a free sample has one link alone, to a sample that has more.
+bool is_leaf(const SampleRest& rest, Index i) {
+    return rest.handle[i] == no_index && rest.graph.row(i).size() == 1 &&
+           rest.graph.row(rest.graph.row(i).front()).size() > 1;
+}
+
+void lighten_leaves(SampleRest& rest) {
+    const Graph& graph = rest.graph;
+    for (Index i = 0; i < graph.size(); ++i)
+        for (Index link = graph.first[i]; link < graph.first[i + 1]; ++link)
+            if (is_leaf(rest, i) || is_leaf(rest, graph.neighbor[link])) rest.weight[link] *= leaf_share;
+}
+
 void find_confidence(SampleSystem& system, double square_length) {
     const SampleRest& rest = system.rest;
     system.confidence.assign(system.free_sample.size(), 0);
     for (std::size_t row = 0; row < system.free_sample.size(); ++row) {
         const Index i = system.free_sample[row];
+        if (is_leaf(rest, i)) continue;
         for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link)
             system.confidence[row] +=
                 rest.weight[link] *
@@ -169,6 +186,7 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     require(rest.position.size() == rest.graph.size() && rest.handle.size() == rest.graph.size(),
             "an entry a sample");
     system.rest = std::move(rest);
+    lighten_leaves(system.rest);
     system.left_out = find_left_out(system.rest, workers);
     number_unknowns(system);
     const double square_length = mean_square_length(system);

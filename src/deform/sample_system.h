@@ -27,6 +27,10 @@
 // does the shape depend on how many samples there are. With γ = 1 only α resists. A sheet for which α is next
 // to nothing would wrinkle and not come to rest; there the resistance of the links is what holds it.
 //
+// A leaf, a free sample with one link, to a sample with more, is sent the same way whatever that link weighs:
+// along with the other end. So its link counts with a thousandth of its weight, and C is 0 there: the turn
+// that one edge leaves open is that of the other end, which does not notice how long the edge is.
+//
 // The fixed point of these steps is what knead means by the deformed shape. Both matrices stand as long as
 // the handle set and the rest shape do. Everything is solved for u and r - 1, which are exactly zero where
 // nothing moves.

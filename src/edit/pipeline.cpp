@@ -125,10 +125,13 @@ void Pipeline::prepare_bridges(Progress& progress) {
     const Stopwatch clock;
     graph_ = neighbors_;
     hanging_.clear();
-    if (input_.settings.strays == knead::Strays::bridge) {
-        BridgedGraph joined = bridged(*neighbors_, vertex_positions(), workers_, progress);
-        graph_ = std::make_shared<const Graph>(std::move(joined.graph));
-        if (joined.outliers > 0) hanging_ = std::move(joined.hanging);
+    std::optional<JoinedGraph> joined =
+        input_.settings.strays == knead::Strays::bridge
+            ? bridged(*neighbors_, vertex_positions(), workers_, progress)
+            : with_hanging_outliers(*neighbors_, vertex_positions(), workers_, progress);
+    if (joined) {
+        graph_ = std::make_shared<const Graph>(std::move(joined->graph));
+        if (joined->outliers > 0) hanging_ = std::move(joined->hanging);
     }
     components_ = std::make_shared<const Components>(find_components(*graph_, workers_));
     link_lengths_ = link_lengths(*graph_, vertex_positions(), workers_);
@@ -146,12 +149,8 @@ void Pipeline::prepare_samples(Progress& progress) {
         if (!hanging_.empty()) std::erase_if(samples_, [&](Index v) { return hanging_[v] != 0; });
         const auto chosen =
             octree_samples(order_.code, vertex_positions(), samples_, *input_.settings.samples);
-        samples_ = relaxed(shuffled(chosen), *graph_, link_lengths_, vertex_positions(), relaxing_rounds,
-                           workers_, progress);
-        // A sample that was moved to an outlier goes on to where that hangs: no other sample has it nearest.
-        if (!hanging_.empty())
-            for (Index& v : samples_)
-                if (hanging_[v]) v = graph_->row(v).front();
+        samples_ = relaxed(shuffled(chosen), *graph_, link_lengths_, vertex_positions(), hanging_,
+                           relaxing_rounds, workers_, progress);
     }
     base_samples_ = samples_.size();
     seconds_.sampling += clock.lap();

@@ -3,7 +3,7 @@
 // changes.
 //
 //     neighbors                 → order, graph, components
-//     strays: bridge or not     → bridges between components, outliers, components again (graph/bridges.h)
+//     strays: bridge or not     → outliers, bridges between components, components again (graph/bridges.h)
 //     samples                   → base samples and their flood
 //     handle set                → labels, handle samples, sample graph, coarse samples; the flood from the
 //                                 borders of the handles (both flood only what they reach)
@@ -19,8 +19,9 @@
 // What becomes of components that hold no handle is the setting `strays`:
 //     freeze    they stay where they are
 //     carry     each follows the nearest that holds one, rigidly
-//     bridge    components with a gap comparable to their spacing are one to begin with, outliers hang on the
-//               surface and do not pull, and what is too far away to be joined is carried
+//     bridge    components with a gap comparable to their spacing are one to begin with, and what is too far
+//               away to be joined is carried
+// Outliers hang on the surface and do not pull, whatever it says.
 
 #include "base/progress.h"
 #include "deform/acceleration.h"
@@ -62,7 +63,7 @@ struct PipelineInput {
 // Wall-clock seconds spent in each stage so far.
 struct StageSeconds {
     double order = 0;     // Morton order, duplicates
-    double neighbors = 0; // graph, components, bridges if `strays` asks for them
+    double neighbors = 0; // graph, outliers, components, bridges if `strays` asks for them
     double sampling = 0;  // base samples, labels, handle samples
     double geodesic = 0;  // floods, sample graph, influences, coarse samples
     double factorize = 0; // ordering and factorisation of both systems
@@ -196,7 +197,7 @@ private:
     std::shared_ptr<const Graph> neighbors_; // of the vertices
     std::shared_ptr<const Graph> graph_;     // the same, or bridged
     std::shared_ptr<const Components> components_;
-    std::vector<std::uint8_t> hanging_; // of each vertex: 1 for an outlier; empty without bridges
+    std::vector<std::uint8_t> hanging_; // of each vertex: 1 for an outlier that hangs; empty without any
     std::vector<std::uint8_t> link_lengths_;
 
     bool every_point_ = false;

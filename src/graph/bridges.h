@@ -1,10 +1,11 @@
 #pragma once
-// One body out of the parts that a scan falls into: the graph behind the setting `strays` = "bridge".
+// What a scan holds beside its surface: outliers, and the parts that it falls into. Outliers hang on the
+// surface whatever the setting `strays` says; parts become one body where it says "bridge".
 //
 // Everything is judged from the spacing of the points round about, never from the size of the cloud. A
 // vertex's *own* spacing is the distance to its third nearest neighbour, on an even surface about the
-// distance of rows; the spacing *around* it is the median of those of its six nearest neighbours, so that one
-// point that is out of the ordinary does not count.
+// distance of rows: nearer ones may be nearly the same point, seen twice. The spacing *around* it is the
+// third lowest of its neighbours' own, so that a few that are out of the ordinary do not count.
 //
 //   - **Bridges.** Wherever a vertex of one component has vertices of others within `widest_gap` of the
 //     spacings around both ends, the nearest of them is linked to it. Of both: points that are rare reach
@@ -12,11 +13,13 @@
 //     together all along, and not hinged at one place. Components that are too far stay apart. Nothing is
 //     ever linked within a component: limbs that nearly touch stay as separate as they were.
 //   - **Outliers** keep no links but one, to the nearest vertex that is none. There they hang like dust, go
-//     where it goes, and neither pull at the surface nor tie surfaces together that they lie between; what
-//     only outliers tied together comes apart, and may be bridged. Cut all links that are longer than
-//     `short_way` of the spacings around both ends: the pieces that are then left are outliers if most of
-//     their vertices stick out, farther than `short_way` of the spacing there from the nearest vertex of
-//     another piece, and
+//     where it goes, and neither pull at the surface nor tie surfaces together that they lie between. With
+//     bridges what only outliers tied together comes apart, and may be bridged. Without, what is together
+//     stays together: pieces that dust lay between, outliers that are linked through each other, are tied to
+//     the largest of them by one link each; and a part of nothing but outliers is a part like others.
+//     Cut all links that are longer than `short_way` of the spacings around both ends: the
+//     pieces that are then left are outliers if most of their vertices stick out, farther than `short_way` of
+//     the spacing there from the nearest vertex of another piece, and
 //         - they are crumbs, of fewer than `crumb` vertices, or
 //         - they are mist: a piece of less than a tenth of all vertices, where that vertex lies within ten of
 //           a vertex's own spacings, and the spacing there is less than that by a factor of `short_way`.
@@ -25,6 +28,7 @@
 #include "graph/neighbors.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,16 +38,20 @@ inline constexpr double widest_gap = 8;
 inline constexpr double short_way = 2.5;
 inline constexpr std::size_t crumb = 7;
 
-struct BridgedGraph {
+struct JoinedGraph {
     Graph graph;                       // of the same vertices
     std::vector<std::uint8_t> hanging; // of each vertex: 1 if it is an outlier, a leaf of the graph
-    std::size_t bridges = 0;           // links that join components
+    std::size_t bridges = 0;           // links that join what would be components without
     std::size_t outliers = 0;          // vertices that hang
 };
 
 // `graph`: of the nearest neighbours (neighbor_graph()); `positions`: 3 floats a vertex, in Morton order.
 // The result is the same whatever the number of workers.
-BridgedGraph bridged(const Graph& graph, std::span<const float> positions, Workers& workers,
-                     Progress& progress);
+JoinedGraph bridged(const Graph& graph, std::span<const float> positions, Workers& workers,
+                    Progress& progress);
+
+// The same without bridges but those ties; nothing if no outlier is to hang.
+std::optional<JoinedGraph> with_hanging_outliers(const Graph& graph, std::span<const float> positions,
+                                                 Workers& workers, Progress& progress);
 
 } // namespace knead

@@ -4,6 +4,14 @@
 
 namespace knead {
 
+namespace {
+
+float distance_between(std::span<const float> positions, std::size_t v, std::size_t u) {
+    return static_cast<float>((point_at(positions, v) - point_at(positions, u)).norm());
+}
+
+} // namespace
+
 Nearest find_nearest(const Graph& graph, std::span<const float> positions, std::size_t v) {
     Nearest result;
     for (const Index u : graph.row(v)) {
@@ -20,10 +28,6 @@ Nearest find_nearest(const Graph& graph, std::span<const float> positions, std::
         result.near[place] = next;
     }
     return result;
-}
-
-float distance_between(std::span<const float> positions, std::size_t v, std::size_t u) {
-    return static_cast<float>((point_at(positions, v) - point_at(positions, u)).norm());
 }
 
 } // namespace knead

@@ -20,7 +20,4 @@ struct Nearest {
 // vertex.
 Nearest find_nearest(const Graph& graph, std::span<const float> positions, std::size_t v);
 
-// Between two vertices, in the unit of the positions.
-float distance_between(std::span<const float> positions, std::size_t v, std::size_t u);
-
 } // namespace knead

@@ -1,6 +1,7 @@
 #include "graph/neighbors.h"
 
 #include "base/gathered.h"
+#include "base/require.h"
 #include "graph/nearest_lists.h"
 #include "graph/symmetric_graph.h"
 
@@ -31,15 +32,18 @@ void join(std::vector<Index>& parent, Index v, Index u) {
 
 // The first vertex of each vertex's component. Each worker joins what is linked inside of a range of
 // vertices; few links lead out of one, to near numbers as they do.
-std::vector<Index> roots_of(const Graph& graph, Workers& workers) {
+template<typename Stays>
+std::vector<Index> roots_of(const Graph& graph, Stays&& stays, Workers& workers) {
     std::vector<Index> parent(graph.size());
     std::iota(parent.begin(), parent.end(), Index{0});
     Gathered<std::pair<Index, Index>> leaving;
     workers.for_chunks(graph.size(), vertices_a_range, [&](std::size_t begin, std::size_t end) {
         Gathered<std::pair<Index, Index>>::Block out(leaving);
         for (auto v = static_cast<Index>(begin); v < end; ++v)
-            for (const Index u : graph.row(v)) {
+            for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link) {
+                const Index u = graph.neighbor[link];
                 if (u > v) break; // rows ascend, and the edge is met again from its other end
+                if (!stays(link)) continue;
                 if (u >= begin)
                     join(parent, v, u);
                 else
@@ -54,6 +58,18 @@ std::vector<Index> roots_of(const Graph& graph, Workers& workers) {
         root[v] = at;
     });
     return root;
+}
+
+Components components_of(std::span<const Index> root) {
+    Components components;
+    components.component.resize(root.size());
+    for (Index v = 0; v < root.size(); ++v) { // a root stands before all others of its component
+        if (root[v] == v) components.size.push_back(0);
+        components.component[v] =
+            root[v] == v ? static_cast<Index>(components.size.size() - 1) : components.component[root[v]];
+        ++components.size[components.component[v]];
+    }
+    return components;
 }
 
 } // namespace
@@ -72,16 +88,14 @@ Graph neighbor_graph(std::span<const float> positions, std::size_t k, Workers& w
 }
 
 Components find_components(const Graph& graph, Workers& workers) {
-    const std::vector<Index> root = roots_of(graph, workers);
-    Components components;
-    components.component.resize(graph.size());
-    for (Index v = 0; v < graph.size(); ++v) { // a root stands before all others of its component
-        if (root[v] == v) components.size.push_back(0);
-        components.component[v] =
-            root[v] == v ? static_cast<Index>(components.size.size() - 1) : components.component[root[v]];
-        ++components.size[components.component[v]];
-    }
-    return components;
+    return components_of(roots_of(
+        graph, [](Index) { return true; }, workers));
+}
+
+Components find_components(const Graph& graph, std::span<const std::uint8_t> stays, Workers& workers) {
+    require(stays.size() == graph.neighbor.size(), "a word on every link");
+    return components_of(roots_of(
+        graph, [&](Index link) { return stays[link] != 0; }, workers));
 }
 
 } // namespace knead

@@ -5,6 +5,7 @@
 #include "base/workers.h"
 #include "graph/csr.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,5 +21,9 @@ struct Components {
     std::vector<Index> size; // vertices in each
 };
 Components find_components(const Graph& graph, Workers& workers);
+
+// The same of those links alone whose entry in `stays` is not 0: one for every entry of graph.neighbor, the
+// same for both directions of a link.
+Components find_components(const Graph& graph, std::span<const std::uint8_t> stays, Workers& workers);
 
 } // namespace knead

@@ -2,12 +2,11 @@
 
 #include "graph/bridges.h"
 #include "graph/group_tree.h"
-#include "graph/nearest.h"
 #include "graph/neighbors.h"
-#include "graph/symmetric_graph.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -17,25 +16,47 @@ namespace {
 
 constexpr std::size_t grain = 2048;
 
-// Of the nearest neighbours, the one whose distance is the spacing: those before it may be nearly the same
-// point, seen twice.
-constexpr std::size_t usual_neighbor = 3;
-
 constexpr double mist_reach = 10;          // of its own spacings
 constexpr std::size_t smallest_share = 10; // mist is less than a tenth
+
+float squared_distance(std::span<const float> positions, std::size_t v, std::size_t u) {
+    const float x = positions[3 * v] - positions[3 * u];
+    const float y = positions[3 * v + 1] - positions[3 * u + 1];
+    const float z = positions[3 * v + 2] - positions[3 * u + 2];
+    return x * x + y * y + z * z;
+}
+
+// The third lowest of a row's values, or the highest of fewer; 0 of none. Without a branch: there is nothing
+// for a processor to guess.
+template<typename ValueOf>
+float third_of(std::span<const Index> row, ValueOf&& value_of) {
+    if (row.empty()) return 0;
+    constexpr float none = std::numeric_limits<float>::infinity();
+    std::array<float, 3> lowest{none, none, none};
+    for (const Index u : row) {
+        float next = value_of(u);
+        for (float& held : lowest) {
+            const float higher = std::max(held, next);
+            held = std::min(held, next);
+            next = higher;
+        }
+    }
+    return lowest[std::min(row.size(), lowest.size()) - 1];
+}
 
 // The pieces that are left when long links are cut.
 Components cut_long_links(const Graph& graph, std::span<const float> positions,
                           std::span<const float> spacing, Workers& workers) {
     std::vector<std::uint8_t> is_short(graph.neighbor.size());
+    constexpr auto limit = static_cast<float>(short_way * short_way);
     workers.for_each(graph.size(), grain, [&](std::size_t v) {
         for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link) {
             const Index u = graph.neighbor[link];
-            const double limit = short_way * static_cast<double>(std::min(spacing[v], spacing[u]));
-            is_short[link] = static_cast<double>(distance_between(positions, v, u)) <= limit ? 1 : 0;
+            const float lower = std::min(spacing[v], spacing[u]);
+            is_short[link] = squared_distance(positions, v, u) <= limit * lower * lower ? 1 : 0;
         }
     });
-    return find_components(rewired(graph, is_short, {}, workers), workers);
+    return find_components(graph, is_short, workers);
 }
 
 // Of each vertex, whether it sticks out from the pieces that are larger than crumbs.
@@ -65,24 +86,14 @@ std::vector<std::uint8_t> find_sticking_out(std::span<const float> positions, co
 
 Spacings find_spacings(const Graph& graph, std::span<const float> positions, Workers& workers) {
     Spacings spacings;
-    spacings.own.assign(graph.size(), 0);
-    spacings.around.assign(graph.size(), 0);
-    std::vector<std::array<Index, Nearest::most>> nearest(graph.size());
+    spacings.own.resize(graph.size());
+    spacings.around.resize(graph.size());
     workers.for_each(graph.size(), grain, [&](std::size_t v) {
-        const Nearest found = find_nearest(graph, positions, v);
-        nearest[v].fill(no_index);
-        for (std::size_t i = 0; i < found.count; ++i) nearest[v][i] = found.near[i].second;
-        if (found.count > 0) spacings.own[v] = found.near[std::min(usual_neighbor, found.count) - 1].first;
+        spacings.own[v] =
+            std::sqrt(third_of(graph.row(v), [&](Index u) { return squared_distance(positions, v, u); }));
     });
     workers.for_each(graph.size(), grain, [&](std::size_t v) {
-        std::array<float, Nearest::most> own;
-        auto end = own.begin();
-        for (const Index u : nearest[v])
-            if (u != no_index) *end++ = spacings.own[u];
-        if (end == own.begin()) return;
-        const auto middle = own.begin() + (end - own.begin() - 1) / 2;
-        std::nth_element(own.begin(), middle, end);
-        spacings.around[v] = *middle;
+        spacings.around[v] = third_of(graph.row(v), [&](Index u) { return spacings.own[u]; });
     });
     return spacings;
 }
@@ -90,6 +101,8 @@ Spacings find_spacings(const Graph& graph, std::span<const float> positions, Wor
 std::vector<std::uint8_t> find_outliers(const Graph& graph, std::span<const float> positions,
                                         const Spacings& spacings, Workers& workers) {
     const Components pieces = cut_long_links(graph, positions, spacings.around, workers);
+    const auto may_be_outliers = [&](std::size_t size) { return smallest_share * size < graph.size(); };
+    if (std::ranges::none_of(pieces.size, may_be_outliers)) return std::vector<std::uint8_t>(graph.size(), 0);
     const std::vector<std::uint8_t> sticks_out = find_sticking_out(positions, spacings, pieces, workers);
     std::vector<std::size_t> count(pieces.size.size(), 0);
     for (std::size_t v = 0; v < sticks_out.size(); ++v) count[pieces.component[v]] += sticks_out[v];

@@ -94,9 +94,14 @@ void move_to_middles(std::span<const Index> territory, std::span<const float> po
 
 std::vector<Index> relaxed(std::vector<Index> samples, const Graph& graph,
                            std::span<const std::uint8_t> lengths, std::span<const float> positions,
-                           int rounds, Workers& workers, Progress& progress) {
-    for (int round = 0; round < rounds; ++round)
-        move_to_middles(territories(graph, lengths, samples, workers, progress), positions, samples, workers);
+                           std::span<const std::uint8_t> barred, int rounds, Workers& workers,
+                           Progress& progress) {
+    for (int round = 0; round < rounds; ++round) {
+        std::vector<Index> territory = territories(graph, lengths, samples, workers, progress);
+        for (std::size_t v = 0; v < barred.size(); ++v)
+            if (barred[v]) territory[v] = no_index;
+        move_to_middles(territory, positions, samples, workers);
+    }
     return samples;
 }
 

@@ -171,37 +171,42 @@ TEST(Bridged, CloudsThatHangTogetherDoAsBefore) {
 
 // --- Outliers
 
+const std::string freeze = set(R"("strays":"freeze")");
 const std::vector<Vec3d> dust{{1.5, 0, 0}, {1.7, 0.2, -0.4}, {-1.6, 0, 1}, {1.9, 0, 2.2}};
 
 TEST(Outlier, HeldOrNotDragsNothing) {
-    for (const char* samples : {"200", "\"all\""}) {
-        Desk desk(with(bar(bar_points), dust));
-        desk.play(foot + bridge + set(std::string(R"("samples":)") + samples) +
-                  R"({"op":"handle","name":"top","role":"moving","points":[1500,1501]})"
-                  "\n" +
-                  drag(lift) + settle(5));
-        const std::vector<float> shape = desk.shape();
-        const std::vector<float>& rest = desk.document().cloud().positions;
-        EXPECT_TRUE(std::equal(rest.begin(), rest.begin() + 3 * bar_points, shape.begin()));
-        EXPECT_LT(desk.handle_error(), 1e-6);
-        EXPECT_EQ((at(shape, 1500) - at(rest, 1500)), Vec3d(0.5, 0, 0.25));
-    }
+    for (const std::string& mode : {freeze, carry, bridge})
+        for (const char* samples : {"200", "\"all\""}) {
+            Desk desk(with(bar(bar_points), dust));
+            desk.play(foot + mode + set(std::string(R"("samples":)") + samples) +
+                      R"({"op":"handle","name":"top","role":"moving","points":[1500,1501]})"
+                      "\n" +
+                      drag(lift) + settle(5));
+            const std::vector<float> shape = desk.shape();
+            const std::vector<float>& rest = desk.document().cloud().positions;
+            EXPECT_TRUE(std::equal(rest.begin(), rest.begin() + 3 * bar_points, shape.begin()));
+            EXPECT_LT(desk.handle_error(), 1e-6);
+            EXPECT_EQ((at(shape, 1500) - at(rest, 1500)), Vec3d(0.5, 0, 0.25));
+        }
 }
 
 TEST(Outlier, HangsOnTheSurfaceAndLeavesItsShape) {
-    Desk clean(bar(bar_points)), dusty(with(bar(bar_points), dust));
-    const std::string lines = bridge + set(R"("samples":"all")") + ends + drag(turn('y', 70)) + settle(60);
-    clean.play(lines);
-    dusty.play(lines);
-    const std::vector<float> expected = clean.shape(), shape = dusty.shape();
-    const auto& origin = dusty.document().cloud().origin;
-    double farthest = 0;
-    for (std::size_t i = 0; i < bar_points; ++i)
-        farthest = std::max(
-            farthest, ((at(shape, i) + origin) - (at(expected, i) + clean.document().cloud().origin)).norm());
-    EXPECT_LT(farthest, 0.01 * clean.diagonal());
-    const std::vector<float>& rest = dusty.document().cloud().positions;
-    EXPECT_GT((at(shape, 1503) - at(rest, 1503)).norm(), 0.5); // held by the top, beside it
+    for (const std::string& mode : {freeze, carry, bridge}) {
+        Desk clean(bar(bar_points)), dusty(with(bar(bar_points), dust));
+        const std::string lines = mode + set(R"("samples":"all")") + ends + drag(turn('y', 70)) + settle(60);
+        clean.play(lines);
+        dusty.play(lines);
+        const std::vector<float> expected = clean.shape(), shape = dusty.shape();
+        const auto& origin = dusty.document().cloud().origin;
+        double farthest = 0;
+        for (std::size_t i = 0; i < bar_points; ++i)
+            farthest = std::max(
+                farthest,
+                ((at(shape, i) + origin) - (at(expected, i) + clean.document().cloud().origin)).norm());
+        EXPECT_LT(farthest, 0.01 * clean.diagonal());
+        const std::vector<float>& rest = dusty.document().cloud().positions;
+        EXPECT_GT((at(shape, 1503) - at(rest, 1503)).norm(), 0.5); // held by the top, beside it
+    }
 }
 
 } // namespace

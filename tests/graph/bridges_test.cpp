@@ -9,9 +9,14 @@ namespace {
 
 using namespace test;
 
-BridgedGraph bridged_of(const Cloud& cloud, unsigned threads = 2) {
+JoinedGraph bridged_of(const Cloud& cloud, unsigned threads = 2) {
     Machine machine(threads);
     return bridged(cloud.graph, cloud.positions, machine.workers, machine.progress);
+}
+
+std::optional<JoinedGraph> hung_of(const Cloud& cloud, unsigned threads = 2) {
+    Machine machine(threads);
+    return with_hanging_outliers(cloud.graph, cloud.positions, machine.workers, machine.progress);
 }
 
 // Two square plates of unit spacing, one above the other.
@@ -32,7 +37,7 @@ TEST(Bridges, JoinPlatesThatAreNearAndNoOthers) {
     for (const double gap : {2.3, 5.0}) {
         const Cloud cloud = cloud_of(plates(gap));
         ASSERT_EQ(cloud.components.size.size(), 2U);
-        const BridgedGraph joined = bridged_of(cloud);
+        const JoinedGraph joined = bridged_of(cloud);
         EXPECT_EQ(parts(joined.graph), 1U) << gap;
         EXPECT_GE(joined.bridges, 400U) << "they are not sewn together all along";
         EXPECT_EQ(joined.outliers, 0U);
@@ -54,7 +59,7 @@ TEST(Bridges, LinkNothingWithinAComponent) {
     clouds.push_back({"plates", cloud_of(plates(2.5))});
     clouds.push_back({"large knot", cloud_of(shape_positions(Shape::knot, 20000))});
     for (const auto& [name, cloud] : clouds) {
-        const BridgedGraph joined = bridged_of(cloud);
+        const JoinedGraph joined = bridged_of(cloud);
         expect_well_formed(joined.graph);
         for (Index v = 0; v < cloud.size(); ++v) {
             for (const Index u : joined.graph.row(v)) {
@@ -75,54 +80,91 @@ TEST(Bridges, AreTheSameWhateverTheNumberOfWorkers) {
     const std::vector<float> dust = random_positions(60, 5, {10, 10, 9});
     positions.insert(positions.end(), dust.begin(), dust.end());
     const Cloud cloud = cloud_of(positions);
-    const BridgedGraph one = bridged_of(cloud, 1), three = bridged_of(cloud, 3);
+    const JoinedGraph one = bridged_of(cloud, 1), three = bridged_of(cloud, 3);
     EXPECT_TRUE(same_graph(one.graph, three.graph));
     EXPECT_EQ(one.hanging, three.hanging);
 }
 
 // --- Outliers
 
-TEST(Outliers, BetweenTwoSurfacesTieThemNot) {
+TEST(Outliers, BetweenTwoSurfacesTieThemNotWhereThereAreBridges) {
     std::vector<float> positions = plates(24);
     for (const double x : {8.0, 10.5, 13.0}) append(positions, Vec3d(x, 9, 12));
     const Cloud cloud = cloud_of(positions);
     ASSERT_EQ(cloud.components.size.size(), 1U) << "there is nothing to be taken apart";
-    const BridgedGraph joined = bridged_of(cloud);
+    const JoinedGraph joined = bridged_of(cloud);
     EXPECT_EQ(joined.outliers, 3U);
     EXPECT_EQ(parts(joined.graph), 2U);
+    const JoinedGraph hung = hung_of(cloud).value();
+    EXPECT_EQ(hung.outliers, 3U);
+    EXPECT_EQ(hung.bridges, 1U);
+    EXPECT_EQ(parts(hung.graph), 1U) << "what was together came apart";
 }
 
-TEST(Outliers, HangOnOneVertexThatIsNone) {
+PointCloud dusty_knot(Machine& machine) {
     ShapeOptions options;
     options.points = 20000;
     options.outliers = 0.02;
+    return make_shape(Shape::knot, options, machine.workers, machine.progress);
+}
+
+TEST(Outliers, HangOnOneVertexThatIsNone) {
     Machine machine;
-    const PointCloud knot = make_shape(Shape::knot, options, machine.workers, machine.progress);
-    const Cloud cloud = cloud_of(knot.positions);
-    const BridgedGraph joined = bridged_of(cloud);
-    expect_well_formed(joined.graph);
-    EXPECT_GT(joined.outliers, 280U); // of 400, some of them near the surface
-    EXPECT_LT(joined.outliers, 420U);
-    std::size_t hanging = 0;
-    for (std::size_t v = 0; v < cloud.size(); ++v) {
-        if (!joined.hanging[v]) continue;
-        ++hanging;
-        ASSERT_EQ(joined.graph.row(v).size(), 1U);
-        ASSERT_FALSE(joined.hanging[joined.graph.row(v).front()]);
+    const Cloud cloud = cloud_of(dusty_knot(machine).positions);
+    for (const JoinedGraph& joined : {bridged_of(cloud), hung_of(cloud).value()}) {
+        expect_well_formed(joined.graph);
+        EXPECT_GT(joined.outliers, 280U); // of 400, some of them near the surface
+        EXPECT_LT(joined.outliers, 420U);
+        std::size_t hanging = 0;
+        for (std::size_t v = 0; v < cloud.size(); ++v) {
+            if (!joined.hanging[v]) continue;
+            ++hanging;
+            ASSERT_EQ(joined.graph.row(v).size(), 1U);
+            ASSERT_FALSE(joined.hanging[joined.graph.row(v).front()]);
+        }
+        EXPECT_EQ(hanging, joined.outliers);
+        const Components components = test::components_of(joined.graph);
+        EXPECT_GT(*std::ranges::max_element(components.size), 19900U);
     }
-    EXPECT_EQ(hanging, joined.outliers);
-    const Components components = test::components_of(joined.graph);
-    EXPECT_GT(*std::ranges::max_element(components.size), 19900U);
+}
+
+TEST(Outliers, HangWithoutBridgesAndPartsStayWhatTheyWere) {
+    Machine machine;
+    std::vector<float> positions = dusty_knot(machine).positions;
+    const std::vector<float> far = random_positions(40, 7, {0.1, 0.1, 0.1});
+    for (std::size_t i = 0; i < far.size(); ++i) positions.push_back(far[i] + (i % 3 == 0 ? 9 : 0));
+    const Cloud cloud = cloud_of(positions);
+    ASSERT_GT(cloud.components.size.size(), 1U);
+    const JoinedGraph hung = hung_of(cloud).value();
+    EXPECT_EQ(test::components_of(hung.graph).component, cloud.components.component);
+    std::size_t ties = 0;
+    for (Index v = 0; v < cloud.size(); ++v)
+        for (const Index u : hung.graph.row(v))
+            ties += hung.hanging[v] || hung.hanging[u] || find_link(cloud.graph, v, u) ? 0 : 1;
+    EXPECT_EQ(ties, 2 * hung.bridges);
+    const JoinedGraph alone = hung_of(cloud, 1).value();
+    EXPECT_TRUE(same_graph(alone.graph, hung.graph));
+    EXPECT_EQ(alone.hanging, hung.hanging);
+}
+
+TEST(Outliers, AreNotFoundWhereThereAreNone) {
+    EXPECT_FALSE(hung_of(cloud_of(shape_positions(Shape::knot, 20000))));
+    EXPECT_FALSE(hung_of(cloud_of(plates(5))));
+    EXPECT_FALSE(hung_of(cloud_of({})));
 }
 
 TEST(Outliers, AreNeverAll) {
     for (const std::size_t points : {0U, 1U, 2U, 3U, 6U, 8U, 40U}) {
         const Cloud cloud = cloud_of(random_positions(points, 11));
-        const BridgedGraph joined = bridged_of(cloud);
+        const JoinedGraph joined = bridged_of(cloud);
         expect_well_formed(joined.graph);
         EXPECT_EQ(joined.graph.size(), points);
         if (points > 0) {
             EXPECT_LT(joined.outliers, points);
+        }
+        if (const auto hung = hung_of(cloud)) {
+            expect_well_formed(hung->graph);
+            EXPECT_LT(hung->outliers, points);
         }
     }
 }

@@ -3,6 +3,7 @@
 
 #include "graph/flood.h"
 #include "graph/neighbors.h"
+#include "graph/octree.h"
 #include "graph/point_order.h"
 #include "graph/sampling.h"
 #include "shapes/shapes.h"
@@ -10,7 +11,9 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <numeric>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -142,6 +145,17 @@ inline std::vector<Index> random_vertices(std::size_t vertices, std::size_t coun
     std::ranges::shuffle(all, random);
     all.resize(std::min(count, vertices));
     return all;
+}
+
+// Base samples, as the editor takes them before they are relaxed.
+inline std::vector<Index> octree_of(const Cloud& cloud, std::size_t count) {
+    std::vector<Index> all(cloud.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    return octree_samples(cloud.code, cloud.positions, all, count);
+}
+
+inline bool all_different(const std::vector<Index>& vertices) {
+    return std::set<Index>(vertices.begin(), vertices.end()).size() == vertices.size();
 }
 
 // What csr.h promises of every graph.

@@ -1,5 +1,4 @@
 #include "graph/clouds.h"
-#include "graph/octree.h"
 #include "graph/sampling.h"
 
 #include <map>
@@ -11,6 +10,7 @@ namespace {
 
 using test::Cloud;
 using test::Machine;
+using test::octree_of;
 
 struct Sampled {
     std::vector<Index> samples;
@@ -25,12 +25,6 @@ Sampled sampled(const Cloud& cloud, const std::vector<Index>& samples, unsigned 
     result.nearest = flood(cloud.graph, cloud.lengths, samples, machine.workers, machine.progress);
     result.graph = sample_graph(result.nearest, samples, cloud.graph, machine.workers);
     return result;
-}
-
-std::vector<Index> octree_of(const Cloud& cloud, std::size_t count) {
-    std::vector<Index> all(cloud.size());
-    std::iota(all.begin(), all.end(), Index{0});
-    return shuffled(octree_samples(cloud.code, cloud.positions, all, count));
 }
 
 // Two samples hang together exactly if their vertices do.
@@ -62,7 +56,7 @@ TEST(SampleGraph, HangsTogetherAsThePointsDo) {
     for (const auto& [name, cloud] : test::several_clouds()) {
         SCOPED_TRACE(name);
         for (const std::size_t count : {1U, 2U, 12U, 100U}) {
-            const Sampled result = sampled(cloud, octree_of(cloud, count));
+            const Sampled result = sampled(cloud, shuffled(octree_of(cloud, count)));
             ASSERT_EQ(result.graph.graph.size(), count);
             test::expect_well_formed(result.graph.graph);
             expect_contacts(result.graph);
@@ -96,7 +90,7 @@ TEST(SampleGraph, CrossesAThinNeck) {
 
 TEST(SampleGraph, LinksTheNearestAndWhatTouches) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 4000));
-    const Sampled result = sampled(cloud, octree_of(cloud, 150));
+    const Sampled result = sampled(cloud, shuffled(octree_of(cloud, 150)));
     const Graph& graph = result.graph.graph;
     std::map<std::pair<Index, Index>, float> crossing;
     for (Index v = 0; v < cloud.size(); ++v) {
@@ -128,7 +122,7 @@ TEST(SampleGraph, LinksTheNearestAndWhatTouches) {
 
 TEST(SampleGraph, IsTheSameForAnyNumberOfThreads) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::knot, 10000));
-    const std::vector<Index> samples = octree_of(cloud, 2500);
+    const std::vector<Index> samples = shuffled(octree_of(cloud, 2500));
     const Sampled one = sampled(cloud, samples, 1);
     for (const unsigned threads : {2U, 5U}) {
         const Sampled more = sampled(cloud, samples, threads);

@@ -4,6 +4,7 @@
 #include "bench/survey.h"
 #include "shapes/shapes.h"
 
+#include <algorithm>
 #include <functional>
 #include <numbers>
 
@@ -30,6 +31,17 @@ void hold_ends(DeformationTask& task) {
         task, [](const Vec3d& p) { return p.z() <= -2; }, [](const Vec3d& p) { return p.z() >= 2; });
 }
 
+// A made bar, twice as long.
+PointCloud long_bar(const ShapeOptions& sampling, Workers& workers, Progress& progress) {
+    const PointCloud bar = make_shape(Shape::bar, sampling, workers, progress);
+    std::vector<float> positions = bar.positions;
+    for (std::size_t i = 0; i < bar.size(); ++i) {
+        const Vec3f place = bar.file_position(i).cwiseProduct(Vec3d(1, 1, 2)).cast<float>();
+        std::ranges::copy(place, positions.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    }
+    return make_cloud(positions);
+}
+
 // The free part, 4 long, becomes an arc of its own length: the upper end is slid down onto the lower one and
 // turned around the arc's centre.
 void bend(DeformationTask& task, double degrees) {
@@ -48,7 +60,10 @@ std::vector<std::string> generated_names() {
 
 DeformationTask generated_task(std::string_view name, Workers& workers, Progress& progress) {
     ShapeOptions sampling;
-    sampling.points = name == "made-bar" ? 6000 : name == "made-cylinder" ? 5000 : 10'000;
+    sampling.points = name == "made-bar"        ? 6000
+                      : name == "made-cylinder" ? 5000
+                      : name == "made-long-bar" ? 20'000
+                                                : 10'000;
     return generated_task(name, sampling, workers, progress);
 }
 
@@ -60,6 +75,11 @@ DeformationTask generated_task(std::string_view name, const ShapeOptions& sampli
         task.cloud = make_shape(Shape::bar, sampling, workers, progress);
         hold_ends(task);
         task.pose.rotate = turn(135, Vec3d::UnitZ());
+    } else if (name == "made-long-bar") {
+        task.cloud = long_bar(sampling, workers, progress);
+        hold(
+            task, [](const Vec3d& p) { return p.z() <= -4.5; }, [](const Vec3d& p) { return p.z() >= 4.5; });
+        task.pose.rotate = turn(180, Vec3d::UnitZ());
     } else if (name == "made-cylinder") {
         task.cloud = make_shape(Shape::cylinder, sampling, workers, progress);
         hold_ends(task);

@@ -2,7 +2,7 @@
 
 #include "base/workers.h"
 #include "bench/automatic_handles.h"
-#include "bench/made_cloud.h"
+#include "bench/posing.h"
 #include "edit/document.h"
 #include "upsample/devices.h"
 
@@ -116,30 +116,9 @@ void check_document(const PointCloud& cloud, const AutomaticHandles& automatic, 
                        document.bounds().diagonal());
 }
 
-// The bar for twisting, 1 × 1 × 10 around z; its free part lies between the heights ±long_bar_free.
+// Of the bar for twisting, 1 × 1 × 10 around z: its free part lies between the heights ±long_bar_free.
 constexpr double long_bar_half = 5;
 constexpr double long_bar_free = 4.5;
-
-PointCloud long_bar(Workers& workers, Progress& progress) {
-    const PointCloud bar = made_cloud(Shape::bar, 20'000, workers, progress);
-    std::vector<float> positions;
-    for (std::size_t i = 0; i < bar.size(); ++i) {
-        const Vec3d place = bar.file_position(i).cwiseProduct(Vec3d(1, 1, 2));
-        for (int c = 0; c < 3; ++c) positions.push_back(static_cast<float>(place[c]));
-    }
-    return make_cloud(positions);
-}
-
-AutomaticHandles long_bar_ends(const PointCloud& cloud) {
-    AutomaticHandles ends;
-    ends.axis = Vec3d::UnitZ();
-    for (Index i = 0; i < cloud.size(); ++i) {
-        const double z = cloud.file_position(i).z();
-        if (z <= -long_bar_free) ends.fixed.push_back(i);
-        if (z >= long_bar_free) ends.moving.push_back(i);
-    }
-    return ends;
-}
 
 // The twist along the long bar, and how uneven it is, both in degrees.
 void measure_twist(const PointCloud& cloud, const std::vector<float>& posed, double asked, double& total,
@@ -196,12 +175,12 @@ CloudProperties evaluate_cloud(const std::string& name, const PointCloud& cloud,
 TwistResult evaluate_twist(Workers& workers, Upsampler& upsampler, Progress& progress) {
     constexpr double step = 10;
     constexpr int steps = 72;
-    const PointCloud cloud = long_bar(workers, progress);
-    Document document(cloud, Settings{}, workers, upsampler);
-    AutomaticHandles ends = long_bar_ends(cloud);
-    declare_handles(document, ends, HandleRole::fixed);
-    DragLine line{"upper", ends.pivot, {}};
-    for (int s = 1; s <= steps; ++s) line.frames.push_back(bent_by(ends, step * s));
+    const DeformationTask task = generated_task("made-long-bar", workers, progress);
+    const PointCloud& cloud = task.cloud;
+    const auto opened = open_task(task, Settings{}, workers, upsampler);
+    Document& document = *opened;
+    DragLine line{"handle", task.pivot, {}};
+    for (int s = 1; s <= steps; ++s) line.frames.push_back(turned(step * s, Vec3d::UnitZ()));
 
     TwistResult result;
     result.points = cloud.size();

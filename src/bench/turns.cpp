@@ -1,6 +1,7 @@
 #include "bench/turns.h"
 
 #include "bench/posing.h"
+#include "bench/properties.h"
 #include "shapes/shapes.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@ namespace knead {
 namespace {
 
 constexpr unsigned settle_limit = 1000;
+constexpr std::size_t twist_slices = 100;
 
 DragLine way(const Course& course, std::size_t frames) {
     DragLine line{"handle", course.task.pivot, {}};
@@ -34,6 +36,7 @@ Course course_of(const char* name, const std::string& words, const Vec3d& axis, 
     course.degrees = degrees;
     course.translate = course.task.pose.translate;
     course.ambiguous = degrees >= 180;
+    course.twists = axis == Vec3d::UnitZ() && degrees > 0;
     return course;
 }
 
@@ -65,6 +68,12 @@ std::vector<TurnResult> go_course(const Course& course, std::span<const std::siz
         result.aimed = count > 1 || !course.ambiguous;
         result.iterations = settling.iterations - dragged;
         result.at_rest = settling.at_rest;
+        if (course.twists) {
+            const std::vector<double> turns =
+                turns_along_z(course.task.cloud.positions, ways.back().settled, twist_slices);
+            result.asked_twist = course.degrees;
+            result.twist = turns.back() - turns.front();
+        }
         results.push_back(std::move(result));
     }
     for (std::size_t w = 0; w < ways.size(); ++w) {
@@ -79,7 +88,8 @@ std::vector<TurnResult> evaluate_turns(Workers& workers, Upsampler& upsampler, P
         return course_of(name, words, axis, degrees, workers, progress);
     };
     constexpr std::size_t few_frames[] = {1, 10, 100};
-    constexpr std::size_t many_frames[] = {36, 72, 720}; // of 20°, 10° and 1°
+    constexpr std::size_t whole_turn[] = {18, 36, 360}; // of 20°, 10° and 1°
+    constexpr std::size_t two_turns[] = {36, 72};
     std::vector<TurnResult> results;
     const auto go = [&](const Course& gone, std::span<const std::size_t> frames) {
         std::ranges::move(go_course(gone, frames, workers, upsampler, progress), std::back_inserter(results));
@@ -88,7 +98,12 @@ std::vector<TurnResult> evaluate_turns(Workers& workers, Upsampler& upsampler, P
     go(course("made-plane", "plane, shifted", Vec3d::UnitZ(), 0), few_frames);
     go(course("made-bar", "bar, twisted 180°", Vec3d::UnitZ(), 180), few_frames);
     go(course("made-cylinder", "tube, bent 180°", Vec3d::UnitY(), 180), few_frames);
-    go(course("made-bar", "bar, twisted 720°", Vec3d::UnitZ(), 720), many_frames);
+    go(course("made-bar", "bar, twisted 720°", Vec3d::UnitZ(), 720), two_turns);
+    // A rod that is clamped at both ends and twisted slowly by more than 8.99 B/C radians, 515° where it is
+    // as stiff in bending, B, as in twisting, C, throws a loop (Greenhill 1883): from there on the way
+    // matters.
+    go(course("made-long-bar", "long bar, twisted 360°", Vec3d::UnitZ(), 360), whole_turn);
+    go(course("made-long-bar", "long bar, twisted 720°", Vec3d::UnitZ(), 720), two_turns);
     return results;
 }
 

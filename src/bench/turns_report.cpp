@@ -1,6 +1,8 @@
 #include "bench/report.h"
 #include "bench/turns.h"
 
+#include <cmath>
+
 namespace knead {
 
 namespace {
@@ -9,8 +11,20 @@ bool holds(const Deviation& deviation) {
     return deviation.largest <= turn_bar;
 }
 
+bool keeps_its_twist(const TurnResult& result) {
+    return !result.twist || std::abs(*result.twist - *result.asked_twist) <= twist_bar;
+}
+
+std::string twist_words(const TurnResult& result) {
+    return result.twist ? digits_text(*result.twist, 0) + "°" : "";
+}
+
 std::string verdict(const TurnResult& result, const Deviation& deviation) {
     return result.aimed ? verdict_text(holds(deviation)) : "ambiguous";
+}
+
+std::string twist_verdict(const TurnResult& result) {
+    return !result.twist || !result.aimed ? "" : verdict_text(keeps_its_twist(result));
 }
 
 } // namespace
@@ -26,6 +40,7 @@ std::string turns_text(std::span<const TurnResult> results) {
         table.push_back({result.course, count_text(result.points), count_text(result.frames),
                          percent_text(result.at_last_frame.largest), verdict(result, result.at_last_frame),
                          percent_text(result.settled.largest), verdict(result, result.settled),
+                         twist_words(result), twist_verdict(result),
                          std::to_string(result.iterations) + (result.at_rest ? "" : ", not at rest")});
     return format_table(table);
 }
@@ -44,6 +59,10 @@ ReportJson turns_json(std::span<const TurnResult> results) {
         entry["at_last_frame"]["holds"] =
             result.aimed ? ReportJson(holds(result.at_last_frame)) : ReportJson();
         entry["settled"]["holds"] = result.aimed ? ReportJson(holds(result.settled)) : ReportJson();
+        if (result.twist)
+            entry["twist"] = {{"asked", *result.asked_twist},
+                              {"measured", *result.twist},
+                              {"holds", result.aimed ? ReportJson(keeps_its_twist(result)) : ReportJson()}};
         json.push_back(std::move(entry));
     }
     return json;

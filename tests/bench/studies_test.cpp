@@ -102,6 +102,22 @@ TEST_F(Studies, WaysToOnePoseMeet) {
     EXPECT_TRUE(turns_json(half_turn).at(0).at("settled").at("holds").is_null());
 }
 
+TEST_F(Studies, ATwistThatSlippedIsNoneThatAgrees) {
+    Course course;
+    course.name = "bar";
+    course.task = generated_task("made-long-bar", workers, progress);
+    course.axis = Vec3d::UnitZ();
+    course.degrees = 360;
+    course.twists = true;
+    constexpr std::size_t frames[] = {18, 1}; // in one frame a whole turn is none
+    const auto results = go_course(course, frames, workers, *upsampler, progress);
+    EXPECT_NEAR(results[0].twist.value(), 360, twist_bar);
+    EXPECT_NEAR(results[1].twist.value(), 0, twist_bar);
+    const ReportJson json = turns_json(results);
+    EXPECT_TRUE(json.at(0).at("twist").at("holds"));
+    EXPECT_FALSE(json.at(1).at("twist").at("holds"));
+}
+
 TEST_F(Studies, ImpossibleDemandsAreSharedOutAndSaid) {
     ShapeOptions sampling;
     sampling.points = 1500;

@@ -66,6 +66,9 @@ double mean_square_length(const SampleSystem& system) {
 SparseMatrix laplacian(const SampleSystem& system, std::size_t rows) {
     const SampleRest& rest = system.rest;
     SparseMatrix matrix;
+    matrix.first.reserve(rows + 1);
+    matrix.row.reserve(rest.graph.neighbor.size() + rows);
+    matrix.value.reserve(rest.graph.neighbor.size() + rows);
     matrix.first.push_back(0);
     std::vector<std::pair<int, double>> column;
     for (Index row = 0; row < rows; ++row) {
@@ -137,10 +140,12 @@ bool is_leaf(const SampleRest& rest, Index i) {
 }
 
 void lighten_leaves(SampleRest& rest) {
-    const Graph& graph = rest.graph;
-    for (Index i = 0; i < graph.size(); ++i)
-        for (Index link = graph.first[i]; link < graph.first[i + 1]; ++link)
-            if (is_leaf(rest, i) || is_leaf(rest, graph.neighbor[link])) rest.weight[link] *= leaf_share;
+    for (Index i = 0; i < rest.graph.size(); ++i) {
+        if (!is_leaf(rest, i)) continue;
+        const Index other = rest.graph.row(i).front();
+        rest.weight[rest.graph.first[i]] *= leaf_share;
+        rest.weight[find_link(rest.graph, other, i).value()] *= leaf_share;
+    }
 }
 
 void find_confidence(SampleSystem& system, double square_length) {
@@ -156,7 +161,7 @@ void find_confidence(SampleSystem& system, double square_length) {
     }
 }
 
-void find_surroundings(SampleSystem& system, Workers& workers) {
+void find_weighted_edges(SampleSystem& system, Workers& workers) {
     const SampleRest& rest = system.rest;
     system.weighted_edge.resize(rest.graph.neighbor.size());
     workers.for_each(rest.graph.size(), 256, [&](std::size_t i) {
@@ -164,19 +169,44 @@ void find_surroundings(SampleSystem& system, Workers& workers) {
             system.weighted_edge[link] =
                 rest.weight[link] * (rest.position[rest.graph.neighbor[link]] - rest.position[i]);
     });
-    system.spread.resize(system.free_sample.size());
-    system.surroundings.resize(system.free_sample.size());
-    workers.for_each(system.free_sample.size(), 256, [&](std::size_t row) {
-        const Index i = system.free_sample[row];
-        Mat3d spread = Mat3d::Zero();
-        for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
-            const Vec3d edge = rest.position[rest.graph.neighbor[link]] - rest.position[i];
-            const Mat3d square = edge * edge.transpose(); // times w afterwards: (w e) eᵀ is not symmetric
-            spread += rest.weight[link] * square;
+}
+
+void find_surroundings(SampleSystem& system, std::size_t row) {
+    const SampleRest& rest = system.rest;
+    const Index i = system.free_sample[row];
+    Mat3d spread = Mat3d::Zero();
+    for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
+        const Vec3d edge = rest.position[rest.graph.neighbor[link]] - rest.position[i];
+        const Mat3d square = edge * edge.transpose(); // times w afterwards: (w e) eᵀ is not symmetric
+        spread += rest.weight[link] * square;
+    }
+    system.spread[row] = spread;
+    system.surroundings[row] = surroundings_of(spread);
+}
+
+// L of the rows that move, and the order to eliminate them in.
+struct OrderedLaplacian {
+    SparseMatrix matrix;
+    std::vector<int> order;
+};
+
+// That by one worker, which cannot be shared out, and meanwhile the surroundings of all rows by the others.
+OrderedLaplacian order_and_find_surroundings(SampleSystem& system, Workers& workers) {
+    constexpr std::size_t rows_a_task = 1024;
+    const std::size_t rows = system.free_sample.size();
+    system.spread.resize(rows);
+    system.surroundings.resize(rows);
+    OrderedLaplacian result;
+    workers.for_each(1 + (rows + rows_a_task - 1) / rows_a_task, 1, [&](std::size_t task) {
+        if (task == 0) {
+            result.matrix = laplacian(system, system.moving_rows);
+            result.order = minimum_degree_order(result.matrix);
+            return;
         }
-        system.spread[row] = spread;
-        system.surroundings[row] = surroundings_of(spread);
+        for (std::size_t row = (task - 1) * rows_a_task; row < std::min(task * rows_a_task, rows); ++row)
+            find_surroundings(system, row);
     });
+    return result;
 }
 
 } // namespace
@@ -196,7 +226,8 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     const double square_stiffness = system.rest.stiffness * system.rest.stiffness;
     system.midway = square_stiffness / (square_stiffness + next_to_nothing * next_to_nothing);
     find_confidence(system, square_length);
-    find_surroundings(system, workers);
+    find_weighted_edges(system, workers);
+    const OrderedLaplacian of_moving = order_and_find_surroundings(system, workers);
     set_poisson(system, system.rest.poisson);
     system.turn.assign(system.rest.handle.size(), Mat3d::Zero());
     system.free_turn.assign(system.rest.turns_freely.size(), Quatd::Identity());
@@ -205,17 +236,16 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     find_pull(system);
 
     const std::size_t rows = system.free_sample.size();
-    const SparseMatrix of_moving = laplacian(system, system.moving_rows);
-    const std::vector<int> moving_order = minimum_degree_order(of_moving);
     const bool more = rows > system.moving_rows;
     system.has_increments = more || !system.pull.empty();
-    const SparseMatrix of_all = more ? laplacian(system, rows) : of_moving;
-    const std::vector<int> order = more ? minimum_degree_order(of_all) : moving_order;
+    const SparseMatrix of_all = more ? laplacian(system, rows) : of_moving.matrix;
+    const std::vector<int> order = more ? minimum_degree_order(of_all) : of_moving.order;
     // None knows of the others.
     std::array<FactorOutcome, 3> outcomes;
     workers.for_each(system.has_increments ? 3 : 2, 1, [&](std::size_t which) {
         if (which == 0)
-            outcomes[0] = system.positions.factorize(position_matrix(system, of_moving), moving_order);
+            outcomes[0] =
+                system.positions.factorize(position_matrix(system, of_moving.matrix), of_moving.order);
         else if (which == 1)
             outcomes[1] = system.rotations.factorize(rotation_matrix(system, of_all), order);
         else

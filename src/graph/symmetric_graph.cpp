@@ -146,7 +146,9 @@ Graph rewired(const Graph& graph, std::span<const std::uint8_t> stays,
         Index at = result.first[v];
         for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link)
             if (stays[link]) result.neighbor[at++] = graph.neighbor[link];
-        for (const auto& link : added_at(v)) result.neighbor[at++] = link.second;
+        const auto more = added_at(v);
+        if (more.empty()) return; // what stays ascends as it is
+        for (const auto& link : more) result.neighbor[at++] = link.second;
         std::sort(result.neighbor.begin() + result.first[v], result.neighbor.begin() + at);
     });
     return result;

@@ -78,7 +78,8 @@ DeformationTask generated_task(std::string_view name, const ShapeOptions& sampli
     } else if (name == "made-long-bar") {
         task.cloud = long_bar(sampling, workers, progress);
         hold(
-            task, [](const Vec3d& p) { return p.z() <= -4.5; }, [](const Vec3d& p) { return p.z() >= 4.5; });
+            task, [](const Vec3d& p) { return p.z() <= -long_bar_free; },
+            [](const Vec3d& p) { return p.z() >= long_bar_free; });
         task.pose.rotate = turn(180, Vec3d::UnitZ());
     } else if (name == "made-cylinder") {
         task.cloud = make_shape(Shape::cylinder, sampling, workers, progress);

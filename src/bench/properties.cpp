@@ -116,10 +116,6 @@ void check_document(const PointCloud& cloud, const AutomaticHandles& automatic, 
                        document.bounds().diagonal());
 }
 
-// Of the bar for twisting, 1 × 1 × 10 around z: its free part lies between the heights ±long_bar_free.
-constexpr double long_bar_half = 5;
-constexpr double long_bar_free = 4.5;
-
 // The twist along the long bar, and how uneven it is, both in degrees.
 void measure_twist(const PointCloud& cloud, const std::vector<float>& posed, double asked, double& total,
                    double& uneven) {

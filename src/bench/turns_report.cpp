@@ -32,10 +32,11 @@ std::string twist_verdict(const TurnResult& result) {
 std::string turns_text(std::span<const TurnResult> results) {
     TextTable table{
         {"Ways to one pose, 1000 samples, 3 iterations a frame: largest distance from the longest way's "
-         "settled "
-         "shape, % of D, aim " +
-         digits_text(100 * turn_bar, 0)},
-        {"course", "points", "frames", "at the last %", "", "settled %", "", "iterations of settling"}};
+         "settled shape, % of D, aim " +
+         digits_text(100 * turn_bar, 0) + "; what is left of a twist, aim within " +
+         digits_text(twist_bar, 0) + "°"},
+        {"course", "points", "frames", "at the last %", "", "settled %", "", "twist", "",
+         "iterations of settling"}};
     for (const TurnResult& result : results)
         table.push_back({result.course, count_text(result.points), count_text(result.frames),
                          percent_text(result.at_last_frame.largest), verdict(result, result.at_last_frame),

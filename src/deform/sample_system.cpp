@@ -14,7 +14,7 @@ namespace {
 // The stiffness for which γ is one half.
 constexpr double next_to_nothing = 1e-4;
 
-// Of the weight of a leaf's link.
+// Of the weight of a leaf's link that is no longer than others.
 constexpr double leaf_share = 1e-3;
 
 // Which samples hang together with no handle.
@@ -50,16 +50,31 @@ void number_unknowns(SampleSystem& system) {
 }
 
 // ℓ²: the mean square length of the links at the unknown samples.
+// ℓ², of links that are not those of leaves, if there are any.
 double mean_square_length(const SampleSystem& system) {
-    double sum = 0;
-    std::size_t links = 0;
-    for (const Index i : system.free_sample) {
-        for (const Index j : system.rest.graph.row(i)) {
-            sum += (system.rest.position[j] - system.rest.position[i]).squaredNorm();
-            ++links;
+    const SampleRest& rest = system.rest;
+    double sum = 0, sum_of_leaves = 0;
+    std::size_t links = 0, links_of_leaves = 0;
+    for (const Index i : system.free_sample)
+        for (const Index j : rest.graph.row(i)) {
+            const bool at_leaf = is_leaf(rest, i) || is_leaf(rest, j);
+            (at_leaf ? sum_of_leaves : sum) += (rest.position[j] - rest.position[i]).squaredNorm();
+            ++(at_leaf ? links_of_leaves : links);
         }
+    if (links > 0 && sum > 0) return sum / static_cast<double>(links);
+    return sum_of_leaves > 0 ? sum_of_leaves / static_cast<double>(links_of_leaves) : 1.0;
+}
+
+// Of a long one's link the less: its length counts squared in what surrounds the other end.
+void lighten_leaves(SampleRest& rest, double square_length) {
+    for (Index i = 0; i < rest.graph.size(); ++i) {
+        if (!is_leaf(rest, i)) continue;
+        const Index other = rest.graph.row(i).front();
+        const double square = (rest.position[other] - rest.position[i]).squaredNorm();
+        const double share = square > square_length ? leaf_share * square_length / square : leaf_share;
+        rest.weight[rest.graph.first[i]] *= share;
+        rest.weight[find_link(rest.graph, other, i).value()] *= share;
     }
-    return links > 0 && sum > 0 ? sum / static_cast<double>(links) : 1.0;
 }
 
 // L of the first rows, so many.
@@ -133,21 +148,6 @@ void find_pull(SampleSystem& system) {
     }
 }
 
-// Whether a free sample has one link alone, to a sample that has more.
-bool is_leaf(const SampleRest& rest, Index i) {
-    return rest.handle[i] == no_index && rest.graph.row(i).size() == 1 &&
-           rest.graph.row(rest.graph.row(i).front()).size() > 1;
-}
-
-void lighten_leaves(SampleRest& rest) {
-    for (Index i = 0; i < rest.graph.size(); ++i) {
-        if (!is_leaf(rest, i)) continue;
-        const Index other = rest.graph.row(i).front();
-        rest.weight[rest.graph.first[i]] *= leaf_share;
-        rest.weight[find_link(rest.graph, other, i).value()] *= leaf_share;
-    }
-}
-
 void find_confidence(SampleSystem& system, double square_length) {
     const SampleRest& rest = system.rest;
     system.confidence.assign(system.free_sample.size(), 0);
@@ -211,15 +211,20 @@ OrderedLaplacian order_and_find_surroundings(SampleSystem& system, Workers& work
 
 } // namespace
 
+bool is_leaf(const SampleRest& rest, Index sample) {
+    const auto row = rest.graph.row(sample);
+    return rest.handle[sample] == no_index && row.size() == 1 && rest.graph.row(row.front()).size() > 1;
+}
+
 FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& workers) {
     require(rest.weight.size() == rest.graph.neighbor.size(), "a weight a link");
     require(rest.position.size() == rest.graph.size() && rest.handle.size() == rest.graph.size(),
             "an entry a sample");
     system.rest = std::move(rest);
-    lighten_leaves(system.rest);
     system.left_out = find_left_out(system.rest, workers);
     number_unknowns(system);
     const double square_length = mean_square_length(system);
+    lighten_leaves(system.rest, square_length);
     system.mean_length = std::sqrt(square_length);
     system.smoothing =
         system.rest.stiffness * system.rest.cloud_size * system.rest.cloud_size / square_length;

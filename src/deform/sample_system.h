@@ -28,8 +28,8 @@
 // to nothing would wrinkle and not come to rest; there the resistance of the links is what holds it.
 //
 // A leaf, a free sample with one link, to a sample with more, is sent the same way whatever that link weighs:
-// along with the other end. So its link counts with a thousandth of its weight, and C is 0 there: the turn
-// that one edge leaves open is that of the other end, which does not notice how long the edge is.
+// along with the other end. So its link counts with a thousandth of its weight, or less if it is longer than
+// ℓ, and C is 0 there: the turn that one edge leaves open is that of the other end. Nothing pulls at a leaf.
 //
 // The fixed point of these steps is what knead means by the deformed shape. Both matrices stand as long as
 // the handle set and the rest shape do. Everything is solved for u and r - 1, which are exactly zero where
@@ -66,7 +66,8 @@ struct SoftHold {
 // What stays while an edit lasts.
 struct SampleRest {
     Graph graph;                    // between samples
-    std::vector<double> weight;     // of each link of the graph, the same in both directions, > 0
+    std::vector<double> weight;     // of each link of the graph, the same in both directions, > 0; those of
+                                    // leaves are made lighter by build_system()
     std::vector<Vec3d> position;    // p, relative to the cloud's origin
     std::vector<Index> handle;      // of each sample; no_index where it is free
     std::vector<bool> turns_freely; // of each handle: whether it gives positions only; may end early
@@ -91,7 +92,7 @@ struct SampleSystem {
     std::vector<Index> free_sample; // of each row: its sample
     std::size_t moving_rows = 0;
     std::vector<bool> left_out;     // of each sample: whether no handle holds its component
-    double mean_length = 1;         // ℓ
+    double mean_length = 1;         // ℓ, over links that are not those of leaves
     double smoothing = 0;           // β/ℓ²
     double midway = 1;              // γ; with 0, rotations follow from displacements alone
     std::vector<double> confidence; // C, of each row
@@ -111,6 +112,9 @@ struct SampleSystem {
     std::vector<Mat3d> target;    // S - I, of each row; empty for ν = 0
     std::vector<double> sides;    // right-hand sides and solutions, 4 or 3 numbers a row
 };
+
+// Whether a free sample has one link alone, to a sample that has more.
+bool is_leaf(const SampleRest& rest, Index sample);
 
 // Prepares both systems: one ordering, and a factorisation of each; a third (`increments`) where a handle
 // with a falloff pulls or one leaves rotation free. Samples whose component holds no handle are left out and

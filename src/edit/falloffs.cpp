@@ -107,6 +107,7 @@ std::vector<SoftHold> soft_holds(const std::vector<Handle>& handles, std::span<c
     const std::vector<Vec3d> middle = middles_of_handles(rest, handles.size());
     std::vector<SoftHold> holds;
     for (const Pulled& each : pulled) {
+        if (is_leaf(rest, each.sample)) continue; // it goes where the other end of its link is pulled
         const double distance = std::max(each.way * each.falloff, nearest * rest.cloud_size);
         const double share = (1 - each.way) / distance;
         const double weight = strength * share * share * spread_at(rest, each.sample);

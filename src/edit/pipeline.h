@@ -195,7 +195,7 @@ private:
     RestShape opened_;
     std::vector<float> merged_positions_;    // of the vertices, if they are fewer than the points; else empty
     std::shared_ptr<const Graph> neighbors_; // of the vertices
-    std::shared_ptr<const Graph> graph_;     // the same, or bridged
+    std::shared_ptr<const Graph> graph_;     // the same with outliers hung, perhaps bridged
     std::shared_ptr<const Components> components_;
     std::vector<std::uint8_t> hanging_; // of each vertex: 1 for an outlier that hangs; empty without any
     std::vector<std::uint8_t> link_lengths_;

@@ -62,15 +62,13 @@ double Pipeline::follow_coarsely(const std::vector<HandleMotion>& motions, unsig
                                   workers_);
 }
 
-// A single point that may turn has the place of its handle, and the turn of its surroundings. (An outlier
-// that hangs on it is labelled as it is, and is no peg.)
+// A single point that may turn has the place of its handle, and the turn of its surroundings.
 template<typename Visit>
 void Pipeline::for_lone_pegs(Visit&& visit) const {
     for (Index s = 0; s < samples_.size(); ++s) {
         const Index handle = system_.rest.handle[s];
         if (handle >= input_.handles.size() || system_.unknown[s] == no_index) continue;
-        const bool hangs = !hanging_.empty() && hanging_[samples_[s]] != 0;
-        if (!hangs && input_.handles[handle].points->size() == 1) visit(s, handle);
+        if (input_.handles[handle].points->size() == 1) visit(s, handle);
     }
 }
 

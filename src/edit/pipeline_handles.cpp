@@ -98,11 +98,14 @@ void Pipeline::choose_coarse_samples() {
 // Who holds what, and which components hold a handle.
 void Pipeline::label_vertices() {
     label_points(input_.handles, order_, cloud_.size(), workers_, labels_);
-    // An outlier has no say: held or not, it is like the vertex that it hangs on. Its own points still follow
-    // their handle, but nothing else does for its sake.
+    // An outlier has no say: held or not, it is like the vertex that it hangs on, or turns along with it. Its
+    // own points still follow their handle, but nothing else does for its sake.
     if (!hanging_.empty())
-        for (std::size_t v = 0; v < order_.vertices(); ++v)
-            if (hanging_[v]) labels_.vertex[v] = labels_.vertex[graph_->row(v).front()];
+        for (std::size_t v = 0; v < order_.vertices(); ++v) {
+            if (!hanging_[v]) continue;
+            const Index label = labels_.vertex[graph_->row(v).front()];
+            labels_.vertex[v] = label != no_index && turns_freely(label) ? no_index : label;
+        }
     std::vector<std::uint8_t> holds(components_->size.size(), 0);
     workers_.for_each(order_.vertices(), grain, [&](std::size_t v) {
         if (labels_.vertex[v] == no_index) return;

@@ -1,5 +1,6 @@
 #include "graph/bridges.h"
 
+#include "graph/dust.h"
 #include "graph/group_tree.h"
 #include "graph/outliers.h"
 #include "graph/symmetric_graph.h"
@@ -70,68 +71,6 @@ Links find_hooks(const GroupTree& tree, Workers& workers) {
     return links_to(tree.group.size(), hook, workers);
 }
 
-// Outliers that are linked through each other, and the standing vertices that they are linked to, piece after
-// piece.
-struct Dust {
-    std::vector<Index> outliers, beside;
-};
-
-// Calls visit(dust) for all of it. `standing`: the components without outliers.
-template<typename Visit>
-void for_all_dust(const Graph& graph, const Components& standing, std::span<const std::uint8_t> outlier,
-                  Visit&& visit) {
-    std::vector<std::uint8_t> is_met(graph.size(), 0);
-    Dust dust;
-    for (Index seed = 0; seed < graph.size(); ++seed) {
-        if (!outlier[seed] || is_met[seed]) continue;
-        is_met[seed] = 1;
-        dust.outliers.assign(1, seed);
-        dust.beside.clear();
-        for (std::size_t next = 0; next < dust.outliers.size(); ++next)
-            for (const Index u : graph.row(dust.outliers[next])) {
-                if (!outlier[u])
-                    dust.beside.push_back(u);
-                else if (!is_met[u])
-                    dust.outliers.push_back(u), is_met[u] = 1;
-            }
-        std::ranges::sort(dust.beside, {}, [&](Index v) { return std::pair(standing.component[v], v); });
-        dust.beside.erase(std::ranges::unique(dust.beside).begin(), dust.beside.end());
-        visit(dust);
-    }
-}
-
-// The shortest link between two lists of vertices; of long lists, between some of them.
-std::pair<Index, Index> shortest_between(std::span<const Index> some, std::span<const Index> others,
-                                         std::span<const float> positions) {
-    constexpr std::size_t most_pairs = 1 << 22;
-    const std::size_t step = 1 + some.size() * others.size() / most_pairs;
-    std::pair<Index, Index> shortest{some.front(), others.front()};
-    double squared = std::numeric_limits<double>::infinity();
-    for (const Index v : some)
-        for (std::size_t i = 0; i < others.size(); i += step) {
-            const double next = (point_at(positions, v) - point_at(positions, others[i])).squaredNorm();
-            if (next < squared) shortest = {v, others[i]}, squared = next;
-        }
-    return shortest;
-}
-
-// A link from the largest piece beside the dust to each of the others.
-void tie_pieces(const Dust& dust, const Components& standing, std::span<const float> positions,
-                Links& links) {
-    std::vector<std::span<const Index>> pieces;
-    for (auto begin = dust.beside.begin(); begin != dust.beside.end();) {
-        const auto end = std::find_if(begin, dust.beside.end(), [&](Index v) {
-            return standing.component[v] != standing.component[*begin];
-        });
-        pieces.emplace_back(begin, end);
-        begin = end;
-    }
-    const auto largest = std::ranges::max_element(
-        pieces, {}, [&](const auto& piece) { return standing.size[standing.component[piece.front()]]; });
-    for (auto piece = pieces.begin(); piece != pieces.end(); ++piece)
-        if (piece != largest) links.push_back(shortest_between(*piece, *largest, positions));
-}
-
 } // namespace
 
 std::optional<JoinedGraph> with_hanging_outliers(const Graph& graph, std::span<const float> positions,
@@ -141,20 +80,14 @@ std::optional<JoinedGraph> with_hanging_outliers(const Graph& graph, std::span<c
     progress.step("looking for outliers", 0.5);
     const std::vector<std::uint8_t> outlier = find_outliers(graph, positions, spacings, workers);
     if (std::ranges::find(outlier, 1) == outlier.end()) return std::nullopt;
-    const std::vector<std::uint8_t> without = between_standing(graph, outlier, workers);
-    const Components standing = find_components(graph, without, workers);
+    const Components pieces = find_components(graph, between_standing(graph, outlier, workers), workers);
+    Dust dust = gather_dust(graph, pieces, outlier, positions);
     JoinedGraph result;
-    result.hanging = outlier;
-    Links links;
-    for_all_dust(graph, standing, outlier, [&](const Dust& dust) {
-        if (dust.beside.empty())
-            for (const Index v : dust.outliers) result.hanging[v] = 0;
-        else
-            tie_pieces(dust, standing, positions, links);
-    });
-    result.bridges = links.size();
+    result.hanging = std::move(dust.hanging);
+    result.joints = dust.ties.size();
+    Links links = std::move(dust.ties);
     progress.step("looking for outliers", 0.9);
-    std::vector<Index> group(graph.size());
+    std::vector<Index> group(graph.size()); // nothing hangs on an outlier, whether that hangs or not
     for (std::size_t v = 0; v < group.size(); ++v) group[v] = outlier[v] ? no_index : 0;
     for (const auto& hook : find_hooks(group_tree(positions, group, workers), workers)) {
         if (!result.hanging[hook.first]) continue;
@@ -180,7 +113,7 @@ JoinedGraph bridged(const Graph& graph, std::span<const float> positions, Worker
     const std::vector<Index> group = standing(components, result.hanging);
     const GroupTree tree = group_tree(positions, group, workers);
     Links links = find_bridges(tree, spacings.around, components, workers);
-    result.bridges = links.size();
+    result.joints = links.size();
     progress.step("joining parts", 0.7);
     const Links hooks = find_hooks(tree, workers);
     result.outliers = hooks.size();

@@ -12,17 +12,17 @@
 //     nowhere, and sparse parts not into dense ones. Two sheets that run along each other are so sewn
 //     together all along, and not hinged at one place. Components that are too far stay apart. Nothing is
 //     ever linked within a component: limbs that nearly touch stay as separate as they were.
-//   - **Outliers** keep no links but one, to the nearest vertex that is none. There they hang like dust, go
-//     where it goes, and neither pull at the surface nor tie surfaces together that they lie between. With
-//     bridges what only outliers tied together comes apart, and may be bridged. Without, what is together
-//     stays together: pieces that dust lay between, outliers that are linked through each other, are tied to
-//     the largest of them by one link each; and a part of nothing but outliers is a part like others.
-//     Cut all links that are longer than `short_way` of the spacings around both ends: the
-//     pieces that are then left are outliers if most of their vertices stick out, farther than `short_way` of
-//     the spacing there from the nearest vertex of another piece, and
+//   - **Outliers** keep no links but one, to the nearest vertex that is none, of whatever component. There
+//     they hang like dust, go where it goes, and neither pull at the surface nor tie surfaces together that
+//     they lie between. With bridges what only outliers tied together comes apart, and may be bridged.
+//     Without, it stays together by as few links as that takes (graph/dust.h), and a part of nothing but
+//     outliers is a part like others.
+//     Cut all links that are longer than `short_way` of the spacings around both ends: the pieces that are
+//     then left are outliers if they are less than a tenth of all vertices, most of theirs stick out, farther
+//     than `short_way` of the spacing there from the nearest vertex of another piece, and
 //         - they are crumbs, of fewer than `crumb` vertices, or
-//         - they are mist: a piece of less than a tenth of all vertices, where that vertex lies within ten of
-//           a vertex's own spacings, and the spacing there is less than that by a factor of `short_way`.
+//         - they are mist: that vertex lies within ten of a vertex's own spacings, and the spacing there is
+//           less than that by a factor of `short_way`.
 //     Crumbs are never what others stick out from.
 
 #include "graph/neighbors.h"
@@ -41,7 +41,7 @@ inline constexpr std::size_t crumb = 7;
 struct JoinedGraph {
     Graph graph;                       // of the same vertices
     std::vector<std::uint8_t> hanging; // of each vertex: 1 if it is an outlier, a leaf of the graph
-    std::size_t bridges = 0;           // links that join what would be components without
+    std::size_t joints = 0;            // links that join what would be components without them
     std::size_t outliers = 0;          // vertices that hang
 };
 
@@ -50,7 +50,7 @@ struct JoinedGraph {
 JoinedGraph bridged(const Graph& graph, std::span<const float> positions, Workers& workers,
                     Progress& progress);
 
-// The same without bridges but those ties; nothing if no outlier is to hang.
+// The same without bridges; nothing if no outlier is to hang.
 std::optional<JoinedGraph> with_hanging_outliers(const Graph& graph, std::span<const float> positions,
                                                  Workers& workers, Progress& progress);
 

@@ -209,5 +209,43 @@ TEST(Outlier, HangsOnTheSurfaceAndLeavesItsShape) {
     }
 }
 
+// A bar with a peg of one point in its side, and a stray beside that: swung by its end, about the peg.
+TEST(Outlier, OfAPegThatLeavesRotationFreeDoesNotHoldItsTurn) {
+    const PointCloud alone = bar(bar_points);
+    std::size_t peg = 0;
+    for (std::size_t i = 0; i < alone.size(); ++i)
+        if ((alone.file_position(i) - Vec3d(0.5, 0, 0)).norm() <
+            (alone.file_position(peg) - Vec3d(0.5, 0, 0)).norm())
+            peg = i;
+    const std::string lines = set(R"("samples":"all")") +
+                              R"({"op":"handle","name":"peg","role":"fixed","rotation":"free","points":[)" +
+                              std::to_string(peg) + "]}\n" + top + drag(turn('y', 40)) + settle(300);
+    Desk clean(alone), dusty(with(alone, {alone.file_position(peg) + Vec3d(3, 0, 0)}));
+    clean.play(lines);
+    dusty.play(lines);
+    const std::vector<float> expected = clean.shape(), shape = dusty.shape();
+    const Vec3d apart = dusty.document().cloud().origin - clean.document().cloud().origin;
+    for (std::size_t i = 0; i < bar_points; ++i)
+        ASSERT_LT((at(shape, i) + apart - at(expected, i)).norm(), 0.003 * clean.diagonal());
+}
+
+// What a falloff pulls at is the surface; the stray keeps its distance from it.
+TEST(Outlier, InAFalloffGoesWithTheSurface) {
+    const PointCloud alone = bar(bar_points);
+    std::size_t host = 0;
+    for (std::size_t i = 0; i < alone.size(); ++i)
+        if ((alone.file_position(i) - Vec3d(0.5, 0, 1)).norm() <
+            (alone.file_position(host) - Vec3d(0.5, 0, 1)).norm())
+            host = i;
+    Desk desk(with(alone, {alone.file_position(host) + Vec3d(0.6, 0, 0)}));
+    desk.play(foot + set(R"("samples":"all")") +
+              R"({"op":"handle","name":"top","role":"moving","falloff":3,"region":{"halfspace":)"
+              R"({"point":[0,0,2.2],"normal":[0,0,1]}}})"
+              "\n" +
+              drag(turn('y', 60)) + settle(100));
+    const std::vector<float> shape = desk.shape();
+    EXPECT_NEAR((at(shape, bar_points) - at(shape, host)).norm(), 0.6, 0.01);
+}
+
 } // namespace
 } // namespace knead

@@ -39,7 +39,7 @@ TEST(Bridges, JoinPlatesThatAreNearAndNoOthers) {
         ASSERT_EQ(cloud.components.size.size(), 2U);
         const JoinedGraph joined = bridged_of(cloud);
         EXPECT_EQ(parts(joined.graph), 1U) << gap;
-        EXPECT_GE(joined.bridges, 400U) << "they are not sewn together all along";
+        EXPECT_GE(joined.joints, 400U) << "they are not sewn together all along";
         EXPECT_EQ(joined.outliers, 0U);
     }
     const Cloud far = cloud_of(plates(20));
@@ -97,7 +97,7 @@ TEST(Outliers, BetweenTwoSurfacesTieThemNotWhereThereAreBridges) {
     EXPECT_EQ(parts(joined.graph), 2U);
     const JoinedGraph hung = hung_of(cloud).value();
     EXPECT_EQ(hung.outliers, 3U);
-    EXPECT_EQ(hung.bridges, 1U);
+    EXPECT_EQ(hung.joints, 1U);
     EXPECT_EQ(parts(hung.graph), 1U) << "what was together came apart";
 }
 
@@ -141,10 +141,22 @@ TEST(Outliers, HangWithoutBridgesAndPartsStayWhatTheyWere) {
     for (Index v = 0; v < cloud.size(); ++v)
         for (const Index u : hung.graph.row(v))
             ties += hung.hanging[v] || hung.hanging[u] || find_link(cloud.graph, v, u) ? 0 : 1;
-    EXPECT_EQ(ties, 2 * hung.bridges);
+    EXPECT_EQ(ties, 2 * hung.joints);
     const JoinedGraph alone = hung_of(cloud, 1).value();
     EXPECT_TRUE(same_graph(alone.graph, hung.graph));
     EXPECT_EQ(alone.hanging, hung.hanging);
+}
+
+TEST(Outliers, LeaveOneTieHoweverManyThereWere) {
+    std::vector<float> positions = plates(14);
+    for (const double y : {1.0, 18.0})
+        for (const double x : {8.0, 10.5, 13.0}) append(positions, Vec3d(x, y, 7));
+    const Cloud cloud = cloud_of(positions);
+    ASSERT_EQ(cloud.components.size.size(), 1U);
+    const JoinedGraph hung = hung_of(cloud).value();
+    EXPECT_EQ(hung.outliers, 6U);
+    EXPECT_EQ(hung.joints, 1U);
+    EXPECT_EQ(parts(hung.graph), 1U);
 }
 
 TEST(Outliers, AreNotFoundWhereThereAreNone) {

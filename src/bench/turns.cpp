@@ -100,8 +100,8 @@ std::vector<TurnResult> evaluate_turns(Workers& workers, Upsampler& upsampler, P
     go(course("made-cylinder", "tube, bent 180°", Vec3d::UnitY(), 180), few_frames);
     go(course("made-bar", "bar, twisted 720°", Vec3d::UnitZ(), 720), two_turns);
     // A rod that is clamped at both ends and twisted slowly by more than 8.99 B/C radians, 515° where it is
-    // as stiff in bending, B, as in twisting, C, throws a loop (Greenhill 1883): from there on the way
-    // matters.
+    // as stiff in bending, B, as in twisting, C, throws a loop (Greenhill's problem of 1883): from there
+    // on the way matters.
     go(course("made-long-bar", "long bar, twisted 360°", Vec3d::UnitZ(), 360), whole_turn);
     go(course("made-long-bar", "long bar, twisted 720°", Vec3d::UnitZ(), 720), two_turns);
     return results;

@@ -39,7 +39,7 @@ void for_clouds(const Graph& graph, const Components& pieces, std::span<const st
                     cloud.outliers.push_back(u), is_met[u] = 1;
             }
         std::ranges::sort(cloud.beside, {}, [&](Index v) { return std::pair(pieces.component[v], v); });
-        cloud.beside.erase(std::ranges::unique(cloud.beside).begin(), cloud.beside.end());
+        cloud.beside.erase(std::unique(cloud.beside.begin(), cloud.beside.end()), cloud.beside.end());
         visit(cloud);
     }
 }

@@ -1,5 +1,7 @@
 #include "graph/dust.h"
 
+#include "graph/disjoint_sets.h"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -80,18 +82,10 @@ std::vector<std::pair<Index, Index>> needed(std::vector<Tie> ties, const Compone
     std::ranges::sort(ties, {}, [](const Tie& tie) { return std::tuple(tie.squared, tie.from, tie.to); });
     std::vector<Index> root(ties.empty() ? 0 : pieces.size.size());
     std::iota(root.begin(), root.end(), Index{0});
-    const auto root_of = [&](Index vertex) {
-        Index piece = pieces.component[vertex];
-        while (root[piece] != piece) piece = root[piece] = root[root[piece]];
-        return piece;
-    };
     std::vector<std::pair<Index, Index>> links;
-    for (const Tie& tie : ties) {
-        const Index from = root_of(tie.from), to = root_of(tie.to);
-        if (from == to) continue;
-        root[from] = to;
-        links.emplace_back(tie.from, tie.to);
-    }
+    for (const Tie& tie : ties)
+        if (join(root, pieces.component[tie.from], pieces.component[tie.to]))
+            links.emplace_back(tie.from, tie.to);
     return links;
 }
 

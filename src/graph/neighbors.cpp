@@ -2,6 +2,7 @@
 
 #include "base/gathered.h"
 #include "base/require.h"
+#include "graph/disjoint_sets.h"
 #include "graph/nearest_lists.h"
 #include "graph/symmetric_graph.h"
 
@@ -14,21 +15,6 @@ namespace knead {
 namespace {
 
 constexpr std::size_t vertices_a_range = 1 << 14;
-
-Index find_root(std::vector<Index>& parent, Index v) {
-    while (parent[v] != v) {
-        parent[v] = parent[parent[v]];
-        v = parent[v];
-    }
-    return v;
-}
-
-// Joins what the two belong to. The root of a component is its first vertex, whoever is joined first.
-void join(std::vector<Index>& parent, Index v, Index u) {
-    const Index a = find_root(parent, v);
-    const Index b = find_root(parent, u);
-    if (a != b) parent[std::max(a, b)] = std::min(a, b);
-}
 
 // The first vertex of each vertex's component. Each worker joins what is linked inside of a range of
 // vertices; few links lead out of one, to near numbers as they do.

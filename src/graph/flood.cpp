@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -22,7 +23,7 @@ constexpr std::uint32_t levels_a_round = 128; // fewer are more rounds, more are
 constexpr std::uint32_t ring = 256;           // levels that can wait at a time: those of a round and a link
 static_assert(ring > levels_a_round + longest_link);
 constexpr double levels_a_median_link = 4;
-constexpr Index vertices_a_tile = 4096; // their rows and links stay in a core's own cache
+constexpr Index vertices_a_tile = 1 << 14; // their rows and links stay in a core's own cache
 
 // A row of the nearest sample alone.
 template<typename Value>
@@ -66,12 +67,12 @@ template<typename Places>
 template<typename Places>
 [[gnu::noinline]] bool has_room(const Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
     using Number = NumberOf<Places>;
-    if (row.distance.back() < distance) return false;
-    if (row.distance.back() == distance && row.sample.back() <= sample) return false;
+    const bool as_far = row.distance.back() == distance;
+    const bool before_last = (row.distance.back() > distance) | (as_far & (row.sample.back() > sample));
     Number found = 0;
     for (std::size_t k = 0; k < row.sample.size(); ++k)
         found |= static_cast<Number>(Number{row.sample[k] == sample} & Number{row.distance[k] <= distance});
-    return found == 0;
+    return before_last & (found == 0);
 }
 
 // Puts it there, in place of itself farther away, or of the last one.
@@ -203,24 +204,52 @@ private:
 
     // Floods a tile up to the last level of this round.
     void flood_tile(Tile& tile, OnTheWay& on_the_way) {
-        for (const Arrival<Number>& arrival : tile.arriving.all) take_in(arrival, on_the_way);
+        const Arrivals& arriving = tile.arriving.all;
+        for (std::size_t i = 0; i < arriving.size(); ++i) {
+            if (i + soon < arriving.size()) prefetch(&rows_[arriving[i + soon].vertex]);
+            const auto& [vertex, sample, distance] = arriving[i];
+            if (has_room(rows_[vertex], sample, distance)) take_in(arriving[i], on_the_way);
+        }
         tile.arriving.all.clear();
         tile.arriving.lowest = never;
         for (const Arrival<Number>& arrival : tile.unfinished)
             on_the_way.waiting[arrival.distance % ring].push_back(arrival);
         tile.unfinished.clear();
         for (Level level = tile.lowest; level < end_ && !too_far_; ++level) {
-            Arrivals& going = on_the_way.waiting[level % ring];
-            for (const Arrival<Number>& arrival : going)
-                if (holds(rows_[arrival.vertex], arrival.sample, arrival.distance))
-                    pass_on(arrival, tile, on_the_way);
+            Arrivals& going = on_the_way.waiting[level % ring]; // all links being longer, it does not grow
+            for (std::size_t i = 0; i < going.size(); ++i) {
+                look_ahead(going, i);
+                if (holds(rows_[going[i].vertex], going[i].sample, going[i].distance))
+                    pass_on(going[i], tile, on_the_way);
+            }
             going.clear();
         }
         put_aside(tile, on_the_way);
     }
 
+    // Arrivals of one level lie all over the tile. A core that went from one to the next would spend most of
+    // its time waiting for where that leads to: so it asks for it some arrivals before, step by step. (A call
+    // that only does this compilers would leave out as one without effect, if they did not have to inline
+    // it.)
+    static constexpr std::size_t soon = 4;
+    [[gnu::always_inline]] static void prefetch(const auto* what) { __builtin_prefetch(what); }
+    [[gnu::always_inline]] void look_ahead(const Arrivals& going, std::size_t i) const {
+        if (i + 3 * soon < going.size()) {
+            const Index v = going[i + 3 * soon].vertex;
+            prefetch(&rows_[v]);
+            prefetch(&graph_.first[v]);
+        }
+        if (i + 2 * soon < going.size()) {
+            const Index link = graph_.first[going[i + 2 * soon].vertex];
+            prefetch(graph_.neighbor.data() + link);
+            prefetch(lengths_.data() + link);
+        }
+        if (i + soon < going.size())
+            for (const Index neighbor : graph_.row(going[i + soon].vertex)) prefetch(&rows_[neighbor]);
+    }
+
+    // Puts it into its row, which has room for it.
     void take_in(const Arrival<Number>& arrival, OnTheWay& on_the_way) {
-        if (!has_room(rows_[arrival.vertex], arrival.sample, arrival.distance)) return;
         if (on_the_way.old) keep(arrival.vertex, *on_the_way.old);
         insert(rows_[arrival.vertex], arrival.sample, arrival.distance);
         on_the_way.waiting[arrival.distance % ring].push_back(arrival);
@@ -231,14 +260,35 @@ private:
             too_far_ = true;
             return;
         }
-        for (Index link = graph_.first[from.vertex]; link < graph_.first[from.vertex + 1]; ++link) {
-            const Arrival<Number> next{graph_.neighbor[link], from.sample,
-                                       static_cast<Number>(from.distance + lengths_[link])};
-            if (next.vertex - tile.first_vertex < vertices_a_tile)
-                take_in(next, on_the_way);
-            else
-                send(next, on_the_way);
+        const Index end = graph_.first[from.vertex + 1];
+        for (Index first = graph_.first[from.vertex]; first < end; first += links_at_once)
+            pass_on_by(first, std::min<Index>(end - first, links_at_once), from, tile, on_the_way);
+    }
+
+    // By `count` links from `first` on. Which of them lead to where there is room is found out for all before
+    // anything changes, and without a decision on the way, so that a core asks for all these rows at once.
+    using Links = std::uint32_t; // a set of them
+    static constexpr Index links_at_once = std::numeric_limits<Links>::digits;
+    void pass_on_by(Index first, Index count, const Arrival<Number>& from, const Tile& tile,
+                    OnTheWay& on_the_way) {
+        const auto arrival_by = [&](Index link) {
+            return Arrival<Number>{graph_.neighbor[link], from.sample,
+                                   static_cast<Number>(from.distance + lengths_[link])};
+        };
+        Links staying = 0, leaving = 0;
+        for (Index k = 0; k < count; ++k) {
+            const Arrival<Number> next = arrival_by(first + k);
+            const bool inside = next.vertex - tile.first_vertex < vertices_a_tile;
+            const Places& row =
+                rows_[inside ? next.vertex : from.vertex]; // other tiles' rows may be changing
+            staying |= Links{has_room(row, next.sample, next.distance)} << k;
+            leaving |= Links{!inside} << k;
         }
+        staying &= ~leaving;
+        for (; staying != 0; staying &= staying - 1)
+            take_in(arrival_by(first + static_cast<Index>(std::countr_zero(staying))), on_the_way);
+        for (; leaving != 0; leaving &= leaving - 1)
+            send(arrival_by(first + static_cast<Index>(std::countr_zero(leaving))), on_the_way);
     }
 
     // Leaves with the tile what waits for later rounds.

@@ -39,7 +39,7 @@ void Pipeline::prepare_handles(Progress& progress) {
     }
     const VertexShape shape{order_.code, vertex_positions(), *graph_, *components_};
     const auto budget = static_cast<std::size_t>(handle_share * static_cast<double>(base_samples_));
-    HandleSamples needed = handle_samples(shape, labels_.vertex, samples_, budget, workers_);
+    HandleSamples needed = handle_samples(shape, labels_.vertex, samples_, nearest_, budget, workers_);
     const std::vector<Index> added = shuffled(std::move(needed.added));
     samples_.insert(samples_.end(), added.begin(), added.end());
     seconds_.sampling += clock.lap();

@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::size_t grain = 1 << 14;
 
+// So many samples a border gets for each territory that it runs through.
+constexpr std::size_t samples_a_territory = 2;
+
 // The label of a vertex and its component.
 using Part = std::pair<Index, Index>;
 
@@ -51,6 +54,33 @@ Labelled find_labelled(const VertexShape& shape, std::span<const Index> label, W
     return result;
 }
 
+// How many territories of base samples these vertices belong to.
+std::size_t territories_of(std::span<const Index> vertices, const InfluenceRows& nearest) {
+    std::vector<Index> samples;
+    samples.reserve(vertices.size());
+    for (const Index v : vertices) samples.push_back(nearest[v].sample[0]);
+    std::ranges::sort(samples);
+    return static_cast<std::size_t>(std::unique(samples.begin(), samples.end()) - samples.begin());
+}
+
+// How many samples the border of each label gets.
+std::map<Index, std::size_t> shares(const std::map<Index, std::vector<Index>>& borders,
+                                    const InfluenceRows& nearest, std::size_t budget) {
+    std::map<Index, std::size_t> share;
+    std::size_t wanted = 0;
+    for (const auto& [label, vertices] : borders)
+        wanted += share[label] =
+            std::min(vertices.size(), samples_a_territory * territories_of(vertices, nearest));
+    if (wanted <= budget) return share;
+    std::size_t before = 0; // of what is wanted
+    for (auto& [label, count] : share) {
+        const std::size_t given = before * budget / wanted;
+        before += count;
+        count = before * budget / wanted - given; // the budget in all, to the last sample
+    }
+    return share;
+}
+
 // One vertex of each of these parts.
 std::vector<Index> one_of_each(const std::set<Part>& parts, const VertexShape& shape,
                                std::span<const Index> label) {
@@ -70,7 +100,8 @@ std::vector<Index> one_of_each(const std::set<Part>& parts, const VertexShape& s
 } // namespace
 
 HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> label,
-                             std::span<const Index> base, std::size_t budget, Workers& workers) {
+                             std::span<const Index> base, const InfluenceRows& nearest, std::size_t budget,
+                             Workers& workers) {
     const auto part_of = [&](Index v) { return Part{label[v], shape.components.component[v]}; };
     auto [borders, parts] = find_labelled(shape, label, workers);
     std::vector<bool> taken(label.size(), false);
@@ -81,9 +112,10 @@ HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> la
     std::map<Index, std::vector<Index>> border; // by label, ascending within each
     for (const auto& [handle, v] : borders)
         if (!taken[v]) border[handle].push_back(v);
+    const std::map<Index, std::size_t> share = shares(border, nearest, budget);
     std::vector<Index> added;
     for (const auto& [handle, vertices] : border)
-        for (const Index v : octree_samples(shape.code, shape.positions, vertices, budget / border.size())) {
+        for (const Index v : octree_samples(shape.code, shape.positions, vertices, share.at(handle))) {
             added.push_back(v);
             parts.erase(part_of(v));
         }

@@ -32,12 +32,14 @@ struct HandleSamples {
 
 // The samples that a set of handles adds. Labels tell the handles apart: label[v] is the handle of vertex v,
 // or no_index where it is free.
-//   - Up to `budget` in all, shared out evenly between the labels that have a border, are spread along the
-//     borders.
+//   - Two for each territory of a base sample that a border runs through, up to `budget` in all, which the
+//     borders share by what they would get without it, are spread along the borders: more than that few
+//     samples are no better for, and many need not be added and taken back again with every handle.
 //   - Every label owns at least one sample in every component that it reaches into, budget or not.
-// `base`: vertices, in any order.
+// `base`: vertices, in any order; `nearest`: the flood from them.
 HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> label,
-                             std::span<const Index> base, std::size_t budget, Workers& workers);
+                             std::span<const Index> base, const InfluenceRows& nearest, std::size_t budget,
+                             Workers& workers);
 
 // The graph between samples, and how long a border the territories of two linked ones share.
 struct SampleGraph {

@@ -13,10 +13,11 @@ using test::Cloud;
 using test::Machine;
 using test::octree_of;
 
-std::vector<Index> handle_samples_of(const VertexShape& shape, std::span<const Index> label,
+std::vector<Index> handle_samples_of(const Cloud& cloud, std::span<const Index> label,
                                      std::span<const Index> base, std::size_t budget) {
     Machine machine;
-    return handle_samples(shape, label, base, budget, machine.workers).added;
+    const InfluenceRows nearest = flood(cloud.graph, cloud.lengths, base, machine.workers, machine.progress);
+    return handle_samples(cloud.shape(), label, base, nearest, budget, machine.workers).added;
 }
 
 using Part = std::pair<Index, Index>; // handle, component
@@ -63,7 +64,7 @@ TEST(HandleSamples, GiveEveryHandleOneHoweverThin) {
     for (const std::size_t budget : {0U, 1U, 2U, 30U, 100000U}) {
         for (const std::size_t base_count : {0U, 1U, 20U}) {
             const std::vector<Index> base = octree_of(cloud, base_count);
-            const auto samples = joined(base, handle_samples_of(cloud.shape(), label, base, budget));
+            const auto samples = joined(base, handle_samples_of(cloud, label, base, budget));
             EXPECT_EQ(parts_of(cloud, label, samples), parts_of(cloud, label, everything(cloud)))
                 << "budget " << budget << ", base " << base_count;
         }
@@ -79,29 +80,35 @@ TEST(HandleSamples, GiveAHandleOneInEveryComponentThatItReachesInto) {
     label[cloud.size() - 1] = 0;
     const std::set<Part> all = parts_of(cloud, label, everything(cloud));
     EXPECT_GE(all.size(), 3U) << "the handles are meant to reach into both components";
-    const auto added = handle_samples_of(cloud.shape(), label, {}, 0);
+    const auto added = handle_samples_of(cloud, label, {}, 0);
     EXPECT_EQ(added.size(), all.size());
     EXPECT_EQ(parts_of(cloud, label, added), all);
+}
+
+// How many of them each handle has. All lie on its border.
+std::map<Index, std::size_t> count_by_handle(const Cloud& cloud, const std::vector<Index>& label,
+                                             const std::vector<Index>& added) {
+    std::map<Index, std::size_t> count;
+    for (const Index v : added) {
+        EXPECT_NE(label[v], no_index);
+        EXPECT_TRUE(std::ranges::any_of(cloud.graph.row(v), [&](Index u) { return label[u] == no_index; }))
+            << "not on the border";
+        ++count[label[v]];
+    }
+    return count;
 }
 
 TEST(HandleSamples, SpreadTheBudgetAlongTheBorders) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::cylinder, 6000));
     const std::vector<Index> label = label_tube(cloud);
-    const std::vector<Index> base = octree_of(cloud, 100);
-    const auto added = handle_samples_of(cloud.shape(), label, base, 30);
+    const std::vector<Index> base = octree_of(cloud, 200);
+    const auto added = handle_samples_of(cloud, label, base, 30);
     joined(base, added);
-    // Ten each for the two tubes' rims; handle 2 has one vertex.
-    std::map<Index, std::size_t> count;
-    for (const Index v : added) {
-        ASSERT_NE(label[v], no_index);
-        ++count[label[v]];
-        EXPECT_TRUE(std::ranges::any_of(cloud.graph.row(v), [&](Index u) { return label[u] == no_index; }))
-            << "not on the border";
-    }
-    EXPECT_EQ(count[0], 10U);
-    EXPECT_EQ(count[1], 10U);
-    EXPECT_EQ(count[2], 1U);
-    // Around the rim: no gap of more than a quarter turn between ten samples.
+    EXPECT_EQ(added.size(), 30U) << "the two rims alone would take more";
+    auto count = count_by_handle(cloud, label, added);
+    EXPECT_NEAR(static_cast<double>(count[0]), static_cast<double>(count[1]), 3) << "the rims are alike";
+    EXPECT_EQ(count[2], 1U) << "it has one vertex";
+    // Around the rim: no gap of more than a quarter turn between a dozen samples.
     std::vector<double> angles;
     for (const Index v : added)
         if (label[v] == 0) angles.push_back(std::atan2(cloud.at(v).y(), cloud.at(v).x()));
@@ -111,26 +118,57 @@ TEST(HandleSamples, SpreadTheBudgetAlongTheBorders) {
         EXPECT_LT(angles[i] - angles[i - 1], std::numbers::pi / 2);
 }
 
+TEST(HandleSamples, AreNoMoreThanTwoATerritory) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::cylinder, 6000));
+    std::vector<Index> label = label_tube(cloud);
+    std::ranges::replace(label, Index{2}, no_index);
+    const std::vector<Index> base = octree_of(cloud, 100);
+    Machine machine;
+    const std::vector<Index> territory =
+        territories(cloud.graph, cloud.lengths, base, machine.workers, machine.progress);
+    std::map<Index, std::set<Index>> crossed; // by handle
+    for (Index v = 0; v < cloud.size(); ++v)
+        if (label[v] != no_index &&
+            std::ranges::any_of(cloud.graph.row(v), [&](Index u) { return label[u] == no_index; }))
+            crossed[label[v]].insert(territory[v]);
+    auto count = count_by_handle(cloud, label, handle_samples_of(cloud, label, base, 100000));
+    for (const Index handle : {0U, 1U}) EXPECT_EQ(count[handle], 2 * crossed[handle].size());
+}
+
+TEST(HandleSamples, GoWhereTheBorderIsLonger) {
+    const Cloud cloud = test::cloud_of(test::grid_positions(60, 40));
+    std::vector<Index> label(cloud.size(), no_index);
+    for (Index v = 0; v < cloud.size(); ++v) {
+        if (cloud.at(v).y() < 3) label[v] = 0;                          // a border of 60
+        if (cloud.at(v).y() > 36 && cloud.at(v).x() < 15) label[v] = 1; // a border of some 15
+    }
+    const auto added = handle_samples_of(cloud, label, octree_of(cloud, 100), 20);
+    auto count = count_by_handle(cloud, label, added);
+    EXPECT_EQ(count[0] + count[1], 20U);
+    EXPECT_GE(count[0], 2 * count[1]);
+    EXPECT_GE(count[1], 3U);
+}
+
 TEST(HandleSamples, StayWithinTheBudgetWhereBaseSamplesHoldEveryHandle) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::cylinder, 6000));
     std::vector<Index> label = label_tube(cloud);
     std::ranges::replace(label, Index{2}, no_index);
     const std::vector<Index> base = octree_of(cloud, 200);
     for (const std::size_t budget : {0U, 1U, 7U, 40U})
-        EXPECT_LE(handle_samples_of(cloud.shape(), label, base, budget).size(), budget);
+        EXPECT_LE(handle_samples_of(cloud, label, base, budget).size(), budget);
 }
 
 TEST(HandleSamples, AreNoneWithoutHandlesOrWhereEveryPointIsASample) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::cylinder, 1000));
     const std::vector<Index> free(cloud.size(), no_index);
-    EXPECT_TRUE(handle_samples_of(cloud.shape(), free, {}, 100).empty());
-    EXPECT_TRUE(handle_samples_of(cloud.shape(), label_tube(cloud), everything(cloud), 100).empty());
+    EXPECT_TRUE(handle_samples_of(cloud, free, {}, 100).empty());
+    EXPECT_TRUE(handle_samples_of(cloud, label_tube(cloud), everything(cloud), 100).empty());
 }
 
 TEST(HandleSamples, AreFoundWhereAHandleHoldsAWholeComponent) {
     const Cloud cloud = test::cloud_of(test::two_patches(false)); // it has no border then
     const std::vector<Index> label = cloud.components.component;
-    EXPECT_EQ(handle_samples_of(cloud.shape(), label, {}, 50).size(), 2U);
+    EXPECT_EQ(handle_samples_of(cloud, label, {}, 50).size(), 2U);
 }
 
 } // namespace

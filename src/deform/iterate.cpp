@@ -65,7 +65,7 @@ void turn_with_handles(SampleSystem& system, std::span<const HandleMotion> handl
     assemble_rotations(
         system, 1.0, [](std::size_t) -> Eigen::Vector4d { return Eigen::Vector4d::Zero(); }, increment,
         workers);
-    (system.has_increments ? system.increments : system.positions).solve(system.sides, 4);
+    (system.has_increments ? system.increments : system.positions).solve(system.sides, 4, workers);
     for_solved_rotations(
         system,
         [&](Index s, const Quatd& turn) { state.rotation[s] = (turn * state.rotation[s]).normalized(); },
@@ -181,7 +181,7 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
         Eigen::Map<Vec3d>(system.sides.data() + 3 * row) = given - 0.5 * turned; // p_i - p_j = -e
     });
     add_pulls(system, handles, state);
-    system.positions.solve({system.sides.data(), 3 * rows}, 3);
+    system.positions.solve({system.sides.data(), 3 * rows}, 3, workers);
 
     double longest = 0;
     for (std::size_t row = 0; row < rows; ++row) {
@@ -236,7 +236,7 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
             return system.confidence[row] * beyond_one(local);
         },
         [&](Index s) -> const Quatd& { return state.rotation[s]; }, workers);
-    system.rotations.solve(system.sides, 4);
+    system.rotations.solve(system.sides, 4, workers);
     for_solved_rotations(
         system, [&](Index s, const Quatd& rotation) { state.rotation[s] = rotation; }, workers);
     if (system.midway == 0) find_targets(system, state, workers);

@@ -81,6 +81,12 @@ std::vector<double> diagonal_of(const SparseMatrix& matrix) {
 // 1e-16 of it, and some more after many steps; of a chain of a million samples held at one end, 1e-6.
 constexpr double smallest_pivot = 1e-11;
 
+constexpr std::size_t columns_at_once = 4;
+
+// So many numbers in a factor keep a core busy for some tenths of a millisecond. In smaller ones, reading
+// them once for all right-hand sides counts for more than a second core.
+constexpr std::size_t shared_fill = 1 << 18;
+
 } // namespace
 
 struct SparseFactor::Factors {
@@ -121,7 +127,7 @@ FactorOutcome SparseFactor::factorize(const SparseMatrix& matrix, std::span<cons
         factors.ldlt.analyzePattern(upper);
         if (factors.ldlt.entries() > std::numeric_limits<int>::max()) return too_large(size);
         factors.ldlt.factorize(upper);
-        factors.permuted.reserve(4 * static_cast<std::size_t>(size));
+        factors.permuted.reserve(columns_at_once * static_cast<std::size_t>(size));
     } catch (const std::bad_alloc&) {
         return too_large(size);
     }
@@ -141,13 +147,13 @@ FactorOutcome SparseFactor::factorize(const SparseMatrix& matrix, std::span<cons
 
 namespace {
 
-// L y = b, y ← D⁻¹ y, Lᵀ x = y, in place, for `columns` numbers side by side in each of the rows, which begin
-// `stride` apart.
+// L y = b, y ← D⁻¹ y, Lᵀ x = y, in place, for `columns` numbers side by side in each of the rows.
 template<int columns>
-void substitute(const Matrix& lower, std::span<const double> inverse_pivot, double* values,
-                std::size_t stride) {
+void substitute(const Matrix& lower, std::span<const double> inverse_pivot, double* values) {
     using Row = Eigen::Matrix<double, columns, 1>;
-    const auto row = [&](int i) { return Eigen::Map<Row>(values + stride * static_cast<std::size_t>(i)); };
+    const auto row = [&](int i) {
+        return Eigen::Map<Row>(values + std::size_t{columns} * static_cast<std::size_t>(i));
+    };
     const int* first = lower.outerIndexPtr();
     const int* below = lower.innerIndexPtr();
     const double* value = lower.valuePtr();
@@ -164,29 +170,42 @@ void substitute(const Matrix& lower, std::span<const double> inverse_pivot, doub
     }
 }
 
+void substitute(const Matrix& lower, std::span<const double> inverse_pivot, std::size_t columns,
+                double* values) {
+    switch (columns) {
+    case 1:
+        return substitute<1>(lower, inverse_pivot, values);
+    case 2:
+        return substitute<2>(lower, inverse_pivot, values);
+    case 3:
+        return substitute<3>(lower, inverse_pivot, values);
+    default:
+        return substitute<columns_at_once>(lower, inverse_pivot, values);
+    }
+}
+
 } // namespace
 
-void SparseFactor::solve(std::span<double> values, std::size_t columns) {
+void SparseFactor::solve(std::span<double> values, std::size_t columns, Workers& workers) {
     Factors& factors = *factors_;
     const std::size_t size = factors.inverse_pivot.size();
     require(columns > 0 && values.size() % columns == 0, "whole rows");
     require(values.empty() || size > 0, "a system is factorised before it is solved");
     require(values.size() == size * columns, "as many rows as the system has");
     factors.permuted.resize(values.size());
-    double* permuted = factors.permuted.data();
-    for (std::size_t i = 0; i < size; ++i)
-        std::copy_n(values.data() + columns * static_cast<std::size_t>(factors.order[i]), columns,
-                    permuted + columns * i);
-    const Matrix& lower = factors.ldlt.lower();
-    std::size_t done = 0;
-    for (; columns - done >= 4; done += 4)
-        substitute<4>(lower, factors.inverse_pivot, permuted + done, columns);
-    if (columns - done == 3) substitute<3>(lower, factors.inverse_pivot, permuted + done, columns);
-    if (columns - done == 2) substitute<2>(lower, factors.inverse_pivot, permuted + done, columns);
-    if (columns - done == 1) substitute<1>(lower, factors.inverse_pivot, permuted + done, columns);
-    for (std::size_t i = 0; i < size; ++i)
-        std::copy_n(permuted + columns * i, columns,
-                    values.data() + columns * static_cast<std::size_t>(factors.order[i]));
+    const bool shared = workers.threads() > 1 && fill() >= shared_fill;
+    const std::size_t most = shared ? columns_at_once / 2 : columns_at_once;
+    // No column knows of the others: how they are shared out changes no bit.
+    workers.for_chunks(columns, most, [&](std::size_t begin, std::size_t end) {
+        const std::size_t width = end - begin;
+        double* permuted = factors.permuted.data() + size * begin;
+        const auto place = [&](std::size_t i) {
+            return values.data() + columns * static_cast<std::size_t>(factors.order[i]) + begin;
+        };
+        for (std::size_t i = 0; i < size; ++i) std::copy_n(place(i), width, permuted + width * i);
+        substitute(factors.ldlt.lower(), factors.inverse_pivot, width, permuted);
+        for (std::size_t i = 0; i < size; ++i) std::copy_n(permuted + width * i, width, place(i));
+    });
 }
 
 std::size_t SparseFactor::fill() const {

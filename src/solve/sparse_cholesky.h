@@ -5,7 +5,10 @@
 // Eigen orders (approximate minimum degree) and factorises (up-looking, row by row). The systems of a surface
 // leave so little fill that this is several times faster than the dense blocks of a supernodal solver;
 // tests/peers/peer_factors prints the figures. The solving is knead's own, since it is what every frame waits
-// for: all right-hand sides at once and side by side, so that each number of L is read once for all of them.
+// for: all right-hand sides at once and side by side, so that each number of L is read once for all of them;
+// large factors are read by two workers, each for half of the sides.
+
+#include "base/workers.h"
 
 #include <cstddef>
 #include <memory>
@@ -49,7 +52,7 @@ public:
 
     // Solves for `columns` right-hand sides at once: `values` holds, row by row, `columns` numbers each, and
     // receives the solutions in the same places. Allocates nothing for up to 4 columns.
-    void solve(std::span<double> values, std::size_t columns);
+    void solve(std::span<double> values, std::size_t columns, Workers& workers);
 
     // Numbers in the factors L and D: the measure of an ordering.
     std::size_t fill() const;

@@ -99,6 +99,7 @@ void run_solver(const SystemMatrices& matrices, Layout layout, Figures& figures,
 }
 
 void run_knead(const SystemMatrices& matrices, Figures& figures) {
+    Workers workers(1); // as the others have
     std::vector<int> ordering;
     std::array<SparseFactor, 2> factors;
     run_solver(
@@ -108,7 +109,7 @@ void run_knead(const SystemMatrices& matrices, Figures& figures) {
                 throw Error(Trouble::numeric, "", "knead cannot factorise the systems");
         },
         [&](std::size_t which, std::vector<double>& values, std::size_t columns) {
-            factors.at(which).solve(values, columns);
+            factors.at(which).solve(values, columns, workers);
         });
 }
 

@@ -29,7 +29,9 @@ FactorOutcome factorized(SparseFactor& factor, const MatrixXd& dense) {
 
 MatrixXd solved(SparseFactor& factor, const MatrixXd& sides) {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = sides;
-    factor.solve({rows.data(), static_cast<std::size_t>(rows.size())}, static_cast<std::size_t>(rows.cols()));
+    Workers workers(2);
+    factor.solve({rows.data(), static_cast<std::size_t>(rows.size())}, static_cast<std::size_t>(rows.cols()),
+                 workers);
     return rows;
 }
 
@@ -102,10 +104,11 @@ TEST(SparseFactor, KeepsItsFactorsWhenMoved) {
 }
 
 TEST(SparseFactor, AcceptsAnEmptyMatrix) {
+    Workers workers(1);
     SparseFactor factor;
     EXPECT_TRUE(factor.factorize({}, {}).solved);
     EXPECT_TRUE(factor.factorize({{0}, {}, {}}, {}).solved);
-    factor.solve({}, 4);
+    factor.solve({}, 4, workers);
     EXPECT_EQ(factor.fill(), 0U);
 }
 
@@ -147,10 +150,11 @@ TEST(SparseFactor, RefusesAMatrixWithoutADiagonal) {
 }
 
 TEST(SparseFactor, IsNotSolvedAfterABadOutcomeOfItsNumbers) {
+    Workers workers(1);
     SparseFactor factor;
     expect_refused(factorized(factor, MatrixXd::Constant(3, 3, std::nan(""))));
     std::vector<double> values(3);
-    EXPECT_THROW(factor.solve(values, 1), BrokenInvariant);
+    EXPECT_THROW(factor.solve(values, 1, workers), BrokenInvariant);
 }
 
 TEST(SparseFactor, RefusesAMatrixThatIsNotPositiveDefinite) {
@@ -201,10 +205,27 @@ TEST(SparseFactor, AcceptsALongChainHeldAtOneEnd) {
     const FactorOutcome outcome = factor.factorize(chain, minimum_degree_order(chain));
     ASSERT_TRUE(outcome.solved) << outcome.words;
     std::vector<double> side(size, 0);
+    Workers workers(2);
     side[size - 1] = 1; // pulled by 1 at the free end: x_i = i + 1
-    factor.solve(side, 1);
+    factor.solve(side, 1, workers);
     for (int i = 0; i < size; i += 999) // condition 1e10
         EXPECT_NEAR(side[static_cast<std::size_t>(i)], i + 1, 1e-5 * (i + 1));
+}
+
+TEST(SparseFactor, SolvesAlikeForAnyNumberOfWorkers) {
+    const SparseMatrix matrix = test::grid_system(160);
+    SparseFactor factor;
+    ASSERT_TRUE(factor.factorize(matrix, minimum_degree_order(matrix)).solved);
+    EXPECT_GT(factor.fill(), std::size_t{1} << 18) << "too small for workers to share it";
+    for (const std::size_t columns : {1U, 2U, 3U, 4U, 7U}) {
+        std::vector<double> alone(columns * static_cast<std::size_t>(matrix.size()));
+        for (std::size_t i = 0; i < alone.size(); ++i) alone[i] = std::sin(static_cast<double>(i));
+        std::vector<double> shared = alone;
+        Workers one(1), several(3);
+        factor.solve(alone, columns, one);
+        factor.solve(shared, columns, several);
+        EXPECT_EQ(alone, shared) << columns << " columns";
+    }
 }
 
 TEST(SparseFactor, AcceptsWeightsOfAnyUnit) {
@@ -218,11 +239,12 @@ TEST(SparseFactor, AcceptsWeightsOfAnyUnit) {
 }
 
 TEST(SparseFactor, IsNotSolvedBeforeItIsFactorised) {
+    Workers workers(1);
     SparseFactor factor;
     std::vector<double> values(4);
-    EXPECT_THROW(factor.solve(values, 1), BrokenInvariant);
+    EXPECT_THROW(factor.solve(values, 1, workers), BrokenInvariant);
     ASSERT_TRUE(factorized(factor, MatrixXd::Identity(4, 4)).solved);
-    EXPECT_THROW(factor.solve(values, 2), BrokenInvariant);
+    EXPECT_THROW(factor.solve(values, 2, workers), BrokenInvariant);
 }
 
 TEST(MinimumDegreeOrder, IsAPermutation) {

@@ -1,5 +1,6 @@
 // The per-frame half of sample_system.h.
 
+#include "base/prefetch.h"
 #include "deform/rotation.h"
 #include "deform/sample_system.h"
 
@@ -20,6 +21,27 @@ Eigen::Vector4d beyond_one(const Quatd& q) {
 // How far p is sent by a handle.
 Vec3d sent(const HandleMotion& motion, const Vec3d& p) {
     return (motion.linear - Mat3d::Identity()) * p + motion.offset;
+}
+
+// Samples are numbered in no direction, so what a row needs of its neighbours lies anywhere. Asks for it some
+// rows before, and for who they are some rows before that.
+constexpr std::size_t soon = 3;
+[[gnu::always_inline]] inline void look_ahead(const SampleSystem& system, const SampleState& state,
+                                              std::size_t row) {
+    const Graph& graph = system.rest.graph;
+    if (row + 3 * soon < system.free_sample.size())
+        prefetch(&graph.first[system.free_sample[row + 3 * soon]]);
+    if (row + 2 * soon < system.free_sample.size())
+        prefetch(graph.neighbor.data() + graph.first[system.free_sample[row + 2 * soon]]);
+    if (row + soon >= system.free_sample.size()) return;
+    const Index i = system.free_sample[row + soon];
+    prefetch(&system.turn[i]);
+    prefetch(&state.rotation[i]);
+    for (const Index j : graph.row(i)) {
+        prefetch(&system.turn[j]);
+        prefetch(&state.displacement[j]);
+        prefetch(&system.rest.position[j]);
+    }
 }
 
 // The right-hand side, four numbers a row: `own(row)` of the sample itself, and what `given(sample)` of the
@@ -167,6 +189,7 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
     const std::size_t rows = system.moving_rows;
     find_turns(system, state, workers);
     workers.for_each(rows, grain, [&](std::size_t row) {
+        look_ahead(system, state, row);
         const Index i = system.free_sample[row];
         Vec3d given = Vec3d::Zero(); // by handles: Σ w u_j
         Vec3d edges = Vec3d::Zero(); // Σ w e
@@ -231,6 +254,7 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
     assemble_rotations(
         system, system.smoothing,
         [&](std::size_t row) -> Eigen::Vector4d {
+            look_ahead(system, state, row);
             const Quatd local =
                 system.midway > 0 ? local_rotation(system, state, row) : turn_of_edges(system, state, row);
             return system.confidence[row] * beyond_one(local);

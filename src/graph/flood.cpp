@@ -2,6 +2,7 @@
 
 #include "base/gathered.h"
 #include "base/locked.h"
+#include "base/prefetch.h"
 #include "base/require.h"
 #include "graph/scrambled.h"
 
@@ -228,11 +229,8 @@ private:
     }
 
     // Arrivals of one level lie all over the tile. A core that went from one to the next would spend most of
-    // its time waiting for where that leads to: so it asks for it some arrivals before, step by step. (A call
-    // that only does this compilers would leave out as one without effect, if they did not have to inline
-    // it.)
+    // its time waiting for where that leads to: so it asks for it some arrivals before, step by step.
     static constexpr std::size_t soon = 4;
-    [[gnu::always_inline]] static void prefetch(const auto* what) { __builtin_prefetch(what); }
     [[gnu::always_inline]] void look_ahead(const Arrivals& going, std::size_t i) const {
         if (i + 3 * soon < going.size()) {
             const Index v = going[i + 3 * soon].vertex;

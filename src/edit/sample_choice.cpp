@@ -19,12 +19,12 @@ constexpr double points_a_sample = 4;
 constexpr double frame_seconds = 0.025;
 constexpr double least_for_solving = frame_seconds / 3;
 
-// Solving takes m to this power for m samples: 2.1 ms an iteration with 5000, 10 with 20,000 and 65 with
-// 100,000 (README).
+// Solving takes m to this power for m samples, or to a lower one (README: 2.8 ms an iteration with 10,500 and
+// 34 with 100,000).
 constexpr double growth = 1.15;
 
-// What handles ask for: two samples across the smallest, eight between any two, and a border of 20 each of
-// the fifth that borders get. Handles of less than 1/1250 of the points get a falloff instead
+// What handles ask for: two samples across the smallest, eight between any two, and 20 for a border of each
+// from the fifth that they share. Handles of less than 1/1250 of the points get a falloff instead
 // (edit/falloffs.h).
 constexpr double samples_on_smallest = 4, smallest_counted = 1.0 / 1250;
 constexpr double samples_between = 8;

@@ -24,7 +24,8 @@ constexpr std::uint32_t levels_a_round = 128; // fewer are more rounds, more are
 constexpr std::uint32_t ring = 256;           // levels that can wait at a time: those of a round and a link
 static_assert(ring > levels_a_round + longest_link);
 constexpr double levels_a_median_link = 4;
-constexpr Index vertices_a_tile = 1 << 14; // their rows and links stay in a core's own cache
+// Of vertices a tile. Larger ones send less to each other, and smaller ones leave something for every core.
+constexpr std::size_t largest_tile = 1 << 14, smallest_tile = 1 << 10, fewest_tiles = 8;
 
 // A row of the nearest sample alone.
 template<typename Value>
@@ -115,10 +116,12 @@ public:
     Flood(std::vector<Places>& rows, const Graph& graph, std::span<const std::uint8_t> lengths,
           Workers& workers)
         : rows_(rows), graph_(graph), lengths_(lengths), workers_(workers),
-          tiles_(graph.size() / vertices_a_tile + 1) {
+          vertices_a_tile_(static_cast<Index>(
+              std::clamp(std::bit_floor(graph.size() / fewest_tiles), smallest_tile, largest_tile))),
+          tiles_(graph.size() / vertices_a_tile_ + 1) {
         require(lengths.size() == graph.neighbor.size(), "a length a link");
         for (std::size_t t = 0; t < tiles_.size(); ++t)
-            tiles_[t].first_vertex = static_cast<Index>(t * vertices_a_tile);
+            tiles_[t].first_vertex = static_cast<Index>(t * vertices_a_tile_);
     }
 
     // Rows are kept as they were before, if `keep_old` says so. Returns whether all distances fit into the
@@ -127,7 +130,7 @@ public:
         if (keep_old) kept_.assign(graph_.size(), 0);
         for (const FloodStart& start : starts) {
             require(start.number < Places::none, "numbers of samples fit into the rows");
-            Arrived& arriving = tiles_[start.vertex / vertices_a_tile].arriving;
+            Arrived& arriving = tiles_[start.vertex / vertices_a_tile_].arriving;
             arriving.all.push_back({start.vertex, static_cast<Number>(start.number), 0});
             arriving.lowest = 0;
         }
@@ -259,12 +262,16 @@ private:
             return;
         }
         const Index end = graph_.first[from.vertex + 1];
-        for (Index first = graph_.first[from.vertex]; first < end; first += links_at_once)
-            pass_on_by(first, std::min<Index>(end - first, links_at_once), from, tile, on_the_way);
+        for (Index left = end - graph_.first[from.vertex]; left > 0;) {
+            const Index count = std::min(left, links_at_once);
+            pass_on_by(end - left, count, from, tile, on_the_way);
+            left -= count;
+        }
     }
 
     // By `count` links from `first` on. Which of them lead to where there is room is found out for all before
     // anything changes, and without a decision on the way, so that a core asks for all these rows at once.
+    // (They lead to different vertices, so that none of the changes takes another's room.)
     using Links = std::uint32_t; // a set of them
     static constexpr Index links_at_once = std::numeric_limits<Links>::digits;
     void pass_on_by(Index first, Index count, const Arrival<Number>& from, const Tile& tile,
@@ -276,7 +283,7 @@ private:
         Links staying = 0, leaving = 0;
         for (Index k = 0; k < count; ++k) {
             const Arrival<Number> next = arrival_by(first + k);
-            const bool inside = next.vertex - tile.first_vertex < vertices_a_tile;
+            const bool inside = next.vertex - tile.first_vertex < vertices_a_tile_;
             const Places& row =
                 rows_[inside ? next.vertex : from.vertex]; // other tiles' rows may be changing
             staying |= Links{has_room(row, next.sample, next.distance)} << k;
@@ -301,7 +308,7 @@ private:
     }
 
     void send(const Arrival<Number>& arrival, OnTheWay& on_the_way) {
-        const Index tile = arrival.vertex / vertices_a_tile;
+        const Index tile = arrival.vertex / vertices_a_tile_;
         Arrivals& there = on_the_way.leaving[tile];
         if (there.empty()) on_the_way.destinations.push_back(tile);
         there.push_back(arrival);
@@ -329,6 +336,7 @@ private:
     Workers& workers_;
     std::atomic<bool> too_far_ = false; // something is farther away than its row can tell
     std::vector<std::uint8_t> kept_;    // of each vertex, whether its old row was kept; empty if none are
+    const Index vertices_a_tile_;
     std::vector<Tile> tiles_;
     std::vector<Tile*> busy_; // in this round
     Level end_ = 0;           // of the levels of this round

@@ -1,6 +1,7 @@
 #include "graph/sampling.h"
 
 #include "base/gathered.h"
+#include "base/require.h"
 #include "graph/octree.h"
 #include "graph/symmetric_graph.h"
 
@@ -54,13 +55,25 @@ Labelled find_labelled(const VertexShape& shape, std::span<const Index> label, W
     return result;
 }
 
-// How many territories of base samples these vertices belong to.
+// How many territories of base samples these vertices belong to; what no base sample reaches counts as one.
 std::size_t territories_of(std::span<const Index> vertices, const InfluenceRows& nearest) {
     std::vector<Index> samples;
     samples.reserve(vertices.size());
     for (const Index v : vertices) samples.push_back(nearest[v].sample[0]);
     std::ranges::sort(samples);
     return static_cast<std::size_t>(std::unique(samples.begin(), samples.end()) - samples.begin());
+}
+
+// One to each border that got none, from those that got most, as long as these have some to spare.
+void leave_none_out(std::map<Index, std::size_t>& share) {
+    for (auto& [label, count] : share) {
+        if (count > 0) continue;
+        auto& [richest, most] =
+            *std::ranges::max_element(share, {}, [](const auto& each) { return each.second; });
+        if (most < 2) return;
+        --most;
+        ++count;
+    }
 }
 
 // How many samples the border of each label gets.
@@ -78,6 +91,7 @@ std::map<Index, std::size_t> shares(const std::map<Index, std::vector<Index>>& b
         before += count;
         count = before * budget / wanted - given; // the budget in all, to the last sample
     }
+    leave_none_out(share);
     return share;
 }
 
@@ -102,6 +116,7 @@ std::vector<Index> one_of_each(const std::set<Part>& parts, const VertexShape& s
 HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> label,
                              std::span<const Index> base, const InfluenceRows& nearest, std::size_t budget,
                              Workers& workers) {
+    require(nearest.size() == label.size(), "a row and a label a vertex");
     const auto part_of = [&](Index v) { return Part{label[v], shape.components.component[v]}; };
     auto [borders, parts] = find_labelled(shape, label, workers);
     std::vector<bool> taken(label.size(), false);

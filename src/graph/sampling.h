@@ -32,11 +32,13 @@ struct HandleSamples {
 
 // The samples that a set of handles adds. Labels tell the handles apart: label[v] is the handle of vertex v,
 // or no_index where it is free.
-//   - Two for each territory of a base sample that a border runs through, up to `budget` in all, which the
-//     borders share by what they would get without it, are spread along the borders: more than that few
-//     samples are no better for, and many need not be added and taken back again with every handle.
+//   - Two for each territory of a base sample that a border runs through, but no more than it has vertices,
+//   are
+//     spread along it: more gain nothing, and have to be flooded and taken back at every change of handles.
+//     Where this is more than `budget` in all, the borders share that by it, and none is left out while
+//     another has two.
 //   - Every label owns at least one sample in every component that it reaches into, budget or not.
-// `base`: vertices, in any order; `nearest`: the flood from them.
+// `base`: vertices, in any order; `nearest`: the flood from them, a row a vertex, and nothing added to it.
 HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> label,
                              std::span<const Index> base, const InfluenceRows& nearest, std::size_t budget,
                              Workers& workers);

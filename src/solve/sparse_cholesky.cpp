@@ -83,10 +83,6 @@ constexpr double smallest_pivot = 1e-11;
 
 constexpr std::size_t columns_at_once = 4;
 
-// So many numbers in a factor keep a core busy for some tenths of a millisecond. In smaller ones, reading
-// them once for all right-hand sides counts for more than a second core.
-constexpr std::size_t shared_fill = 1 << 18;
-
 } // namespace
 
 struct SparseFactor::Factors {
@@ -195,7 +191,6 @@ void SparseFactor::solve(std::span<double> values, std::size_t columns, Workers&
     factors.permuted.resize(values.size());
     const bool shared = workers.threads() > 1 && fill() >= shared_fill;
     const std::size_t most = shared ? columns_at_once / 2 : columns_at_once;
-    // No column knows of the others: how they are shared out changes no bit.
     workers.for_chunks(columns, most, [&](std::size_t begin, std::size_t end) {
         const std::size_t width = end - begin;
         double* permuted = factors.permuted.data() + size * begin;

@@ -6,7 +6,7 @@
 // leave so little fill that this is several times faster than the dense blocks of a supernodal solver;
 // tests/peers/peer_factors prints the figures. The solving is knead's own, since it is what every frame waits
 // for: all right-hand sides at once and side by side, so that each number of L is read once for all of them;
-// large factors are read by two workers, each for half of the sides.
+// large factors are read by several workers, each for two of the sides.
 
 #include "base/workers.h"
 
@@ -40,6 +40,9 @@ struct FactorOutcome {
 // A factorised matrix.
 class SparseFactor {
 public:
+    // So many numbers in a factor keep a core busy for some tenths of a millisecond: solve() shares them.
+    static constexpr std::size_t shared_fill = 1 << 18;
+
     SparseFactor();
     ~SparseFactor();
     SparseFactor(SparseFactor&&) noexcept;
@@ -52,6 +55,8 @@ public:
 
     // Solves for `columns` right-hand sides at once: `values` holds, row by row, `columns` numbers each, and
     // receives the solutions in the same places. Allocates nothing for up to 4 columns.
+    // With factors of at least `shared_fill` numbers two columns are a worker's work at a time. No column
+    // knows of the others, so this changes no bit.
     void solve(std::span<double> values, std::size_t columns, Workers& workers);
 
     // Numbers in the factors L and D: the measure of an ordering.

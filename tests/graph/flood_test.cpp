@@ -90,6 +90,48 @@ TEST(Flood, TakesLinksOfEveryLength) {
         expect_reached(nearest[v], test::nearest_by_length(cloud.graph, lengths, samples, v), v);
 }
 
+// A vertex with so many chains of one to five vertices.
+Graph hub_graph(Index chains) {
+    std::vector<std::set<Index>> links(1);
+    for (Index chain = 0; chain < chains; ++chain) {
+        Index last = 0;
+        for (Index way = 0; way <= chain % 5; ++way) {
+            const auto next = static_cast<Index>(links.size());
+            links.push_back({last});
+            links[last].insert(next);
+            last = next;
+        }
+    }
+    Graph graph;
+    graph.first.push_back(0);
+    for (const auto& row : links) {
+        graph.neighbor.insert(graph.neighbor.end(), row.begin(), row.end());
+        graph.first.push_back(static_cast<Index>(graph.neighbor.size()));
+    }
+    return graph;
+}
+
+TEST(Flood, PassesOnByAnyNumberOfLinks) {
+    for (const Index chains : {1U, 31U, 32U, 33U, 64U, 65U, 100U, 3000U}) { // of the last most in other tiles
+        SCOPED_TRACE(chains);
+        const Graph graph = hub_graph(chains);
+        std::vector<std::uint8_t> lengths(graph.neighbor.size());
+        for (Index v = 0; v < graph.size(); ++v)
+            for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link)
+                lengths[link] = static_cast<std::uint8_t>(1 + (v + graph.neighbor[link]) % 63);
+        const std::vector<Index> samples =
+            test::random_vertices(graph.size(), std::min<std::size_t>(graph.size() / 2 + 1, 20), 3);
+        Machine machine;
+        const auto nearest = flood(graph, lengths, samples, machine.workers, machine.progress);
+        const auto territory = territories(graph, lengths, samples, machine.workers, machine.progress);
+        for (Index v = 0; v<graph.size(); v += chains> 100 ? 53 : 1) {
+            const auto expected = test::nearest_by_length(graph, lengths, samples, v);
+            expect_reached(nearest[v], expected, v);
+            ASSERT_EQ(territory[v], expected[0].sample) << v;
+        }
+    }
+}
+
 TEST(Territories, AreTheNearestSample) {
     for (const auto& [name, cloud] : test::several_clouds()) {
         SCOPED_TRACE(name);
@@ -109,7 +151,7 @@ TEST(Territories, AreTheNearestSample) {
 
 TEST(Flood, IsTheSameSearchAcrossItsTiles) {
     for (const Shape shape : {Shape::knot, Shape::plane}) {
-        const Cloud cloud = test::cloud_of(test::shape_positions(shape, 20'000)); // five tiles
+        const Cloud cloud = test::cloud_of(test::shape_positions(shape, 20'000)); // ten tiles
         for (const std::size_t count : {5U, 40U, 400U, 3000U}) {
             const std::vector<Index> samples = test::random_vertices(cloud.size(), count, 9);
             const auto nearest = flooded(cloud, cloud.lengths, samples);

@@ -32,8 +32,7 @@ struct HandleSamples {
 
 // The samples that a set of handles adds. Labels tell the handles apart: label[v] is the handle of vertex v,
 // or no_index where it is free.
-//   - Two for each territory of a base sample that a border runs through, but no more than it has vertices,
-//   are
+//   - Two for each territory of a base sample that a border runs through, if it has as many vertices, are
 //     spread along it: more gain nothing, and have to be flooded and taken back at every change of handles.
 //     Where this is more than `budget` in all, the borders share that by it, and none is left out while
 //     another has two.

@@ -284,8 +284,8 @@ private:
         for (Index k = 0; k < count; ++k) {
             const Arrival<Number> next = arrival_by(first + k);
             const bool inside = next.vertex - tile.first_vertex < vertices_a_tile_;
-            const Places& row =
-                rows_[inside ? next.vertex : from.vertex]; // other tiles' rows may be changing
+            // The rows of other tiles may be changing: another is looked at for them.
+            const Places& row = rows_[inside ? next.vertex : from.vertex];
             staying |= Links{has_room(row, next.sample, next.distance)} << k;
             leaving |= Links{!inside} << k;
         }
@@ -336,7 +336,7 @@ private:
     Workers& workers_;
     std::atomic<bool> too_far_ = false; // something is farther away than its row can tell
     std::vector<std::uint8_t> kept_;    // of each vertex, whether its old row was kept; empty if none are
-    const Index vertices_a_tile_;
+    const Index vertices_a_tile_;       // a power of two, by the number of all vertices
     std::vector<Tile> tiles_;
     std::vector<Tile*> busy_; // in this round
     Level end_ = 0;           // of the levels of this round

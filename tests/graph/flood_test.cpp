@@ -124,7 +124,8 @@ TEST(Flood, PassesOnByAnyNumberOfLinks) {
         Machine machine;
         const auto nearest = flood(graph, lengths, samples, machine.workers, machine.progress);
         const auto territory = territories(graph, lengths, samples, machine.workers, machine.progress);
-        for (Index v = 0; v<graph.size(); v += chains> 100 ? 53 : 1) {
+        const Index step = graph.size() > 1000 ? 53 : 1;
+        for (Index v = 0; v < graph.size(); v += step) {
             const auto expected = test::nearest_by_length(graph, lengths, samples, v);
             expect_reached(nearest[v], expected, v);
             ASSERT_EQ(territory[v], expected[0].sample) << v;

@@ -85,14 +85,17 @@ TEST(HandleSamples, GiveAHandleOneInEveryComponentThatItReachesInto) {
     EXPECT_EQ(parts_of(cloud, label, added), all);
 }
 
+bool touches_free(const Cloud& cloud, const std::vector<Index>& label, Index v) {
+    return std::ranges::any_of(cloud.graph.row(v), [&](Index u) { return label[u] == no_index; });
+}
+
 // How many of them each handle has. All lie on its border.
 std::map<Index, std::size_t> count_by_handle(const Cloud& cloud, const std::vector<Index>& label,
                                              const std::vector<Index>& added) {
     std::map<Index, std::size_t> count;
     for (const Index v : added) {
         EXPECT_NE(label[v], no_index);
-        EXPECT_TRUE(std::ranges::any_of(cloud.graph.row(v), [&](Index u) { return label[u] == no_index; }))
-            << "not on the border";
+        EXPECT_TRUE(touches_free(cloud, label, v)) << "not on the border";
         ++count[label[v]];
     }
     return count;
@@ -129,8 +132,7 @@ TEST(HandleSamples, AreTwoATerritory) {
         territories(cloud.graph, cloud.lengths, base, machine.workers, machine.progress);
     std::map<Index, std::set<Index>> crossed; // by handle
     for (Index v = 0; v < cloud.size(); ++v)
-        if (label[v] != no_index && std::ranges::find(base, v) == base.end() &&
-            std::ranges::any_of(cloud.graph.row(v), [&](Index u) { return label[u] == no_index; }))
+        if (label[v] != no_index && std::ranges::find(base, v) == base.end() && touches_free(cloud, label, v))
             crossed[label[v]].insert(territory[v]);
     auto count = count_by_handle(cloud, label, handle_samples_of(cloud, label, base, 100000));
     for (const Index handle : {0U, 1U}) EXPECT_EQ(count[handle], 2 * crossed[handle].size());

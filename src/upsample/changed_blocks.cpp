@@ -1,5 +1,6 @@
 #include "upsample/changed_blocks.h"
 
+#include "base/workers.h"
 #include "upsample/point_blocks.h"
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 namespace knead {
 
 namespace {
+
+constexpr std::size_t grain = 256; // blocks
 
 bool same_bits(const PackedMotion& a, const PackedMotion& b) {
     using Bits = std::array<std::uint32_t, sizeof(PackedMotion) / sizeof(std::uint32_t)>;
@@ -25,21 +28,24 @@ Index lone_motion(std::span<const Index> movers, std::size_t rows) {
 
 } // namespace
 
-void ChangedBlocks::prepare(const UpsampleInput& input, std::size_t motions) {
+void ChangedBlocks::prepare(const UpsampleInput& input, std::size_t motions, Workers& workers) {
     const std::size_t points = input.mover.size();
-    lone_mover_.assign(blocks_of(points), no_index);
+    lone_mover_.resize(blocks_of(points));
+    workers.for_each(lone_mover_.size(), grain, [&](std::size_t block) {
+        const PointRange own = points_of(block, points);
+        lone_mover_[block] =
+            lone_motion(input.mover.subspan(own.first, own.end - own.first), input.rows->size());
+    });
     lone_motions_.clear();
     std::vector<Index> place(motions, no_index); // of a motion in lone_motions_
-    for (std::size_t block = 0; block < lone_mover_.size(); ++block) {
-        const PointRange own = points_of(block, points);
-        const Index motion =
-            lone_motion(input.mover.subspan(own.first, own.end - own.first), input.rows->size());
-        if (motion == no_index) continue;
+    for (Index& mover : lone_mover_) {
+        if (mover == no_index) continue;
+        const Index motion = mover;
         if (place[motion] == no_index) {
             place[motion] = static_cast<Index>(lone_motions_.size());
             lone_motions_.push_back(motion);
         }
-        lone_mover_[block] = place[motion];
+        mover = place[motion];
     }
     before_.assign(lone_motions_.size(), {});
     is_other_.assign(lone_motions_.size(), 1);

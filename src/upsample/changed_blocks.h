@@ -13,7 +13,7 @@ namespace knead {
 class ChangedBlocks {
 public:
     // Takes who moves which points. No frame has been written yet.
-    void prepare(const UpsampleInput& input, std::size_t motions);
+    void prepare(const UpsampleInput& input, std::size_t motions, Workers& workers);
 
     // What a frame of these motions has to write into these spans, ascending, good until the next call. Until
     // note_written() the next frame has to write everything.

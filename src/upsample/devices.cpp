@@ -47,7 +47,7 @@ std::size_t device_called(const std::string& request, const std::vector<DeviceDe
 
 UpsamplerChoice on_device(std::size_t device, Workers& workers, unsigned threads) {
     try {
-        return {make_fallback_upsampler(make_opencl_upsampler(device, threads), workers), {}};
+        return {make_fallback_upsampler(make_opencl_upsampler(device, workers, threads), workers), {}};
     } catch (const DeviceFailure& failure) {
         return {make_reference_upsampler(workers),
                 std::string("the points are moved in plain C++, as ") + failure.what()};

@@ -146,8 +146,10 @@ struct Result {
 
 class OpenClUpsampler final : public Upsampler {
 public:
-    OpenClUpsampler(OpenClDevice device, unsigned threads, DeviceMemory memory, const char* kernel)
-        : device_(std::move(device)), threads_(threads), kernel_(kernel ? kernel : embedded::upsample_kernel),
+    OpenClUpsampler(OpenClDevice device, Workers& workers, unsigned threads, DeviceMemory memory,
+                    const char* kernel)
+        : device_(std::move(device)), workers_(workers), threads_(threads),
+          kernel_(kernel ? kernel : embedded::upsample_kernel),
           shares_memory_(memory == DeviceMemory::as_the_device_has_it &&
                          device_.description.type == DeviceType::cpu) {}
 
@@ -161,7 +163,7 @@ public:
     std::string device() const override { return device_.description.name; }
 
     void prepare(const UpsampleInput& input, std::size_t motions) override {
-        require_valid_input(input, motions);
+        require_valid_input(input, motions, workers_);
         input_ = {};
         motion_count_ = motions;
         moved_positions_ = {};
@@ -179,7 +181,7 @@ public:
             paper_ = input.weights == InfluenceWeights::paper ? 1 : 0;
             make_motions();
             make_blocks(blocks_of(input.mover.size()));
-            changes_.prepare(input, motions);
+            changes_.prepare(input, motions, workers_);
             if (!shares_memory_) make_results(input);
             launch_once(input);
         }
@@ -354,6 +356,7 @@ private:
     }
 
     OpenClDevice device_;
+    Workers& workers_;
     unsigned threads_;
     const char* kernel_;
     bool shares_memory_;
@@ -376,11 +379,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<Upsampler> make_opencl_upsampler(std::size_t device, unsigned threads, DeviceMemory memory,
-                                                 const char* kernel) {
+std::unique_ptr<Upsampler> make_opencl_upsampler(std::size_t device, Workers& workers, unsigned threads,
+                                                 DeviceMemory memory, const char* kernel) {
     std::vector<OpenClDevice> devices = find_opencl_devices();
     if (device >= devices.size()) throw DeviceFailure("the device is not there any more");
-    return std::make_unique<OpenClUpsampler>(std::move(devices[device]), threads, memory, kernel);
+    return std::make_unique<OpenClUpsampler>(std::move(devices[device]), workers, threads, memory, kernel);
 }
 
 } // namespace knead

@@ -18,7 +18,7 @@ struct alignas(64) PackedMotion {
 void pack_motions(std::span<const Motion> motions, InfluenceWeights weights, std::span<PackedMotion> packed);
 
 // Breaks off on sizes that do not fit each other, and on rows and samples that do not exist.
-void require_valid_input(const UpsampleInput& input, std::size_t motions);
+void require_valid_input(const UpsampleInput& input, std::size_t motions, Workers& workers);
 void require_valid_frame(const UpsampleInput& input, std::size_t motions_prepared,
                          std::span<const Motion> motions, std::span<float> positions,
                          std::span<float> normals);

@@ -188,10 +188,10 @@ public:
     std::string device() const override { return "reference"; }
 
     void prepare(const UpsampleInput& input, std::size_t motions) override {
-        require_valid_input(input, motions);
+        require_valid_input(input, motions, workers_);
         input_ = input;
         packed_.assign(motions, {});
-        changes_.prepare(input, motions);
+        changes_.prepare(input, motions, workers_);
     }
 
     std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,

@@ -90,7 +90,8 @@ void upsample_reference(benchmark::State& state) {
 }
 
 void upsample_device(benchmark::State& state) {
-    run_frames(state, *make_opencl_upsampler(static_cast<std::size_t>(state.range(2)), 0));
+    Workers workers;
+    run_frames(state, *make_opencl_upsampler(static_cast<std::size_t>(state.range(2)), workers, 0));
 }
 
 constexpr int point_counts[] = {35'000, 437'000, 1'000'000};

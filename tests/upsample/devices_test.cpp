@@ -57,7 +57,7 @@ TEST(FallbackUpsampler, ReplacesARealDeviceWhoseKernelDoesNotBuild) {
     for (const auto& [kernel, words] : kernels)
         for (const DeviceMemory memory : {DeviceMemory::as_the_device_has_it, DeviceMemory::own}) {
             const auto upsampler =
-                make_fallback_upsampler(make_opencl_upsampler(0, 0, memory, kernel), workers);
+                make_fallback_upsampler(make_opencl_upsampler(0, workers, 0, memory, kernel), workers);
             EXPECT_EQ(upsampled(*upsampler, scene), expected);
             EXPECT_EQ(upsampler->device(), "reference");
             const std::string warning = upsampler->take_warning();
@@ -66,7 +66,8 @@ TEST(FallbackUpsampler, ReplacesARealDeviceWhoseKernelDoesNotBuild) {
 }
 
 TEST(FallbackUpsampler, ADeviceThatIsGoneIsAFailure) {
-    EXPECT_THROW(make_opencl_upsampler(list_devices().size(), 0), DeviceFailure);
+    Workers workers;
+    EXPECT_THROW(make_opencl_upsampler(list_devices().size(), workers, 0), DeviceFailure);
 }
 
 TEST(FallbackUpsampler, SaysNothingWhileAllIsWell) {

@@ -19,8 +19,8 @@ protected:
     // One of each device there is; empty where the test is to be skipped.
     std::vector<std::unique_ptr<Upsampler>> all(unsigned threads = 0) {
         std::vector<std::unique_ptr<Upsampler>> made;
+        workers_.push_back(std::make_unique<Workers>(threads));
         if (GetParam() == Path::reference) {
-            workers_.push_back(std::make_unique<Workers>(threads));
             made.push_back(make_reference_upsampler(*workers_.back()));
             return made;
         }
@@ -28,7 +28,7 @@ protected:
         const std::size_t devices = list_devices().size();
         for (std::size_t i = 0; i < devices; ++i)
             made.push_back(make_opencl_upsampler(
-                i, threads, own ? DeviceMemory::own : DeviceMemory::as_the_device_has_it));
+                i, *workers_.back(), threads, own ? DeviceMemory::own : DeviceMemory::as_the_device_has_it));
         return made;
     }
 

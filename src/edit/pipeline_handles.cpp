@@ -55,15 +55,16 @@ void Pipeline::prepare_handles(Progress& progress) {
     seconds_.geodesic += clock.lap();
 }
 
-// The graph of all samples, by a flood from those that handles added, which is taken back: points are moved
-// by the handles themselves, see handle_starts().
+// The graph of all samples, by the territories of those that handles added, which are taken back: points are
+// moved by the handles themselves, see handle_starts().
 void Pipeline::link_samples(std::span<const Index> added, Progress& progress) {
-    const FloodPatch flood = add_samples(nearest_, *graph_, link_lengths_, added,
-                                         static_cast<Index>(base_samples_), workers_, progress);
-    sample_graph_ = knead::sample_graph(
-        nearest_, samples_, territory_borders_after(base_borders_, flood, nearest_, *graph_, workers_),
-        workers_);
+    const FloodPatch flood =
+        add_territories(nearest_, *graph_, link_lengths_, starts_of(added, static_cast<Index>(base_samples_)),
+                        workers_, progress);
+    const std::vector<TerritoryBorder> borders =
+        territory_borders_after(base_borders_, flood, nearest_, *graph_, link_lengths_, workers_);
     revert(nearest_, flood);
+    sample_graph_ = knead::sample_graph(nearest_, samples_, borders, workers_);
 }
 
 bool Pipeline::turns_freely(Index label) const {

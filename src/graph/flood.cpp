@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace knead {
@@ -53,37 +54,40 @@ Places empty_row() {
     return row;
 }
 
+// The functions below look at the first `places` places of a row alone.
+//
 // The loops over a row decide nothing on the way, and count in numbers as wide as its own: so compilers make
 // a few instructions of each, for all its places together, if the functions are not put into larger loops.
 
-template<typename Places>
+template<std::size_t places, typename Places>
 [[gnu::noinline]] bool holds(const Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
     using Number = NumberOf<Places>;
     Number found = 0;
-    for (std::size_t k = 0; k < row.sample.size(); ++k)
+    for (std::size_t k = 0; k < places; ++k)
         found |= static_cast<Number>(Number{row.sample[k] == sample} & Number{row.distance[k] == distance});
     return found != 0;
 }
 
 // Whether putting the sample there would change the row.
-template<typename Places>
+template<std::size_t places, typename Places>
 [[gnu::noinline]] bool has_room(const Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
     using Number = NumberOf<Places>;
-    const bool as_far = row.distance.back() == distance;
-    const bool before_last = (row.distance.back() > distance) | (as_far & (row.sample.back() > sample));
+    constexpr std::size_t last = places - 1;
+    const bool as_far = row.distance[last] == distance;
+    const bool before_last = (row.distance[last] > distance) | (as_far & (row.sample[last] > sample));
     Number found = 0;
-    for (std::size_t k = 0; k < row.sample.size(); ++k)
+    for (std::size_t k = 0; k < places; ++k)
         found |= static_cast<Number>(Number{row.sample[k] == sample} & Number{row.distance[k] <= distance});
     return before_last & (found == 0);
 }
 
 // Puts it there, in place of itself farther away, or of the last one.
-template<typename Places>
+template<std::size_t places, typename Places>
 [[gnu::noinline]] void insert(Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
     using Number = NumberOf<Places>;
     const Places old = row;
     Number nearer = 0;
-    for (std::size_t k = 0; k < row.sample.size(); ++k) {
+    for (std::size_t k = 0; k < places; ++k) {
         const auto as_far = Number{old.distance[k] == distance};
         nearer = static_cast<Number>(
             nearer + (Number{old.distance[k] < distance} | (as_far & Number{old.sample[k] < sample})));
@@ -91,7 +95,7 @@ template<typename Places>
     std::size_t place = nearer;
     row.sample[place] = sample;
     row.distance[place] = distance;
-    for (; place + 1 < row.sample.size() && old.sample[place] != sample; ++place) {
+    for (; place + 1 < places && old.sample[place] != sample; ++place) {
         row.sample[place + 1] = old.sample[place];
         row.distance[place + 1] = old.distance[place];
     }
@@ -107,7 +111,7 @@ template<typename Places>
 // (distance, sample) of all ways, whatever the tiles and the order in which workers took them. But all that
 // comes by a way round is sent on in vain: a round goes no more than `levels_a_round` beyond the lowest level
 // at which anything waits.
-template<typename Places>
+template<typename Places, std::size_t places = std::tuple_size_v<decltype(Places::sample)>>
 class Flood {
 public:
     using Number = NumberOf<Places>;
@@ -212,7 +216,7 @@ private:
         for (std::size_t i = 0; i < arriving.size(); ++i) {
             if (i + soon < arriving.size()) prefetch(&rows_[arriving[i + soon].vertex]);
             const auto& [vertex, sample, distance] = arriving[i];
-            if (has_room(rows_[vertex], sample, distance)) take_in(arriving[i], on_the_way);
+            if (has_room<places>(rows_[vertex], sample, distance)) take_in(arriving[i], on_the_way);
         }
         tile.arriving.all.clear();
         tile.arriving.lowest = never;
@@ -223,7 +227,7 @@ private:
             Arrivals& going = on_the_way.waiting[level % ring]; // all links being longer, it does not grow
             for (std::size_t i = 0; i < going.size(); ++i) {
                 look_ahead(going, i);
-                if (holds(rows_[going[i].vertex], going[i].sample, going[i].distance))
+                if (holds<places>(rows_[going[i].vertex], going[i].sample, going[i].distance))
                     pass_on(going[i], tile, on_the_way);
             }
             going.clear();
@@ -252,7 +256,7 @@ private:
     // Puts it into its row, which has room for it.
     void take_in(const Arrival<Number>& arrival, OnTheWay& on_the_way) {
         if (on_the_way.old) keep(arrival.vertex, *on_the_way.old);
-        insert(rows_[arrival.vertex], arrival.sample, arrival.distance);
+        insert<places>(rows_[arrival.vertex], arrival.sample, arrival.distance);
         on_the_way.waiting[arrival.distance % ring].push_back(arrival);
     }
 
@@ -286,7 +290,7 @@ private:
             const bool inside = next.vertex - tile.first_vertex < vertices_a_tile_;
             // The rows of other tiles may be changing: another is looked at for them.
             const Places& row = rows_[inside ? next.vertex : from.vertex];
-            staying |= Links{has_room(row, next.sample, next.distance)} << k;
+            staying |= Links{has_room<places>(row, next.sample, next.distance)} << k;
             leaving |= Links{!inside} << k;
         }
         staying &= ~leaving;
@@ -343,14 +347,6 @@ private:
     Gathered<Old> old_rows_;
 };
 
-// The samples, numbered from `first`.
-std::vector<FloodStart> starts_of(std::span<const Index> samples, Index first) {
-    std::vector<FloodStart> starts;
-    starts.reserve(samples.size());
-    for (const Index vertex : samples) starts.push_back({vertex, first++});
-    return starts;
-}
-
 // Floods narrow rows where they will do, else wide ones, and returns what use(rows) makes of them.
 template<typename Narrow, typename Wide, typename Use>
 auto flooded(const Graph& graph, std::span<const std::uint8_t> lengths, std::span<const Index> samples,
@@ -358,10 +354,10 @@ auto flooded(const Graph& graph, std::span<const std::uint8_t> lengths, std::spa
     const std::vector<FloodStart> starts = starts_of(samples, 0);
     if (samples.size() < Narrow::none) {
         std::vector<Narrow> rows(graph.size(), empty_row<Narrow>());
-        if (Flood(rows, graph, lengths, workers).run(starts, false, progress)) return use(rows);
+        if (Flood<Narrow>(rows, graph, lengths, workers).run(starts, false, progress)) return use(rows);
     }
     std::vector<Wide> rows(graph.size(), empty_row<Wide>());
-    require(Flood(rows, graph, lengths, workers).run(starts, false, progress),
+    require(Flood<Wide>(rows, graph, lengths, workers).run(starts, false, progress),
             "a way along the surface is shorter than 2^32 levels");
     return use(rows);
 }
@@ -371,6 +367,25 @@ template<typename Places>
 void put_back(const OldRows<Places>& blocks, std::vector<Places>& rows) {
     for (const auto& block : blocks)
         for (const OldRow<Places>& old : block) rows[old.vertex] = {old.sample, old.distance};
+}
+
+// Floods the first `places` places of rows, of which all others stay as they are.
+template<std::size_t places>
+FloodPatch patched(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
+                   std::span<const FloodStart> starts, Workers& workers, Progress& progress) {
+    auto* narrow = std::get_if<std::vector<NarrowRow>>(&nearest.rows);
+    const auto is_narrow = [](const FloodStart& start) { return start.number < NarrowRow::none; };
+    if (narrow && std::ranges::all_of(starts, is_narrow)) {
+        Flood<NarrowRow, places> flood(*narrow, graph, lengths, workers);
+        const bool fits = flood.run(starts, true, progress);
+        auto old_rows = flood.take_old_rows();
+        if (fits) return {std::move(old_rows)};
+        put_back(old_rows, *narrow);
+    }
+    widen(nearest);
+    Flood<WideRow, places> flood(std::get<std::vector<WideRow>>(nearest.rows), graph, lengths, workers);
+    require(flood.run(starts, true, progress), "a way along the surface is shorter than 2^32 levels");
+    return {flood.take_old_rows()};
 }
 
 double length_of(const Graph& graph, std::span<const float> positions, std::size_t v, std::size_t link) {
@@ -427,26 +442,21 @@ std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t>
         });
 }
 
-FloodPatch add_samples(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
-                       std::span<const Index> added, Index first_new, Workers& workers, Progress& progress) {
-    return add_starts(nearest, graph, lengths, starts_of(added, first_new), workers, progress);
+std::vector<FloodStart> starts_of(std::span<const Index> samples, Index first) {
+    std::vector<FloodStart> starts;
+    starts.reserve(samples.size());
+    for (const Index vertex : samples) starts.push_back({vertex, first++});
+    return starts;
 }
 
 FloodPatch add_starts(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
                       std::span<const FloodStart> starts, Workers& workers, Progress& progress) {
-    auto* narrow = std::get_if<std::vector<NarrowRow>>(&nearest.rows);
-    const auto is_narrow = [](const FloodStart& start) { return start.number < NarrowRow::none; };
-    if (narrow && std::ranges::all_of(starts, is_narrow)) {
-        Flood flood(*narrow, graph, lengths, workers);
-        const bool fits = flood.run(starts, true, progress);
-        auto old_rows = flood.take_old_rows();
-        if (fits) return {std::move(old_rows)};
-        put_back(old_rows, *narrow);
-    }
-    widen(nearest);
-    Flood flood(std::get<std::vector<WideRow>>(nearest.rows), graph, lengths, workers);
-    require(flood.run(starts, true, progress), "a way along the surface is shorter than 2^32 levels");
-    return {flood.take_old_rows()};
+    return patched<influences_per_row>(nearest, graph, lengths, starts, workers, progress);
+}
+
+FloodPatch add_territories(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
+                           std::span<const FloodStart> starts, Workers& workers, Progress& progress) {
+    return patched<1>(nearest, graph, lengths, starts, workers, progress);
 }
 
 void revert(InfluenceRows& nearest, const FloodPatch& patch) {

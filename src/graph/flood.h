@@ -46,7 +46,7 @@ InfluenceRows flood(const Graph& graph, std::span<const std::uint8_t> lengths, s
 std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t> lengths,
                                std::span<const Index> samples, Workers& workers, Progress& progress);
 
-// What add_samples() or add_starts() changed: whole rows as they were before, each vertex once, in no
+// What add_starts() or add_territories() changed: whole rows as they were before, each vertex once, in no
 // particular order, block after block: these are many, and to put them into one array would need room for
 // both.
 template<typename Row>
@@ -68,16 +68,20 @@ struct FloodStart {
     Index number;
 };
 
-// Adds the samples number first_new, first_new + 1, … at the vertices `added`, which hold no sample yet, as
-// if they had been in the flood from the start; only what they reach is flooded. Rows that have become too
-// narrow are made wide. revert() takes it back, while they are as it left them; wide rows stay wide. A flood
-// that is cancelled leaves rows that are good for nothing.
-FloodPatch add_samples(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
-                       std::span<const Index> added, Index first_new, Workers& workers, Progress& progress);
-// The same for what starts from several vertices at once, and is as far from any other as the nearest of
-// them. The vertices may hold samples; the numbers are none that rows hold already.
+// A sample at each of these vertices, numbered first, first + 1, …
+std::vector<FloodStart> starts_of(std::span<const Index> samples, Index first);
+
+// Adds what starts there, as if it had been in the flood from the beginning; only what it reaches is flooded.
+// Its numbers are none that rows hold already. One that starts from several vertices at once is as far from
+// any other as the nearest of them is. The vertices may hold samples. Rows that have become too narrow are
+// made wide. revert() takes it back, while they are as it left them; wide rows stay wide. A flood that is
+// cancelled leaves rows that are good for nothing.
 FloodPatch add_starts(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
                       std::span<const FloodStart> starts, Workers& workers, Progress& progress);
+// The same of territories alone, which is much less to flood: the first place of each row has the nearest of
+// all, and the others are as they were. Such rows are good for territory_borders_after(), and for revert().
+FloodPatch add_territories(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
+                           std::span<const FloodStart> starts, Workers& workers, Progress& progress);
 void revert(InfluenceRows& nearest, const FloodPatch& patch);
 
 } // namespace knead

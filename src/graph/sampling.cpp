@@ -111,6 +111,51 @@ std::vector<Index> one_of_each(const std::set<Part>& parts, const VertexShape& s
     return chosen;
 }
 
+// From a sample to another one.
+struct Way {
+    Index from, to, levels;
+};
+
+// All that lead to or from samples that were added to the flood, ascending: to the others of their rows,
+// which hold none of them, and across the borders of their territories.
+std::vector<Way> ways_of_added(const InfluenceRows& nearest, std::span<const Index> samples,
+                               std::span<const TerritoryBorder> borders) {
+    std::vector<Way> ways;
+    const auto add = [&](Index one, Index other, Index levels) {
+        ways.push_back({one, other, levels});
+        ways.push_back({other, one, levels});
+    };
+    for (Index s = 0; s < samples.size(); ++s) {
+        const WideRow row = nearest[samples[s]];
+        if (row.sample[0] == s) continue;
+        for (std::size_t k = 0; k < row.count(); ++k) add(s, row.sample.at(k), row.distance.at(k));
+    }
+    for (const TerritoryBorder& border : borders)
+        if (border.way != no_index) add(border.a, border.b, border.way);
+    std::ranges::sort(ways, {}, &Way::from);
+    return ways;
+}
+
+// Those of them that begin at a sample.
+std::span<const Way> ways_from(std::span<const Way> ways, Index sample) {
+    const auto range = std::ranges::equal_range(ways, sample, {}, &Way::from);
+    return {range.begin(), range.end()};
+}
+
+// The nearest of the other samples of a row, and of those that these ways lead to.
+std::vector<Index> nearest_others(const WideRow& row, Index sample, std::span<const Way> ways) {
+    std::vector<std::pair<Index, Index>> reached; // how far, and which
+    for (std::size_t k = 0; k < row.count(); ++k) reached.emplace_back(row.distance.at(k), row.sample.at(k));
+    for (const Way& way : ways_from(ways, sample)) reached.emplace_back(way.levels, way.to);
+    std::ranges::sort(reached);
+    std::vector<Index> others;
+    for (const auto& [levels, other] : reached) {
+        if (others.size() == sample_neighbors) break;
+        if (other != sample && std::ranges::find(others, other) == others.end()) others.push_back(other);
+    }
+    return others;
+}
+
 } // namespace
 
 HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> label,
@@ -140,12 +185,12 @@ HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> la
 
 SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples,
                          std::span<const TerritoryBorder> borders, Workers& workers) {
+    const std::vector<Way> ways = ways_of_added(nearest, samples, borders);
     std::vector<Index> links(samples.size() * sample_neighbors, no_index);
     workers.for_each(samples.size(), 1024, [&](std::size_t s) {
-        std::size_t kept = 0;
-        for (const Index other : nearest[samples[s]].sample)
-            if (other != s && other != no_index && kept < sample_neighbors)
-                links[s * sample_neighbors + kept++] = other;
+        const auto sample = static_cast<Index>(s);
+        const std::vector<Index> others = nearest_others(nearest[samples[s]], sample, ways);
+        std::ranges::copy(others, links.begin() + static_cast<std::ptrdiff_t>(s * sample_neighbors));
     });
     std::vector<std::pair<Index, Index>> touching;
     touching.reserve(borders.size());
@@ -153,7 +198,7 @@ SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> sa
     SampleGraph result;
     result.graph = with_edges(symmetric_graph(links, sample_neighbors, workers), touching);
     result.contact.assign(result.graph.neighbor.size(), 0.5F);
-    for (const auto& [a, b, crossing] : borders) {
+    for (const auto& [a, b, crossing, way] : borders) {
         const auto contact = static_cast<float>(crossing);
         result.contact[*find_link(result.graph, a, b)] = contact;
         result.contact[*find_link(result.graph, b, a)] = contact;

@@ -52,11 +52,14 @@ struct SampleGraph {
 // Links each sample to the `sample_neighbors` nearest others along the surface, and back, and to all whose
 // territories touch its own. The latter never leave a seam between rows of samples, and make the components
 // of the samples those of the points: where the six nearest leave a neck open, the floods still meet.
-// `samples`: the vertex of each sample; `nearest`: the flood from them; `borders`: of their territories.
+// `samples`: the vertex of each sample; `nearest`: the flood from them, or from all but those that were added
+// later; `borders`: of all their territories. How far two added ones are from each other is known only where
+// their territories touch; they count as near only there.
 inline constexpr std::size_t sample_neighbors = 6;
 SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples,
                          std::span<const TerritoryBorder> borders, Workers& workers);
-// The same where the borders are not known yet. `points`: the graph that was flooded.
+// The same where no sample was added, and the borders are not known yet. `points`: the graph that was
+// flooded.
 SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
                          Workers& workers);
 

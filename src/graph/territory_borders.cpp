@@ -1,6 +1,7 @@
 #include "graph/territory_borders.h"
 
 #include "base/gathered.h"
+#include "base/require.h"
 
 #include <algorithm>
 #include <bit>
@@ -17,13 +18,14 @@ constexpr std::size_t grain = 1 << 14;
 struct Change {
     std::uint64_t border = 0; // the lower sample above the higher one
     std::int64_t links = 0;
+    Index way = no_index; // the shortest by one of those that are more
 };
 
 // Counts links where the same few borders are met again and again: a hash table, open, at most half full.
 class Tally {
 public:
     // Nothing within one territory. Links between vertices that no sample reaches are within one, too.
-    void add(Index one, Index other, std::int64_t links) {
+    void add(Index one, Index other, std::int64_t links, Index way = no_index) {
         if (one == other) return;
         const std::uint64_t border = std::uint64_t{std::min(one, other)} << 32 | std::max(one, other);
         Change& place = changes_[place_of(border)];
@@ -32,13 +34,14 @@ public:
             ++used_;
         }
         place.links += links;
+        place.way = std::min(place.way, way);
         if (2 * used_ > changes_.size()) grow();
     }
 
     template<typename Visit>
     void each(Visit&& visit) const {
         for (const Change& change : changes_)
-            if (change.border != none && change.links != 0) visit(change);
+            if (change.border != none && (change.links != 0 || change.way != no_index)) visit(change);
     }
 
 private:
@@ -59,7 +62,7 @@ private:
             if (change.border != none) changes_[place_of(change.border)] = change;
     }
 
-    static constexpr Change empty{none, 0};
+    static constexpr Change empty{none, 0, no_index};
     static constexpr std::size_t at_first = 256;
     std::vector<Change> changes_ = std::vector<Change>(at_first, empty);
     int shift_ = 64 - std::countr_zero(at_first);
@@ -79,10 +82,14 @@ std::vector<TerritoryBorder> summed(std::vector<Change> changes) {
     for (auto change = changes.begin(); change != changes.end();) {
         const std::uint64_t border = change->border;
         std::int64_t links = 0;
-        for (; change != changes.end() && change->border == border; ++change) links += change->links;
+        Index way = no_index;
+        for (; change != changes.end() && change->border == border; ++change) {
+            links += change->links;
+            way = std::min(way, change->way);
+        }
         if (links != 0)
-            borders.push_back(
-                {static_cast<Index>(border >> 32), static_cast<Index>(border), static_cast<Index>(links)});
+            borders.push_back({static_cast<Index>(border >> 32), static_cast<Index>(border),
+                               static_cast<Index>(links), way});
     }
     return borders;
 }
@@ -90,7 +97,7 @@ std::vector<TerritoryBorder> summed(std::vector<Change> changes) {
 std::vector<TerritoryBorder> summed(std::span<const TerritoryBorder> before, Changes& found) {
     std::vector<Change> changes;
     changes.reserve(before.size() + found.size());
-    for (const auto& [a, b, links] : before) changes.push_back({std::uint64_t{a} << 32 | b, links});
+    for (const auto& [a, b, links, way] : before) changes.push_back({std::uint64_t{a} << 32 | b, links, way});
     found.take([&](const Change& change) { changes.push_back(change); });
     return summed(std::move(changes));
 }
@@ -126,7 +133,7 @@ std::vector<Index> former_nearest(const std::vector<Row>& nearest, const OldRows
 
 template<typename Row>
 void find_changed(const std::vector<Row>& nearest, const OldRows<Row>& blocks, const Graph& points,
-                  Workers& workers, Changes& found) {
+                  std::span<const std::uint8_t> lengths, Workers& workers, Changes& found) {
     const std::vector<Index> former = former_nearest(nearest, blocks, workers);
     workers.for_each(blocks.size(), 1, [&](std::size_t block) {
         Changes::Block changes(found);
@@ -134,12 +141,14 @@ void find_changed(const std::vector<Row>& nearest, const OldRows<Row>& blocks, c
         for (const OldRow<Row>& old : blocks[block]) {
             const Index p = old.vertex;
             if (former[p] == unchanged) continue;
-            for (const Index q : points.row(p)) {
+            for (Index link = points.first[p]; link < points.first[p + 1]; ++link) {
+                const Index q = points.neighbor[link];
                 const bool both_changed = former[q] != unchanged;
                 if (both_changed && q > p) continue; // the link is met again from its other end
                 const Index there = nearest[q].sample[0];
+                const Index way = Index{nearest[p].distance[0]} + lengths[link] + nearest[q].distance[0];
                 tally.add(former[p], both_changed ? former[q] : there, -1);
-                tally.add(nearest[p].sample[0], there, 1);
+                tally.add(nearest[p].sample[0], there, 1, way);
             }
         }
         hand_over(tally, changes);
@@ -157,11 +166,14 @@ std::vector<TerritoryBorder> territory_borders(const InfluenceRows& nearest, con
 
 std::vector<TerritoryBorder> territory_borders_after(std::span<const TerritoryBorder> before,
                                                      const FloodPatch& patch, const InfluenceRows& nearest,
-                                                     const Graph& points, Workers& workers) {
+                                                     const Graph& points,
+                                                     std::span<const std::uint8_t> lengths,
+                                                     Workers& workers) {
+    require(lengths.size() == points.neighbor.size(), "a length a link");
     Changes found;
     std::visit(
         [&]<typename Row>(const std::vector<Row>& rows) {
-            find_changed(rows, std::get<OldRows<Row>>(patch.blocks), points, workers, found);
+            find_changed(rows, std::get<OldRows<Row>>(patch.blocks), points, lengths, workers, found);
         },
         nearest.rows);
     return summed(before, found);

@@ -12,11 +12,13 @@
 
 namespace knead {
 
-// Two samples whose territories touch, a < b, and how many links of the point graph go from the one to the
-// other (> 0).
+// Two samples whose territories touch, a < b, how many links of the point graph go from the one to the other
+// (> 0), and the shortest way from sample to sample by one of these, in levels. That is told of added samples
+// alone: where a and b are others it is no_index.
 struct TerritoryBorder {
     Index a = 0, b = 0;
     Index links = 0;
+    Index way = no_index;
     bool operator==(const TerritoryBorder&) const = default;
 };
 
@@ -24,10 +26,12 @@ struct TerritoryBorder {
 std::vector<TerritoryBorder> territory_borders(const InfluenceRows& nearest, const Graph& points,
                                                Workers& workers);
 
-// The same after add_samples() made `nearest` of the rows that `before` are the borders of, and `patch` with
-// it. Only vertices that another sample has become the nearest of are looked at.
+// The same after add_territories() or add_starts() made `nearest` of the rows that `before` are the borders
+// of, and `patch` with it; `lengths` are those of the links. Only vertices that another sample has become the
+// nearest of are looked at.
 std::vector<TerritoryBorder> territory_borders_after(std::span<const TerritoryBorder> before,
                                                      const FloodPatch& patch, const InfluenceRows& nearest,
-                                                     const Graph& points, Workers& workers);
+                                                     const Graph& points,
+                                                     std::span<const std::uint8_t> lengths, Workers& workers);
 
 } // namespace knead

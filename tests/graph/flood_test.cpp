@@ -175,8 +175,9 @@ TEST(Flood, AddsSamplesAsIfTheyHadBeenThereAndTakesThemBack) {
             const auto before = flooded(cloud, cloud.lengths, old);
             auto nearest = before;
             Machine machine;
-            const FloodPatch patch = add_samples(nearest, cloud.graph, cloud.lengths, added,
-                                                 static_cast<Index>(base), machine.workers, machine.progress);
+            const FloodPatch patch =
+                add_starts(nearest, cloud.graph, cloud.lengths, starts_of(added, static_cast<Index>(base)),
+                           machine.workers, machine.progress);
             EXPECT_TRUE(same_rows(nearest, flooded(cloud, cloud.lengths, samples)));
 
             const std::vector<Index> patched = vertices_of(patch);
@@ -186,6 +187,36 @@ TEST(Flood, AddsSamplesAsIfTheyHadBeenThereAndTakesThemBack) {
             EXPECT_TRUE(same_rows(nearest, before));
         }
     }
+}
+
+TEST(Flood, AddsTerritoriesAsAllOfItWould) {
+    auto clouds = test::several_clouds();
+    clouds.push_back({"of several tiles", test::cloud_of(test::shape_positions(Shape::knot, 20'000))});
+    for (const auto& [name, cloud] : clouds)
+        for (const std::size_t base : {0U, 3U, 60U}) {
+            SCOPED_TRACE(name + ", " + std::to_string(base));
+            const std::vector<Index> samples = test::random_vertices(cloud.size(), base + 20, 6);
+            const std::vector<Index> old(samples.begin(), samples.begin() + static_cast<int>(base));
+            const std::vector<Index> added(samples.begin() + static_cast<int>(base), samples.end());
+            const auto before = flooded(cloud, cloud.lengths, old);
+            const auto all = flooded(cloud, cloud.lengths, samples);
+            auto nearest = before;
+            Machine machine;
+            const FloodPatch patch = add_territories(nearest, cloud.graph, cloud.lengths,
+                                                     starts_of(added, static_cast<Index>(base)),
+                                                     machine.workers, machine.progress);
+            for (Index v = 0; v < cloud.size(); ++v) {
+                const WideRow now = nearest[v], then = before[v], expected = all[v];
+                ASSERT_EQ(now.sample[0], expected.sample[0]) << v;
+                ASSERT_EQ(now.distance[0], expected.distance[0]) << v;
+                for (std::size_t k = 1; k < influences_per_row; ++k) {
+                    ASSERT_EQ(now.sample.at(k), then.sample.at(k)) << v;
+                    ASSERT_EQ(now.distance.at(k), then.distance.at(k)) << v;
+                }
+            }
+            revert(nearest, patch);
+            EXPECT_TRUE(same_rows(nearest, before));
+        }
 }
 
 TEST(Flood, StartsFromSeveralVerticesAsFromTheNearestOfThem) {
@@ -226,8 +257,8 @@ TEST(Flood, LeavesFarRowsAloneWhenASampleIsAdded) {
     samples.pop_back();
     auto nearest = flooded(cloud, cloud.lengths, samples);
     Machine machine;
-    const FloodPatch patch =
-        add_samples(nearest, cloud.graph, cloud.lengths, added, 500, machine.workers, machine.progress);
+    const FloodPatch patch = add_starts(nearest, cloud.graph, cloud.lengths, starts_of(added, 500),
+                                        machine.workers, machine.progress);
     // A sample is among the nearest 8 of about 8 / 501 of the vertices; a tenth leaves room for its place.
     EXPECT_GT(vertices_of(patch).size(), 0U);
     EXPECT_LT(vertices_of(patch).size(), cloud.size() / 10);
@@ -246,8 +277,8 @@ TEST(Flood, IsTheSameForAnyNumberOfThreads) {
     for (const unsigned threads : {1U, 2U, 5U}) {
         Machine machine(threads);
         results.push_back(flooded(cloud, cloud.lengths, samples, threads));
-        add_samples(results.back(), cloud.graph, cloud.lengths, added, 400, machine.workers,
-                    machine.progress);
+        add_starts(results.back(), cloud.graph, cloud.lengths, starts_of(added, 400), machine.workers,
+                   machine.progress);
         nearest_only.push_back(
             territories(cloud.graph, cloud.lengths, samples, machine.workers, machine.progress));
     }
@@ -331,8 +362,8 @@ TEST(Flood, WidensRowsWhenAnAddedSampleIsTooFarForThem) {
     ASSERT_FALSE(nearest.are_wide());
     chain.lengths.assign(chain.graph.neighbor.size(), 63);
     const std::vector<Index> added{4999};
-    const FloodPatch patch =
-        add_samples(nearest, chain.graph, chain.lengths, added, 1, machine.workers, machine.progress);
+    const FloodPatch patch = add_starts(nearest, chain.graph, chain.lengths, starts_of(added, 1),
+                                        machine.workers, machine.progress);
     EXPECT_TRUE(nearest.are_wide());
     for (Index v = 0; v < 5000; ++v) {
         const WideRow row = nearest[v];
@@ -354,8 +385,8 @@ TEST(Flood, WidensRowsWhenThereAreMoreSamplesThanNarrowOnesCount) {
     EXPECT_FALSE(nearest.are_wide());
     const InfluenceRows before = nearest;
     const std::vector<Index> added{65'534, 65'535};
-    const FloodPatch patch =
-        add_samples(nearest, chain.graph, chain.lengths, added, 65'534, machine.workers, machine.progress);
+    const FloodPatch patch = add_starts(nearest, chain.graph, chain.lengths, starts_of(added, 65'534),
+                                        machine.workers, machine.progress);
     EXPECT_TRUE(nearest.are_wide());
     chain.samples.insert(chain.samples.end(), added.begin(), added.end());
     const InfluenceRows all =

@@ -65,6 +65,49 @@ TEST(SampleGraph, HangsTogetherAsThePointsDo) {
     }
 }
 
+// The graph of these samples where those from number `base` on were added to the flood of the others.
+SampleGraph with_added(const Cloud& cloud, const std::vector<Index>& samples, std::size_t base) {
+    Machine machine;
+    const std::span all(samples);
+    InfluenceRows nearest =
+        flood(cloud.graph, cloud.lengths, all.first(base), machine.workers, machine.progress);
+    const auto before = territory_borders(nearest, cloud.graph, machine.workers);
+    const FloodPatch patch = add_territories(nearest, cloud.graph, cloud.lengths,
+                                             starts_of(all.subspan(base), static_cast<Index>(base)),
+                                             machine.workers, machine.progress);
+    const auto borders =
+        territory_borders_after(before, patch, nearest, cloud.graph, cloud.lengths, machine.workers);
+    revert(nearest, patch);
+    return sample_graph(nearest, samples, borders, machine.workers);
+}
+
+// But for a few: of two added samples it is known only how far they are from each other if their territories
+// touch.
+TEST(SampleGraph, LinksAddedSamplesAsIfTheyHadBeenThere) {
+    for (const auto& [name, cloud] : test::several_clouds()) {
+        SCOPED_TRACE(name);
+        const std::vector<Index> samples = shuffled(octree_of(cloud, 100));
+        const SampleGraph at_once = sampled(cloud, samples).graph;
+        const SampleGraph later = with_added(cloud, samples, samples.size() * 9 / 10);
+        test::expect_well_formed(later.graph);
+        expect_contacts(later);
+        const auto missing_in = [&](const SampleGraph& one, const SampleGraph& other) {
+            std::size_t missing = 0;
+            for (Index s = 0; s < samples.size(); ++s)
+                for (Index link = one.graph.first[s]; link < one.graph.first[s + 1]; ++link) {
+                    const auto same = find_link(other.graph, s, one.graph.neighbor[link]);
+                    missing += same ? 0 : 1;
+                    if (same) {
+                        EXPECT_EQ(one.contact[link], other.contact[*same]);
+                    }
+                }
+            return missing;
+        };
+        EXPECT_LT(60 * missing_in(later, at_once), at_once.graph.neighbor.size());
+        EXPECT_LT(100 * missing_in(at_once, later), at_once.graph.neighbor.size());
+    }
+}
+
 TEST(SampleGraph, CrossesAThinNeck) {
     // Ten samples crowd on each patch and none is on the neck: the six nearest of each are on its own side.
     const Cloud cloud = test::cloud_of(test::two_patches(true));

@@ -3,6 +3,7 @@
 #include "graph/clouds.h"
 #include "graph/territory_borders.h"
 
+#include <algorithm>
 #include <map>
 
 namespace knead {
@@ -11,17 +12,25 @@ namespace {
 using test::Cloud;
 using test::Machine;
 
-// Counted for every link from both ends, in the plainest way.
-std::vector<TerritoryBorder> counted(const Cloud& cloud, const InfluenceRows& nearest) {
-    std::map<std::pair<Index, Index>, Index> links;
+// Counted for every link from both ends, in the plainest way. Samples from `first_added` on were added.
+std::vector<TerritoryBorder> counted(const Cloud& cloud, const InfluenceRows& nearest,
+                                     Index first_added = no_index) {
+    std::map<std::pair<Index, Index>, TerritoryBorder> borders;
     for (Index p = 0; p < cloud.size(); ++p)
-        for (const Index q : cloud.graph.row(p)) {
-            const Index a = nearest[p].sample[0], b = nearest[q].sample[0];
-            if (a < b) ++links[{a, b}];
+        for (Index link = cloud.graph.first[p]; link < cloud.graph.first[p + 1]; ++link) {
+            const WideRow here = nearest[p], there = nearest[cloud.graph.neighbor[link]];
+            const Index a = here.sample[0], b = there.sample[0];
+            if (!(a < b)) continue;
+            TerritoryBorder& border = borders[{a, b}];
+            border.a = a;
+            border.b = b;
+            ++border.links;
+            if (b >= first_added)
+                border.way = std::min(border.way, here.distance[0] + cloud.lengths[link] + there.distance[0]);
         }
-    std::vector<TerritoryBorder> borders;
-    for (const auto& [pair, crossing] : links) borders.push_back({pair.first, pair.second, crossing});
-    return borders;
+    std::vector<TerritoryBorder> result;
+    for (const auto& [pair, border] : borders) result.push_back(border);
+    return result;
 }
 
 TEST(TerritoryBorders, AreTheLinksBetweenTerritories) {
@@ -50,11 +59,20 @@ TEST(TerritoryBorders, FollowAddedSamples) {
                 InfluenceRows nearest =
                     flood(cloud.graph, cloud.lengths, old, machine.workers, machine.progress);
                 const auto before = territory_borders(nearest, cloud.graph, machine.workers);
-                const FloodPatch patch =
-                    add_samples(nearest, cloud.graph, cloud.lengths, added, static_cast<Index>(base),
-                                machine.workers, machine.progress);
-                EXPECT_EQ(territory_borders_after(before, patch, nearest, cloud.graph, machine.workers),
-                          counted(cloud, nearest));
+                const auto first_added = static_cast<Index>(base);
+                auto all = nearest;
+                const std::vector<FloodStart> starts = starts_of(added, first_added);
+                const FloodPatch patch_of_all =
+                    add_starts(all, cloud.graph, cloud.lengths, starts, machine.workers, machine.progress);
+                const FloodPatch patch = add_territories(nearest, cloud.graph, cloud.lengths, starts,
+                                                         machine.workers, machine.progress);
+                const auto expected = counted(cloud, all, first_added);
+                EXPECT_EQ(territory_borders_after(before, patch_of_all, all, cloud.graph, cloud.lengths,
+                                                  machine.workers),
+                          expected);
+                EXPECT_EQ(territory_borders_after(before, patch, nearest, cloud.graph, cloud.lengths,
+                                                  machine.workers),
+                          expected);
             }
 }
 
@@ -68,11 +86,11 @@ TEST(TerritoryBorders, FollowSamplesThatMakeRowsWide) {
     ASSERT_FALSE(nearest.are_wide());
     const auto before = territory_borders(nearest, cloud.graph, machine.workers);
     const FloodPatch patch =
-        add_samples(nearest, cloud.graph, cloud.lengths, added, static_cast<Index>(samples.size()),
-                    machine.workers, machine.progress);
+        add_starts(nearest, cloud.graph, cloud.lengths, starts_of(added, static_cast<Index>(samples.size())),
+                   machine.workers, machine.progress);
     ASSERT_TRUE(nearest.are_wide());
-    EXPECT_EQ(territory_borders_after(before, patch, nearest, cloud.graph, machine.workers),
-              counted(cloud, nearest));
+    EXPECT_EQ(territory_borders_after(before, patch, nearest, cloud.graph, cloud.lengths, machine.workers),
+              counted(cloud, nearest, static_cast<Index>(samples.size())));
 }
 
 TEST(TerritoryBorders, AreTheSameForAnyNumberOfThreads) {

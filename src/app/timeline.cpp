@@ -27,7 +27,7 @@ void go_to(const Ui& ui, std::size_t position) {
     std::size_t at = playback_position(ui.editor);
     const auto &past = ui.editor.past, &future = ui.editor.future;
     for (auto step = past.rbegin(); step != past.rend() && at > position; ++step) {
-        ui.tell(UndoStep{});
+        ui.tell(UndoStep{.to_look = true});
         if (is_of_document(*step)) --at;
     }
     for (auto step = future.rbegin(); step != future.rend() && at < position; ++step) {

@@ -116,6 +116,7 @@ struct Window::Callbacks {
             return;
         }
         if (action == GLFW_RELEASE) return;
+        self.look_where_cursor_is();
         if (glfw_key >= 0) self.tapped_.push_back({glfw_key, mods});
         if (const std::optional<Key> which = key_of(glfw_key, scancode))
             self.events_.emplace_back(Input(KeyPress{*which, modifiers_of(mods), action == GLFW_REPEAT}));
@@ -132,10 +133,21 @@ struct Window::Callbacks {
         glfwSetWindowShouldClose(window, GLFW_FALSE); // it is asked about first
         of(window).events_.emplace_back(CloseAsked{});
     }
+    static void uncover(GLFWwindow* window) { of(window).events_.emplace_back(Uncovered{}); }
     static void focus(GLFWwindow* window, int focused) {
         if (!focused) of(window).events_.emplace_back(FocusLost{});
     }
 };
+
+// The cursor tells of its moves, but not where it was before the first of them, when the window opened under
+// it.
+void Window::look_where_cursor_is() {
+    glm::dvec2 now;
+    glfwGetCursorPos(window_, &now.x, &now.y);
+    if (now == cursor_) return;
+    cursor_ = now;
+    events_.emplace_back(Input(MouseMove{cursor_, held_now(window_)}));
+}
 
 void Window::press(MouseButton button, Modifiers held) {
     const double now = glfwGetTime();
@@ -186,6 +198,7 @@ Window::Window(int width, int height) : window_(create_window(width, height)) {
     glfwSetDropCallback(window_, Callbacks::drop);
     glfwSetWindowCloseCallback(window_, Callbacks::close);
     glfwSetWindowFocusCallback(window_, Callbacks::focus);
+    glfwSetWindowRefreshCallback(window_, Callbacks::uncover);
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // nothing of the layout is kept
     ImGui_ImplGlfw_InitForOpenGL(window_, true);

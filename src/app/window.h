@@ -18,8 +18,9 @@ struct DroppedFiles {
 };
 struct CloseAsked {};
 struct FocusLost {};
+struct Uncovered {}; // or of another size: what it shows is to be drawn again
 // Cursors of Inputs are in the window's own coordinates here; the main loop makes them the view's.
-using WindowEvent = std::variant<Input, DroppedFiles, CloseAsked, FocusLost>;
+using WindowEvent = std::variant<Input, DroppedFiles, CloseAsked, FocusLost, Uncovered>;
 
 // Owns GLFW, the window, its OpenGL 4.1 core context and the context of Dear ImGui; one at a time.
 class Window {
@@ -53,6 +54,7 @@ private:
     struct Callbacks; // what GLFW calls
     friend struct Callbacks;
     void press(MouseButton button, Modifiers held);
+    void look_where_cursor_is();
 
     GLFWwindow* window_ = nullptr;
     std::vector<WindowEvent> events_;

@@ -48,6 +48,21 @@ bool is_subcommand(const CLI::App& app, const std::string& word) {
     return std::ranges::any_of(all, [&](const CLI::App* command) { return command->get_name() == word; });
 }
 
+// Whether the command line begins with a subcommand, or with what is asked of the whole program.
+bool is_for_program(const CLI::App& app, const std::string& word) {
+    const auto own = {"-h", "--help", "--help-all", "--version"};
+    return is_subcommand(app, word) || std::ranges::find(own, word) != own.end();
+}
+
+// Whether it is neither an option nor a file; then this is said.
+bool is_missing(const std::string& word) {
+    std::error_code ignored;
+    if (word.starts_with('-') || std::filesystem::exists(word, ignored)) return false;
+    knead::Terminal terminal;
+    terminal.say("knead: \"" + word + "\" is no file, and no subcommand either; knead --help names these");
+    return true;
+}
+
 // Has each thread of PoCL's stay on a core of its own, unless the user said otherwise: left alone, two that
 // are woken together often share one for a whole frame, which then takes twice as long. They would be
 // numbered from core 0, so all of these have to be ours. Before there is any other thread.
@@ -79,12 +94,12 @@ int main(int argc, char** argv) {
     knead::add_evaluate(app, job);
     knead::add_render(app, job);
 
-    // `knead FILE` and `knead` alone are `knead edit` with the same.
+    // `knead FILE`, `knead --size 800x600 FILE` and `knead` alone are `knead edit` with the same.
     std::vector<std::string> arguments(argv + std::min(1, argc), argv + argc);
-    std::error_code ignored;
-    if (arguments.empty() || (!is_subcommand(app, arguments.front()) &&
-                              std::filesystem::is_regular_file(arguments.front(), ignored)))
+    if (arguments.empty() || !is_for_program(app, arguments.front())) {
+        if (!arguments.empty() && is_missing(arguments.front())) return exit_usage;
         arguments.insert(arguments.begin(), "edit");
+    }
     std::ranges::reverse(arguments); // as CLI11 takes them
 
     try {

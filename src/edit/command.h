@@ -93,7 +93,9 @@ struct ChooseSamples { // by themselves (edit/sample_choice.h), or as many as th
     bool by_itself = false;
 };
 struct CommitPose {};
-struct UndoStep {};
+struct UndoStep {
+    bool to_look = false; // what comes after is not to be lost by an act
+};
 struct RedoStep {};
 struct PlayStep {};   // redoes it, picture by picture
 struct PacePlaying {  // of the step that is being played, and of later ones

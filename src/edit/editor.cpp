@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "edit/editor_steps.h"
+#include "edit/tool_steps.h"
 #include "view/framing.h"
 
 #include <algorithm>
@@ -66,6 +67,7 @@ void take_over(Editor& editor) {
     editor.marks.assign(file_index.size(), 0);
     editor.past.assign(editor.document->undoable_steps, EditorStep{1});
     editor.future.assign(editor.document->redoable_steps, EditorStep{1});
+    editor.looks_back = false;
     mark_handles(editor);
     editor.camera = first_view(bulk_box(editor.frame.positions), editor.viewport);
     editor.changes = {};
@@ -306,10 +308,33 @@ void carry_out(Editor& editor, const SetPivotUnder& command) {
     set_pivot(editor.camera, {p[0], p[1], p[2]});
 }
 
+// --- Looking back ----------------------------------------------------------------------------------------
+
+template<typename One, typename... Others>
+bool is_one_of(const Command& command) {
+    return std::holds_alternative<One>(command) || (std::holds_alternative<Others>(command) || ...);
+}
+
+// Whether it would add a step, after which those that come later are gone.
+bool is_act(const Command& command) {
+    return is_one_of<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
+                     MakeHandle, RenameHandle, ChangeRole, ChangeHold, DeleteHandle, ResetPose, MirrorHandle,
+                     BeginDrag, ChangeSettings, ChooseSamples, CommitPose>(command);
+}
+
+void keep_later_steps(Editor& editor) {
+    std::vector<Command> unheard;
+    if (editor.tools.drag) cancel_drag(editor.tools, unheard);
+    say(editor, Notice::Kind::information,
+        "This is an earlier step, and what was done later would be lost. Esc goes back to the last step; "
+        "whoever wants to go on from an earlier one undoes what came after it (Ctrl+Z).");
+}
+
 } // namespace
 
 void apply(Editor& editor, const Command& command) {
     try {
+        if (editor.looks_back && !editor.future.empty() && is_act(command)) return keep_later_steps(editor);
         std::visit([&](const auto& c) { carry_out(editor, c); }, command);
     } catch (const Error& error) {
         say(editor, Notice::Kind::error, error.what());

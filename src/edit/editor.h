@@ -86,6 +86,7 @@ struct Editor {
 
     // --- Going back ---
     std::vector<EditorStep> past, future;
+    bool looks_back = false; // UndoStep::to_look led here; of account while there is a future
     StepNumber last_step = 1; // 1 is the number of all steps of a session that was opened
     // Names of handles that were posted and that the document has not shown yet.
     std::vector<std::pair<StepNumber, std::string>> posted_names;

@@ -58,8 +58,9 @@ void marks_changed(Editor& editor) {
     editor.changes.marks = true;
 }
 
-void carry_out(Editor& editor, const UndoStep& /*command*/) {
+void carry_out(Editor& editor, const UndoStep& command) {
     if (!can_undo(editor)) return;
+    editor.looks_back = command.to_look;
     EditorStep step = std::move(editor.past.back());
     editor.past.pop_back();
     if (step.before) restore_selection(editor, *step.before);

@@ -88,6 +88,12 @@ public:
     }
 
 private:
+    bool is_cloud(const std::filesystem::path& path) const {
+        std::error_code ignored;
+        return std::filesystem::equivalent(
+            path, options_.cloud ? *options_.cloud : session_.resolve(session_.cloud), ignored);
+    }
+
     // What cannot be written is told before the work, not after it.
     void refuse_bad_targets() const {
         if (options_.out) refuse_bad_target(*options_.out);
@@ -217,6 +223,7 @@ private:
 
     // Everything is put in its place when all of it is written.
     void write_results(Document& document) {
+        const bool replaces_cloud = options_.out && is_cloud(*options_.out);
         Outputs outputs;
         if (options_.add_outputs) options_.add_outputs(outputs);
         if (options_.out) {
@@ -228,6 +235,10 @@ private:
                              {positions, normals, {}, rotations}, progress_))
                 add_warning(words);
             report_.written.push_back(*options_.out);
+            if (replaces_cloud)
+                add_warning(options_.out->string() +
+                            " was the cloud that the session begins with: replayed once "
+                            "more, it begins with the shape that is there now");
         }
         if (options_.record_checks) {
             write_checks(document.cloud(), outputs.add(TemporaryFolder(folder_of_session())));

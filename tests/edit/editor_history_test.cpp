@@ -89,6 +89,34 @@ TEST_F(BarEditor, ResettingAPoseOfAWholeTurnUnwindsIt) {
     EXPECT_NE(editor_.frame.positions, rest);
 }
 
+TEST_F(BarEditor, WhoeverLooksBackLosesNothingByAnAct) {
+    make_handles();
+    turn_chosen("40");
+    calm();
+    const std::vector<float> turned = editor_.frame.positions;
+    const std::size_t selected = editor_.selected;
+    apply(editor_, UndoStep{.to_look = true});
+    calm();
+    editor_.notices.clear();
+    apply(editor_, ChangeSelection{SelectionStep::invert});
+    EXPECT_EQ(editor_.selected, selected);
+    press('R');
+    EXPECT_FALSE(editor_.tools.drag || editor_.drag);
+    ASSERT_EQ(editor_.notices.size(), 2U);
+    EXPECT_NE(editor_.notices.back().words.find("earlier step"), std::string::npos);
+    apply(editor_, RedoStep{});
+    calm();
+    EXPECT_EQ(editor_.frame.positions, turned);
+    apply(editor_, ChangeSelection{SelectionStep::invert});
+    EXPECT_NE(editor_.selected, selected) << "at the last step there is nothing to lose";
+
+    apply(editor_, UndoStep{});
+    apply(editor_, UndoStep{});
+    calm();
+    apply(editor_, ChangeSelection{SelectionStep::invert});
+    EXPECT_FALSE(can_redo(editor_)) << "who takes a step back means it";
+}
+
 TEST_F(BarEditor, PlayingAStepIsDoingItAgain) {
     make_handles();
     move({400, 100});

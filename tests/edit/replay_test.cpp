@@ -226,6 +226,18 @@ TEST(Replay, AnEditWithNoIterationsIsEquationOneAlone) {
     EXPECT_LT(report.handle_error, 1e-6);
 }
 
+TEST(Replay, WarnsThatItReplacedItsOwnCloud) {
+    const ScratchFolder folder;
+    const Session session = session_in(folder, ends + drag(lift));
+    ReplayOptions options = on_the_reference();
+    options.out = folder / "posed.ply";
+    EXPECT_TRUE(told(session, options).warnings.empty());
+    options.out = folder / "bar.ply";
+    const std::vector<std::string> warnings = told(session, options).warnings;
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_SAYS(warnings.front(), "bar.ply");
+}
+
 TEST(Replay, WritesAllItsOutputsOrNone) {
     const ScratchFolder folder;
     const Session session = session_in(folder, ends + drag(lift));

@@ -139,13 +139,10 @@ struct Window::Callbacks {
     }
 };
 
-// The cursor tells of its moves, but not where it was before the first of them, when the window opened under
-// it.
+// Keys mean what the cursor points at, which tells of its moves alone: not where it was before the first of
+// them.
 void Window::look_where_cursor_is() {
-    glm::dvec2 now;
-    glfwGetCursorPos(window_, &now.x, &now.y);
-    if (now == cursor_) return;
-    cursor_ = now;
+    glfwGetCursorPos(window_, &cursor_.x, &cursor_.y);
     events_.emplace_back(Input(MouseMove{cursor_, held_now(window_)}));
 }
 

@@ -326,8 +326,8 @@ void keep_later_steps(Editor& editor) {
     std::vector<Command> unheard;
     if (editor.tools.drag) cancel_drag(editor.tools, unheard);
     say(editor, Notice::Kind::information,
-        "This is an earlier step, and what was done later would be lost. Esc goes back to the last step; "
-        "whoever wants to go on from an earlier one undoes what came after it (Ctrl+Z).");
+        "This is an earlier step, and what was done later would be lost. Esc goes back to the last step. To "
+        "go on from an earlier one, undo to it (Ctrl+Z).");
 }
 
 } // namespace

@@ -236,9 +236,8 @@ private:
                 add_warning(words);
             report_.written.push_back(*options_.out);
             if (replaces_cloud)
-                add_warning(options_.out->string() +
-                            " was the cloud that the session begins with: replayed once "
-                            "more, it begins with the shape that is there now");
+                add_warning(options_.out->string() + " was the cloud that the session begins with; from now "
+                                                     "on it begins with the shape that is there now");
         }
         if (options_.record_checks) {
             write_checks(document.cloud(), outputs.add(TemporaryFolder(folder_of_session())));

@@ -138,8 +138,8 @@ std::vector<Way> ways_of_added(const InfluenceRows& nearest, std::span<const Ind
 
 // Those of them that begin at a sample.
 std::span<const Way> ways_from(std::span<const Way> ways, Index sample) {
-    const auto range = std::ranges::equal_range(ways, sample, {}, &Way::from);
-    return {range.begin(), range.end()};
+    const auto begin = std::ranges::lower_bound(ways, sample, {}, &Way::from);
+    return {begin, std::ranges::upper_bound(ways, sample, {}, &Way::from)};
 }
 
 // The nearest of the other samples of a row, and of those that these ways lead to.

@@ -1,0 +1,24 @@
+// The program's command line before any subcommand.
+
+#include "support/run_knead.h"
+
+#include <gtest/gtest.h>
+
+namespace knead::test {
+namespace {
+
+TEST(CommandLine, SaysThatAFileIsMissing) {
+    const Outcome outcome = run_knead({"no-such-scan.ply"});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.err.find("no-such-scan.ply"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("subcommand is required"), std::string::npos) << outcome.err;
+}
+
+TEST(CommandLine, IsTheEditorsWhereItBeginsWithAnOption) {
+    const Outcome outcome = run_knead({"--threads", "none", "no-such-scan.ply"});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.err.find("--threads"), std::string::npos) << outcome.err;
+}
+
+} // namespace
+} // namespace knead::test

@@ -111,10 +111,8 @@ struct Window::Callbacks {
     }
     static void key(GLFWwindow* window, int glfw_key, int scancode, int action, int mods) {
         Window& self = of(window);
-        if (is_modifier(glfw_key)) { // what the cursor does now means something else
-            self.events_.emplace_back(Input(MouseMove{self.cursor_, held_now(window)}));
-            return;
-        }
+        if (is_modifier(glfw_key))
+            return self.look_where_cursor_is(); // what it does means something else now
         if (action == GLFW_RELEASE) return;
         self.look_where_cursor_is();
         if (glfw_key >= 0) self.tapped_.push_back({glfw_key, mods});

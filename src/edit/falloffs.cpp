@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <unordered_map>
 
 namespace knead {
@@ -18,40 +19,70 @@ constexpr std::size_t stretch = 1 << 14; // of vertices
 constexpr double small_handle = 0.03;  // of the cloud's size: the radius of one that needs no falloff
 constexpr double small_falloff = 0.06; // of the cloud's size, of a handle of one point
 
-double least_falloff(std::span<const Index> vertices, std::span<const float> positions, double cloud_size) {
-    Vec3d middle = Vec3d::Zero();
-    for (const Index v : vertices) middle += point_at(positions, v) / static_cast<double>(vertices.size());
+// How many vertices a handle holds, where they are, and how far apart.
+struct Held {
+    std::size_t count = 0;
+    Vec3d sum = Vec3d::Zero(); // of the positions, seen from the cloud's first vertex
     double squares = 0;
-    for (const Index v : vertices) squares += (point_at(positions, v) - middle).squaredNorm();
-    const double radius = std::sqrt(2 * squares / static_cast<double>(vertices.size())); // as of a disc
-    return small_falloff * std::max(0.0, cloud_size - radius / small_handle);
+
+    void add(const Vec3d& position) {
+        ++count;
+        sum += position;
+        squares += position.squaredNorm();
+    }
+    void add(const Held& other) {
+        count += other.count;
+        sum += other.sum;
+        squares += other.squares;
+    }
+    double radius() const { // as of a disc
+        const auto n = static_cast<double>(count);
+        return std::sqrt(std::max(0.0, 2 * (squares / n - (sum / n).squaredNorm())));
+    }
+};
+
+double least_falloff(const Held& held, double cloud_size) {
+    return small_falloff * std::max(0.0, cloud_size - held.radius() / small_handle);
 }
 
-// The vertices of each handle, ascending: those of each stretch of vertices are counted, then have their
-// place.
-std::vector<std::vector<Index>> held_vertices(std::size_t handles, std::span<const Index> vertex_handle,
-                                              Workers& workers) {
-    const std::size_t stretches = (vertex_handle.size() + stretch - 1) / stretch;
-    std::vector<std::size_t> place(stretches * handles, 0);
-    const auto each_held = [&](auto&& visit) {
-        workers.for_chunks(vertex_handle.size(), stretch, [&](std::size_t begin, std::size_t end) {
-            const std::span places(place.data() + begin / stretch * handles, handles);
-            for (std::size_t v = begin; v < end; ++v)
-                if (vertex_handle[v] < handles) visit(static_cast<Index>(v), places[vertex_handle[v]]++);
-        });
-    };
-    each_held([](Index, std::size_t) {});
-    std::vector<std::vector<Index>> held(handles);
-    for (std::size_t h = 0; h < handles; ++h) {
-        std::size_t total = 0;
-        for (std::size_t at = h; at < place.size(); at += handles) {
-            total += place[at];
-            place[at] = total - place[at];
+// What each handle holds of each stretch of vertices: the handles of the first stretch, of the second, ...
+std::vector<Held> held_by_stretch(std::size_t handles, std::span<const Index> vertex_handle,
+                                  std::span<const float> positions, Workers& workers) {
+    std::vector<Held> held((vertex_handle.size() + stretch - 1) / stretch * handles);
+    workers.for_chunks(vertex_handle.size(), stretch, [&](std::size_t begin, std::size_t end) {
+        const std::span here(held.data() + begin / stretch * handles, handles);
+        for (std::size_t v = begin; v < end;) {
+            const Index handle = vertex_handle[v];
+            const std::size_t first = v;
+            while (v < end && vertex_handle[v] == handle) ++v;
+            if (!(handle < handles)) continue;
+            Held run; // neighbours are mostly of one handle
+            for (std::size_t of_run = first; of_run < v; ++of_run)
+                run.add(point_at(positions, of_run) - point_at(positions, 0));
+            here[handle].add(run);
         }
-        held[h].resize(total);
-    }
-    each_held([&](Index v, std::size_t at) { held[vertex_handle[v]][at] = v; });
+    });
     return held;
+}
+
+// The vertices, ascending, of the handles that are `wanted`.
+std::vector<std::vector<Index>> held_vertices(const std::vector<bool>& wanted, std::span<const Held> held,
+                                              std::span<const Index> vertex_handle, Workers& workers) {
+    const std::size_t handles = wanted.size();
+    std::vector<std::vector<Index>> vertices(handles);
+    std::vector<std::size_t> place;
+    for (const Held& here : held) { // where those of each stretch begin
+        const std::size_t h = place.size() % handles;
+        place.push_back(vertices[h].size());
+        if (wanted[h]) vertices[h].resize(place.back() + here.count);
+    }
+    workers.for_chunks(vertex_handle.size(), stretch, [&](std::size_t begin, std::size_t end) {
+        const std::span places(place.data() + begin / stretch * handles, handles);
+        for (std::size_t v = begin; v < end; ++v)
+            if (const Index h = vertex_handle[v]; h < handles && wanted[h])
+                vertices[h][places[h]++] = static_cast<Index>(v);
+    });
+    return vertices;
 }
 
 // Where the samples of each handle lie at rest, in the middle.
@@ -81,18 +112,24 @@ double spread_at(const SampleRest& rest, Index sample) {
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> vertex_handle,
                                    std::span<const Index> samples, const Graph& graph,
                                    std::span<const float> positions, double cloud_size, Workers& workers) {
-    const std::vector<std::vector<Index>> held = held_vertices(handles.size(), vertex_handle, workers);
+    const std::vector<Held> parts = held_by_stretch(handles.size(), vertex_handle, positions, workers);
+    std::vector<Held> whole(handles.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) whole[i % handles.size()].add(parts[i]);
     std::vector<double> falloff(handles.size(), 0);
-    workers.for_each(held.size(), 1, [&](std::size_t h) {
-        if (!held[h].empty())
-            falloff[h] = std::max(handles[h].falloff, least_falloff(held[h], positions, cloud_size));
-    });
+    std::vector<bool> pulls(handles.size(), false);
+    for (std::size_t h = 0; h < handles.size(); ++h) {
+        if (whole[h].count > 0)
+            falloff[h] = std::max(handles[h].falloff, least_falloff(whole[h], cloud_size));
+        pulls[h] = falloff[h] > 0;
+    }
+    if (std::ranges::none_of(pulls, std::identity{})) return {};
+    const std::vector<std::vector<Index>> held = held_vertices(pulls, parts, vertex_handle, workers);
     std::unordered_map<Index, Index> sample_of;
     for (Index s = 0; s < samples.size(); ++s)
         if (vertex_handle[samples[s]] == no_index) sample_of.emplace(samples[s], s);
     std::vector<Pulled> pulled;
     for (Index h = 0; h < held.size(); ++h) {
-        if (!(falloff[h] > 0)) continue;
+        if (!pulls[h]) continue;
         for (const Reached& near : reached_within(graph, positions, held[h], falloff[h])) {
             const auto sample = sample_of.find(near.vertex);
             if (sample != sample_of.end() && near.distance < falloff[h])

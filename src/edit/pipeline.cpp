@@ -155,12 +155,16 @@ void Pipeline::prepare_samples(Progress& progress) {
     base_samples_ = samples_.size();
     seconds_.sampling += clock.lap();
 
-    handle_flood_.reset();
-    nearest_ = {}; // before the next are made
+    from_handles_.clear(); // before the next are made
+    nearest_ = {};
+    territory_ = {};
+    rows_of_base_.clear();
     base_borders_.clear();
     if (!every_point_) {
         nearest_ = flood(*graph_, link_lengths_, samples_, workers_, progress);
-        base_borders_ = territory_borders(nearest_, *graph_, workers_);
+        territory_ = territory_rows(nearest_, workers_);
+        rows_of_base_ = base_rows(nearest_, samples_, static_cast<Index>(base_samples_));
+        base_borders_ = territory_borders(territory_, *graph_, workers_);
     } else {
         sample_graph_ = sample_graph_of_all(with_solid_links(*graph_, vertex_positions(), workers_));
     }

@@ -34,6 +34,7 @@
 #include "graph/neighbors.h"
 #include "graph/point_order.h"
 #include "graph/sampling.h"
+#include "graph/starts_flood.h"
 #include "upsample/point_blocks.h"
 #include "upsample/upsample.h"
 
@@ -133,8 +134,8 @@ public:
     // Counts how often samples() and sample_graph() changed together; 0: never yet.
     std::uint64_t samples_version() const { return samples_version_; }
     const HandleLabels& labels() const { return labels_; }
-    // Which motions move a vertex that no handle holds: those of samples, and from samples().size() on those
-    // of handles.
+    // Which motions move a vertex that no handle holds: those of samples, and from some number on, that is
+    // not below samples().size(), those of handles.
     Influence influence(Index vertex) const {
         return influence_of(nearest_, input_.settings.weights, vertex);
     }
@@ -159,9 +160,11 @@ private:
     void prepare_bridges(Progress& progress);
     void prepare_samples(Progress& progress);
     void prepare_handles(Progress& progress);
-    void link_samples(std::span<const Index> added, Progress& progress);
+    std::vector<TerritoryBorder> borders_with(std::span<const Index> added, Progress& progress);
     bool turns_freely(Index label) const;
+    Index first_handle_number() const;
     std::vector<FloodStart> handle_starts(std::span<const BorderVertex> borders) const;
+    void link_samples(std::span<const Index> added, std::span<const TerritoryBorder> borders);
     Index followed_by(std::size_t point) const;
     void find_pulled();
     void choose_coarse_samples();
@@ -203,9 +206,12 @@ private:
     bool every_point_ = false;
     std::vector<Index> samples_;
     std::size_t base_samples_ = 0;
-    InfluenceRows nearest_;                     // of each vertex; empty if every point is a sample
-    std::vector<TerritoryBorder> base_borders_; // of the base samples alone
-    std::optional<FloodPatch> handle_flood_;
+    InfluenceRows nearest_;                 // of each vertex; empty if every point is a sample
+    std::vector<StartsFlood> from_handles_; // that are in these
+    // Of the base samples alone: the first places of the rows, the rows of the samples, and their borders.
+    TerritoryRows territory_;
+    std::vector<WideRow> rows_of_base_;
+    std::vector<TerritoryBorder> base_borders_;
 
     HandleLabels labels_;
     std::vector<Pulled> pulled_;
@@ -223,7 +229,10 @@ private:
     CoarseLevel coarse_;
     bool has_coarse_ = false;                  // its system stands
     std::vector<HandleMotion> handle_motions_; // those of the handles, and the identity for what is outside
-    std::vector<Motion> motions_; // of the samples, the handles, what is outside, and the carried parts
+    // Of the samples; from first_handle_motion_ on those of the handles, what is outside, and the carried
+    // parts. Those in between move nothing.
+    std::vector<Motion> motions_;
+    std::size_t first_handle_motion_ = 0;
     RestShape posed_;
     std::uint64_t upsampled_ = 0;
     std::vector<std::uint64_t> written_;

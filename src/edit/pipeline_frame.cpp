@@ -73,8 +73,7 @@ void Pipeline::for_lone_pegs(Visit&& visit) const {
 }
 
 void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {
-    const std::size_t samples = samples_.size();
-    workers_.for_each(samples, 256, [&](std::size_t s) {
+    workers_.for_each(samples_.size(), 256, [&](std::size_t s) {
         const Index handle = system_.rest.handle[s];
         const bool given = handle != no_index && system_.unknown[s] == no_index;
         if (given && handle != labels_.outside) {
@@ -90,8 +89,9 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
         for (int axis = 0; axis < 3; ++axis)
             motions_[s].place[axis] = static_cast<float>(system_.rest.position[s][axis]);
     });
-    for (std::size_t h = 0; h < motions.size(); ++h) motions_[samples + h] = motion_of_handle(motions[h]);
-    for_lone_pegs([&](Index s, Index handle) { motions_[samples + handle] = motions_[s]; });
+    for (std::size_t h = 0; h < motions.size(); ++h)
+        motions_[first_handle_motion_ + h] = motion_of_handle(motions[h]);
+    for_lone_pegs([&](Index s, Index handle) { motions_[first_handle_motion_ + handle] = motions_[s]; });
     const std::size_t first_carried = motions_.size() - carried_.size();
     workers_.for_each(carried_.size(), 16, [&](std::size_t part) {
         motions_[first_carried + part] = carried_motion(carried_, part, motions_);
@@ -123,8 +123,8 @@ std::vector<float> Pipeline::rotations(const std::vector<HandleMotion>& motions,
         const bool given = handle != no_index && system_.unknown[s] == no_index;
         turns[s] = given && handle != labels_.outside ? motions[handle].rotation : state.rotation[s];
     }
-    for (std::size_t h = 0; h < motions.size(); ++h) turns[samples_.size() + h] = motions[h].rotation;
-    for_lone_pegs([&](Index s, Index handle) { turns[samples_.size() + handle] = turns[s]; });
+    for (std::size_t h = 0; h < motions.size(); ++h) turns[first_handle_motion_ + h] = motions[h].rotation;
+    for_lone_pegs([&](Index s, Index handle) { turns[first_handle_motion_ + handle] = turns[s]; });
     for (std::size_t carried = turns.size() - carried_.size(); carried < turns.size(); ++carried)
         turns[carried] = rotation_in(motions_[carried]);
     const std::span<const float> before = input_.rest ? input_.rest->rotations : std::span<const float>{};

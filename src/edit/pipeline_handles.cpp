@@ -16,6 +16,10 @@ constexpr double handle_share = 0.2;
 
 constexpr std::size_t grain = 1 << 14;
 
+std::size_t handle_budget(std::size_t base_samples) {
+    return static_cast<std::size_t>(handle_share * static_cast<double>(base_samples));
+}
+
 } // namespace
 
 void Pipeline::find_pulled() {
@@ -25,10 +29,7 @@ void Pipeline::find_pulled() {
 
 void Pipeline::prepare_handles(Progress& progress) {
     Stopwatch clock;
-    if (handle_flood_) revert(nearest_, *handle_flood_);
-    handle_flood_.reset();
     samples_.resize(base_samples_);
-
     label_vertices();
     if (every_point_) { // their graph is that of the points, whatever the handles are
         seconds_.sampling += clock.lap();
@@ -38,33 +39,52 @@ void Pipeline::prepare_handles(Progress& progress) {
         return;
     }
     const VertexShape shape{order_.code, vertex_positions(), *graph_, *components_};
-    const auto budget = static_cast<std::size_t>(handle_share * static_cast<double>(base_samples_));
-    HandleSamples needed = handle_samples(shape, labels_.vertex, samples_, nearest_, budget, workers_);
+    HandleSamples needed =
+        handle_samples(shape, labels_.vertex, samples_, territory_, handle_budget(base_samples_), workers_);
     const std::vector<Index> added = shuffled(std::move(needed.added));
     samples_.insert(samples_.end(), added.begin(), added.end());
     seconds_.sampling += clock.lap();
 
     stale_.samples = true; // a flood that is cancelled leaves lists that nothing can revert
-    link_samples(added, progress);
-    nearest_.first_handle = static_cast<Index>(samples_.size());
-    handle_flood_ =
-        add_starts(nearest_, *graph_, link_lengths_, handle_starts(needed.borders), workers_, progress);
+    const std::vector<TerritoryBorder> borders = borders_with(added, progress);
+    nearest_.first_handle = first_handle_number();
+    change_starts(from_handles_, handle_starts(needed.borders), nearest_, *graph_, link_lengths_, workers_,
+                  progress);
     stale_.samples = false;
+    link_samples(added, borders);
     find_pulled();
     choose_coarse_samples();
     seconds_.geodesic += clock.lap();
 }
 
-// The graph of all samples, by the territories of those that handles added, which are taken back: points are
-// moved by the handles themselves, see handle_starts().
-void Pipeline::link_samples(std::span<const Index> added, Progress& progress) {
-    const FloodPatch flood =
-        add_territories(nearest_, *graph_, link_lengths_, starts_of(added, static_cast<Index>(base_samples_)),
-                        workers_, progress);
-    const std::vector<TerritoryBorder> borders =
-        territory_borders_after(base_borders_, flood, nearest_, *graph_, link_lengths_, workers_);
-    revert(nearest_, flood);
-    sample_graph_ = knead::sample_graph(nearest_, samples_, borders, workers_);
+// Where the territories of all samples touch. Those that handles added are taken back: points are moved by
+// the handles themselves, see handle_starts().
+std::vector<TerritoryBorder> Pipeline::borders_with(std::span<const Index> added, Progress& progress) {
+    const TerritoryPatch flood =
+        add_territories(territory_, *graph_, link_lengths_,
+                        starts_of(added, static_cast<Index>(base_samples_)), workers_, progress);
+    std::vector<TerritoryBorder> borders =
+        territory_borders_after(base_borders_, flood, territory_, *graph_, link_lengths_, workers_);
+    revert(territory_, flood);
+    return borders;
+}
+
+// The graph of all samples. Where a handle is near, one number of a row is its own, or more: enough others
+// are left.
+void Pipeline::link_samples(std::span<const Index> added, std::span<const TerritoryBorder> borders) {
+    std::vector<WideRow> rows = rows_of_base_;
+    const std::vector<WideRow> more = base_rows(nearest_, added, static_cast<Index>(base_samples_));
+    rows.insert(rows.end(), more.begin(), more.end());
+    sample_graph_ = knead::sample_graph(rows, borders, workers_);
+}
+
+// Handles have the numbers from here on, which stay what they are while samples come and go: so what was
+// flooded of a handle stays good. Rows are not made wide for that.
+Index Pipeline::first_handle_number() const {
+    const std::size_t room = base_samples_ + handle_budget(base_samples_);
+    const std::size_t handles = input_.handles.size() + 1; // and what is outside
+    const bool would_widen = base_samples_ < NarrowRow::none && room + handles > NarrowRow::none;
+    return static_cast<Index>(would_widen ? samples_.size() : std::max(samples_.size(), room));
 }
 
 bool Pipeline::turns_freely(Index label) const {
@@ -75,12 +95,12 @@ bool Pipeline::turns_freely(Index label) const {
 // along the border, with the number of its own motion. One that leaves rotation free turns with each of its
 // samples, and those start for it.
 std::vector<FloodStart> Pipeline::handle_starts(std::span<const BorderVertex> borders) const {
-    const auto first_handle = static_cast<Index>(samples_.size());
     std::vector<FloodStart> starts;
-    for (auto s = static_cast<Index>(base_samples_); s < first_handle; ++s)
-        if (turns_freely(labels_.vertex[samples_[s]])) starts.push_back({samples_[s], s});
     for (const BorderVertex& border : borders)
-        if (!turns_freely(border.label)) starts.push_back({border.vertex, first_handle + border.label});
+        if (!turns_freely(border.label))
+            starts.push_back({border.vertex, nearest_.first_handle + border.label});
+    for (auto s = static_cast<Index>(base_samples_); s < samples_.size(); ++s)
+        if (turns_freely(labels_.vertex[samples_[s]])) starts.push_back({samples_[s], s});
     return starts;
 }
 
@@ -145,11 +165,11 @@ void Pipeline::prepare_influences() {
     Stopwatch clock;
     // A held point is moved by its handle alone, whatever samples are near, and a point of a stray part by
     // nothing. Where every point is a sample there are no rows, and each is moved by the motion of its own.
-    const auto samples = static_cast<Index>(samples_.size());
-    const auto first_motion = static_cast<Index>(nearest_.size());
+    first_handle_motion_ = every_point_ ? samples_.size() : nearest_.first_handle;
+    const std::size_t first_handle = nearest_.size() + first_handle_motion_; // as a mover
     const Index outside = labels_.outside;
     std::vector<Index> mover_of_label(outside + 1);
-    std::iota(mover_of_label.begin(), mover_of_label.end(), first_motion + samples);
+    std::iota(mover_of_label.begin(), mover_of_label.end(), static_cast<Index>(first_handle));
     const Index first_carried = mover_of_label.back() + 1;
     prepare_carried(mover_of_label);
     mover_of_point_.resize(order_.points());
@@ -166,7 +186,7 @@ void Pipeline::prepare_influences() {
         else
             mover = mover_of_label[outside];
     });
-    motions_.assign(samples + outside + 1 + carried_.size(), Motion{});
+    motions_.assign(first_handle_motion_ + outside + 1 + carried_.size(), Motion{});
     seconds_.geodesic += clock.lap();
 }
 

@@ -28,13 +28,6 @@ constexpr double levels_a_median_link = 4;
 // Of vertices a tile. Larger ones send less to each other, and smaller ones leave something for every core.
 constexpr std::size_t largest_tile = 1 << 14, smallest_tile = 1 << 10, fewest_tiles = 8;
 
-// A row of the nearest sample alone.
-template<typename Value>
-struct Territory {
-    static constexpr Value none = std::numeric_limits<Value>::max();
-    std::array<Value, 1> sample, distance;
-};
-
 // How wide the numbers of a row are.
 template<typename Places>
 using NumberOf = typename decltype(Places::sample)::value_type;
@@ -54,40 +47,41 @@ Places empty_row() {
     return row;
 }
 
-// The functions below look at the first `places` places of a row alone.
-//
 // The loops over a row decide nothing on the way, and count in numbers as wide as its own: so compilers make
 // a few instructions of each, for all its places together, if the functions are not put into larger loops.
 
-template<std::size_t places, typename Places>
+template<typename Places>
+constexpr std::size_t places_of = std::tuple_size_v<decltype(Places::sample)>;
+
+template<typename Places>
 [[gnu::noinline]] bool holds(const Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
     using Number = NumberOf<Places>;
     Number found = 0;
-    for (std::size_t k = 0; k < places; ++k)
+    for (std::size_t k = 0; k < places_of<Places>; ++k)
         found |= static_cast<Number>(Number{row.sample[k] == sample} & Number{row.distance[k] == distance});
     return found != 0;
 }
 
 // Whether putting the sample there would change the row.
-template<std::size_t places, typename Places>
+template<typename Places>
 [[gnu::noinline]] bool has_room(const Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
     using Number = NumberOf<Places>;
-    constexpr std::size_t last = places - 1;
+    constexpr std::size_t last = places_of<Places> - 1;
     const bool as_far = row.distance[last] == distance;
     const bool before_last = (row.distance[last] > distance) | (as_far & (row.sample[last] > sample));
     Number found = 0;
-    for (std::size_t k = 0; k < places; ++k)
+    for (std::size_t k = 0; k < places_of<Places>; ++k)
         found |= static_cast<Number>(Number{row.sample[k] == sample} & Number{row.distance[k] <= distance});
     return before_last & (found == 0);
 }
 
 // Puts it there, in place of itself farther away, or of the last one.
-template<std::size_t places, typename Places>
+template<typename Places>
 [[gnu::noinline]] void insert(Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
     using Number = NumberOf<Places>;
     const Places old = row;
     Number nearer = 0;
-    for (std::size_t k = 0; k < places; ++k) {
+    for (std::size_t k = 0; k < places_of<Places>; ++k) {
         const auto as_far = Number{old.distance[k] == distance};
         nearer = static_cast<Number>(
             nearer + (Number{old.distance[k] < distance} | (as_far & Number{old.sample[k] < sample})));
@@ -95,7 +89,7 @@ template<std::size_t places, typename Places>
     std::size_t place = nearer;
     row.sample[place] = sample;
     row.distance[place] = distance;
-    for (; place + 1 < places && old.sample[place] != sample; ++place) {
+    for (; place + 1 < places_of<Places> && old.sample[place] != sample; ++place) {
         row.sample[place + 1] = old.sample[place];
         row.distance[place + 1] = old.distance[place];
     }
@@ -111,7 +105,7 @@ template<std::size_t places, typename Places>
 // (distance, sample) of all ways, whatever the tiles and the order in which workers took them. But all that
 // comes by a way round is sent on in vain: a round goes no more than `levels_a_round` beyond the lowest level
 // at which anything waits.
-template<typename Places, std::size_t places = std::tuple_size_v<decltype(Places::sample)>>
+template<typename Places>
 class Flood {
 public:
     using Number = NumberOf<Places>;
@@ -216,7 +210,7 @@ private:
         for (std::size_t i = 0; i < arriving.size(); ++i) {
             if (i + soon < arriving.size()) prefetch(&rows_[arriving[i + soon].vertex]);
             const auto& [vertex, sample, distance] = arriving[i];
-            if (has_room<places>(rows_[vertex], sample, distance)) take_in(arriving[i], on_the_way);
+            if (has_room(rows_[vertex], sample, distance)) take_in(arriving[i], on_the_way);
         }
         tile.arriving.all.clear();
         tile.arriving.lowest = never;
@@ -227,7 +221,7 @@ private:
             Arrivals& going = on_the_way.waiting[level % ring]; // all links being longer, it does not grow
             for (std::size_t i = 0; i < going.size(); ++i) {
                 look_ahead(going, i);
-                if (holds<places>(rows_[going[i].vertex], going[i].sample, going[i].distance))
+                if (holds(rows_[going[i].vertex], going[i].sample, going[i].distance))
                     pass_on(going[i], tile, on_the_way);
             }
             going.clear();
@@ -256,7 +250,7 @@ private:
     // Puts it into its row, which has room for it.
     void take_in(const Arrival<Number>& arrival, OnTheWay& on_the_way) {
         if (on_the_way.old) keep(arrival.vertex, *on_the_way.old);
-        insert<places>(rows_[arrival.vertex], arrival.sample, arrival.distance);
+        insert(rows_[arrival.vertex], arrival.sample, arrival.distance);
         on_the_way.waiting[arrival.distance % ring].push_back(arrival);
     }
 
@@ -290,7 +284,7 @@ private:
             const bool inside = next.vertex - tile.first_vertex < vertices_a_tile_;
             // The rows of other tiles may be changing: another is looked at for them.
             const Places& row = rows_[inside ? next.vertex : from.vertex];
-            staying |= Links{has_room<places>(row, next.sample, next.distance)} << k;
+            staying |= Links{has_room(row, next.sample, next.distance)} << k;
             leaving |= Links{!inside} << k;
         }
         staying &= ~leaving;
@@ -362,30 +356,61 @@ auto flooded(const Graph& graph, std::span<const std::uint8_t> lengths, std::spa
     return use(rows);
 }
 
-// Puts old rows back.
-template<typename Places>
-void put_back(const OldRows<Places>& blocks, std::vector<Places>& rows) {
-    for (const auto& block : blocks)
-        for (const OldRow<Places>& old : block) rows[old.vertex] = {old.sample, old.distance};
+WideTerritory widened(const NarrowTerritory& row) {
+    if (row.sample[0] == NarrowTerritory::none) return {{WideTerritory::none}, {WideTerritory::none}};
+    return {{Index{row.sample[0]}}, {Index{row.distance[0]}}};
 }
 
-// Floods the first `places` places of rows, of which all others stay as they are.
-template<std::size_t places>
-FloodPatch patched(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
-                   std::span<const FloodStart> starts, Workers& workers, Progress& progress) {
-    auto* narrow = std::get_if<std::vector<NarrowRow>>(&nearest.rows);
-    const auto is_narrow = [](const FloodStart& start) { return start.number < NarrowRow::none; };
+void widen(TerritoryRows& nearest) {
+    const auto* narrow = std::get_if<std::vector<NarrowTerritory>>(&nearest.rows);
+    if (!narrow) return;
+    std::vector<WideTerritory> wide(narrow->size());
+    std::ranges::transform(*narrow, wide.begin(), [](const NarrowTerritory& row) { return widened(row); });
+    nearest.rows = std::move(wide);
+}
+
+// Puts old rows back, into rows that may have become wide since.
+template<typename Old, typename Row>
+void put_back(const OldRows<Old>& blocks, std::vector<Row>& rows) {
+    for (const auto& block : blocks)
+        for (const OldRow<Old>& old : block) {
+            const Old row{old.sample, old.distance};
+            if constexpr (std::is_same_v<Old, Row>)
+                rows[old.vertex] = row;
+            else
+                rows[old.vertex] = widened(row);
+        }
+}
+
+// Floods from these starts, too.
+template<typename Narrow, typename Wide, typename Rows>
+RowPatch<Narrow, Wide> patched(Rows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
+                               std::span<const FloodStart> starts, Workers& workers, Progress& progress) {
+    auto* narrow = std::get_if<std::vector<Narrow>>(&nearest.rows);
+    const auto is_narrow = [](const FloodStart& start) { return start.number < Narrow::none; };
     if (narrow && std::ranges::all_of(starts, is_narrow)) {
-        Flood<NarrowRow, places> flood(*narrow, graph, lengths, workers);
+        Flood<Narrow> flood(*narrow, graph, lengths, workers);
         const bool fits = flood.run(starts, true, progress);
         auto old_rows = flood.take_old_rows();
         if (fits) return {std::move(old_rows)};
         put_back(old_rows, *narrow);
     }
     widen(nearest);
-    Flood<WideRow, places> flood(std::get<std::vector<WideRow>>(nearest.rows), graph, lengths, workers);
+    Flood<Wide> flood(std::get<std::vector<Wide>>(nearest.rows), graph, lengths, workers);
     require(flood.run(starts, true, progress), "a way along the surface is shorter than 2^32 levels");
     return {flood.take_old_rows()};
+}
+
+template<typename Rows, typename Patch>
+void reverted(Rows& nearest, const Patch& patch) {
+    std::visit(
+        []<typename Row, typename Old>(std::vector<Row>& rows, const OldRows<Old>& blocks) {
+            if constexpr (sizeof(Row) >= sizeof(Old))
+                put_back(blocks, rows);
+            else
+                require(false, "rows do not become narrow again");
+        },
+        nearest.rows, patch.blocks);
 }
 
 double length_of(const Graph& graph, std::span<const float> positions, std::size_t v, std::size_t link) {
@@ -432,7 +457,7 @@ InfluenceRows flood(const Graph& graph, std::span<const std::uint8_t> lengths, s
 
 std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t> lengths,
                                std::span<const Index> samples, Workers& workers, Progress& progress) {
-    return flooded<Territory<std::uint16_t>, Territory<Index>>(
+    return flooded<NarrowTerritory, WideTerritory>(
         graph, lengths, samples, workers, progress, []<typename Row>(const std::vector<Row>& rows) {
             std::vector<Index> nearest(rows.size());
             std::ranges::transform(rows, nearest.begin(), [](const Row& row) {
@@ -449,21 +474,44 @@ std::vector<FloodStart> starts_of(std::span<const Index> samples, Index first) {
     return starts;
 }
 
-FloodPatch add_starts(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
-                      std::span<const FloodStart> starts, Workers& workers, Progress& progress) {
-    return patched<influences_per_row>(nearest, graph, lengths, starts, workers, progress);
+std::size_t TerritoryRows::size() const {
+    return std::visit([](const auto& kind) { return kind.size(); }, rows);
 }
 
-FloodPatch add_territories(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
-                           std::span<const FloodStart> starts, Workers& workers, Progress& progress) {
-    return patched<1>(nearest, graph, lengths, starts, workers, progress);
+WideTerritory TerritoryRows::operator[](std::size_t v) const {
+    if (const auto* wide = std::get_if<std::vector<WideTerritory>>(&rows)) return (*wide)[v];
+    return widened(std::get<std::vector<NarrowTerritory>>(rows)[v]);
+}
+
+TerritoryRows territory_rows(const InfluenceRows& nearest, Workers& workers) {
+    return std::visit(
+        [&]<typename Number>(const std::vector<SampleRow<Number>>& rows) {
+            std::vector<Territory<Number>> first(rows.size());
+            workers.for_each(rows.size(), largest_tile, [&](std::size_t v) {
+                first[v] = {{rows[v].sample[0]}, {rows[v].distance[0]}};
+            });
+            return TerritoryRows{std::move(first)};
+        },
+        nearest.rows);
+}
+
+FloodPatch add_starts(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
+                      std::span<const FloodStart> starts, Workers& workers, Progress& progress) {
+    return patched<NarrowRow, WideRow>(nearest, graph, lengths, starts, workers, progress);
 }
 
 void revert(InfluenceRows& nearest, const FloodPatch& patch) {
-    require(nearest.rows.index() == patch.blocks.index(), "a patch belongs to the rows that it was made of");
-    std::visit(
-        [&]<typename Row>(std::vector<Row>& rows) { put_back(std::get<OldRows<Row>>(patch.blocks), rows); },
-        nearest.rows);
+    reverted(nearest, patch);
+}
+
+TerritoryPatch add_territories(TerritoryRows& nearest, const Graph& graph,
+                               std::span<const std::uint8_t> lengths, std::span<const FloodStart> starts,
+                               Workers& workers, Progress& progress) {
+    return patched<NarrowTerritory, WideTerritory>(nearest, graph, lengths, starts, workers, progress);
+}
+
+void revert(TerritoryRows& nearest, const TerritoryPatch& patch) {
+    reverted(nearest, patch);
 }
 
 } // namespace knead

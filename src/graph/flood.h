@@ -21,6 +21,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <variant>
 #include <vector>
@@ -46,6 +47,24 @@ InfluenceRows flood(const Graph& graph, std::span<const std::uint8_t> lengths, s
 std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t> lengths,
                                std::span<const Index> samples, Workers& workers, Progress& progress);
 
+// A row of the nearest sample alone. `none` for both in a component without samples.
+template<typename Number>
+struct Territory {
+    static constexpr Number none = std::numeric_limits<Number>::max();
+    std::array<Number, 1> sample, distance;
+};
+using NarrowTerritory = Territory<std::uint16_t>;
+using WideTerritory = Territory<Index>;
+struct TerritoryRows { // one a vertex
+    std::variant<std::vector<NarrowTerritory>, std::vector<WideTerritory>> rows;
+
+    std::size_t size() const;
+    WideTerritory operator[](std::size_t v) const;
+};
+
+// The first places of these rows.
+TerritoryRows territory_rows(const InfluenceRows& nearest, Workers& workers);
+
 // What add_starts() or add_territories() changed: whole rows as they were before, each vertex once, in no
 // particular order, block after block: these are many, and to put them into one array would need room for
 // both.
@@ -58,30 +77,35 @@ struct OldRow {
 template<typename Row>
 using OldRows = std::vector<std::vector<OldRow<Row>>>;
 
-struct FloodPatch {
-    std::variant<OldRows<NarrowRow>, OldRows<WideRow>> blocks;
+template<typename Narrow, typename Wide>
+struct RowPatch {
+    std::variant<OldRows<Narrow>, OldRows<Wide>> blocks;
 };
+using FloodPatch = RowPatch<NarrowRow, WideRow>;
+using TerritoryPatch = RowPatch<NarrowTerritory, WideTerritory>;
 
 // Where a flood starts, and what: the number that rows will hold.
 struct FloodStart {
     Index vertex;
     Index number;
+    bool operator==(const FloodStart&) const = default;
 };
 
 // A sample at each of these vertices, numbered first, first + 1, …
 std::vector<FloodStart> starts_of(std::span<const Index> samples, Index first);
 
 // Adds what starts there, as if it had been in the flood from the beginning; only what it reaches is flooded.
-// Its numbers are none that rows hold already. One that starts from several vertices at once is as far from
-// any other as the nearest of them is. The vertices may hold samples. Rows that have become too narrow are
-// made wide. revert() takes it back, while they are as it left them; wide rows stay wide. A flood that is
-// cancelled leaves rows that are good for nothing.
+// One that starts from several vertices at once, or later from more of them, is as far from any other as the
+// nearest of them is. The vertices may hold samples. Rows that have become too narrow are made wide. revert()
+// takes it back, what was added last first; wide rows stay wide. A flood that is cancelled leaves rows that
+// are good for nothing.
 FloodPatch add_starts(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
                       std::span<const FloodStart> starts, Workers& workers, Progress& progress);
-// The same of territories alone, which is much less to flood: the first place of each row has the nearest of
-// all, and the others are as they were. Such rows are good for territory_borders_after(), and for revert().
-FloodPatch add_territories(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
-                           std::span<const FloodStart> starts, Workers& workers, Progress& progress);
 void revert(InfluenceRows& nearest, const FloodPatch& patch);
+// The same of territories alone, which is much less to flood.
+TerritoryPatch add_territories(TerritoryRows& nearest, const Graph& graph,
+                               std::span<const std::uint8_t> lengths, std::span<const FloodStart> starts,
+                               Workers& workers, Progress& progress);
+void revert(TerritoryRows& nearest, const TerritoryPatch& patch);
 
 } // namespace knead

@@ -56,7 +56,7 @@ Labelled find_labelled(const VertexShape& shape, std::span<const Index> label, W
 }
 
 // How many territories of base samples these vertices belong to; what no base sample reaches counts as one.
-std::size_t territories_of(std::span<const Index> vertices, const InfluenceRows& nearest) {
+std::size_t territories_of(std::span<const Index> vertices, const TerritoryRows& nearest) {
     std::vector<Index> samples;
     samples.reserve(vertices.size());
     for (const Index v : vertices) samples.push_back(nearest[v].sample[0]);
@@ -78,7 +78,7 @@ void leave_none_out(std::map<Index, std::size_t>& share) {
 
 // How many samples the border of each label gets.
 std::map<Index, std::size_t> shares(const std::map<Index, std::vector<Index>>& borders,
-                                    const InfluenceRows& nearest, std::size_t budget) {
+                                    const TerritoryRows& nearest, std::size_t budget) {
     std::map<Index, std::size_t> share;
     std::size_t wanted = 0;
     for (const auto& [label, vertices] : borders)
@@ -118,15 +118,14 @@ struct Way {
 
 // All that lead to or from samples that were added to the flood, ascending: to the others of their rows,
 // which hold none of them, and across the borders of their territories.
-std::vector<Way> ways_of_added(const InfluenceRows& nearest, std::span<const Index> samples,
-                               std::span<const TerritoryBorder> borders) {
+std::vector<Way> ways_of_added(std::span<const WideRow> nearest, std::span<const TerritoryBorder> borders) {
     std::vector<Way> ways;
     const auto add = [&](Index one, Index other, Index levels) {
         ways.push_back({one, other, levels});
         ways.push_back({other, one, levels});
     };
-    for (Index s = 0; s < samples.size(); ++s) {
-        const WideRow row = nearest[samples[s]];
+    for (Index s = 0; s < nearest.size(); ++s) {
+        const WideRow& row = nearest[s];
         if (row.sample[0] == s) continue;
         for (std::size_t k = 0; k < row.count(); ++k) add(s, row.sample.at(k), row.distance.at(k));
     }
@@ -159,7 +158,7 @@ std::vector<Index> nearest_others(const WideRow& row, Index sample, std::span<co
 } // namespace
 
 HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> label,
-                             std::span<const Index> base, const InfluenceRows& nearest, std::size_t budget,
+                             std::span<const Index> base, const TerritoryRows& nearest, std::size_t budget,
                              Workers& workers) {
     require(nearest.size() == label.size(), "a row and a label a vertex");
     const auto part_of = [&](Index v) { return Part{label[v], shape.components.component[v]}; };
@@ -183,13 +182,30 @@ HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> la
     return {std::move(added), std::move(borders)};
 }
 
-SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples,
-                         std::span<const TerritoryBorder> borders, Workers& workers) {
-    const std::vector<Way> ways = ways_of_added(nearest, samples, borders);
-    std::vector<Index> links(samples.size() * sample_neighbors, no_index);
-    workers.for_each(samples.size(), 1024, [&](std::size_t s) {
-        const auto sample = static_cast<Index>(s);
-        const std::vector<Index> others = nearest_others(nearest[samples[s]], sample, ways);
+std::vector<WideRow> base_rows(const InfluenceRows& nearest, std::span<const Index> vertices, Index base) {
+    std::vector<WideRow> rows;
+    rows.reserve(vertices.size());
+    for (const Index v : vertices) {
+        const WideRow row = nearest[v];
+        WideRow& kept = rows.emplace_back();
+        kept.sample.fill(WideRow::none);
+        kept.distance.fill(WideRow::none);
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < row.count(); ++k) {
+            if (row.sample.at(k) >= base) continue;
+            kept.sample.at(count) = row.sample.at(k);
+            kept.distance.at(count++) = row.distance.at(k);
+        }
+    }
+    return rows;
+}
+
+SampleGraph sample_graph(std::span<const WideRow> nearest, std::span<const TerritoryBorder> borders,
+                         Workers& workers) {
+    const std::vector<Way> ways = ways_of_added(nearest, borders);
+    std::vector<Index> links(nearest.size() * sample_neighbors, no_index);
+    workers.for_each(nearest.size(), 1024, [&](std::size_t s) {
+        const std::vector<Index> others = nearest_others(nearest[s], static_cast<Index>(s), ways);
         std::ranges::copy(others, links.begin() + static_cast<std::ptrdiff_t>(s * sample_neighbors));
     });
     std::vector<std::pair<Index, Index>> touching;
@@ -208,7 +224,8 @@ SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> sa
 
 SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
                          Workers& workers) {
-    return sample_graph(nearest, samples, territory_borders(nearest, points, workers), workers);
+    return sample_graph(base_rows(nearest, samples, static_cast<Index>(samples.size())),
+                        territory_borders(territory_rows(nearest, workers), points, workers), workers);
 }
 
 SampleGraph sample_graph_of_all(const Graph& points) {

@@ -39,7 +39,7 @@ struct HandleSamples {
 //   - Every label owns at least one sample in every component that it reaches into, budget or not.
 // `base`: vertices, in any order; `nearest`: the flood from them, a row a vertex, and nothing added to it.
 HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> label,
-                             std::span<const Index> base, const InfluenceRows& nearest, std::size_t budget,
+                             std::span<const Index> base, const TerritoryRows& nearest, std::size_t budget,
                              Workers& workers);
 
 // The graph between samples, and how long a border the territories of two linked ones share.
@@ -52,16 +52,19 @@ struct SampleGraph {
 // Links each sample to the `sample_neighbors` nearest others along the surface, and back, and to all whose
 // territories touch its own. The latter never leave a seam between rows of samples, and make the components
 // of the samples those of the points: where the six nearest leave a neck open, the floods still meet.
-// `samples`: the vertex of each sample; `nearest`: the flood from them, or from all but those that were added
-// later; `borders`: of all their territories. How far two added ones are from each other is known only where
-// their territories touch; they count as near only there.
+// `nearest`: of each sample the row of its vertex, with base samples alone, the first of them itself unless
+// it was added later; `borders`: of all their territories. How far two added ones are from each other is
+// known only where their territories touch; they count as near only there.
 inline constexpr std::size_t sample_neighbors = 6;
-SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples,
-                         std::span<const TerritoryBorder> borders, Workers& workers);
-// The same where no sample was added, and the borders are not known yet. `points`: the graph that was
-// flooded.
+SampleGraph sample_graph(std::span<const WideRow> nearest, std::span<const TerritoryBorder> borders,
+                         Workers& workers);
+// The same where no sample was added, and the borders are not known yet. `samples`: the vertex of each;
+// `nearest`: the flood from them over the graph `points`.
 SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
                          Workers& workers);
+
+// The rows of these vertices, without what has numbers from `base` on: samples and handles that were added.
+std::vector<WideRow> base_rows(const InfluenceRows& nearest, std::span<const Index> vertices, Index base);
 
 // The sample graph where every point is a sample: that of the points (solid_links.h), every contact 1.
 SampleGraph sample_graph_of_all(const Graph& points);

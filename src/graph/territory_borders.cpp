@@ -157,7 +157,7 @@ void find_changed(const std::vector<Row>& nearest, const OldRows<Row>& blocks, c
 
 } // namespace
 
-std::vector<TerritoryBorder> territory_borders(const InfluenceRows& nearest, const Graph& points,
+std::vector<TerritoryBorder> territory_borders(const TerritoryRows& nearest, const Graph& points,
                                                Workers& workers) {
     Changes found;
     std::visit([&](const auto& rows) { find_all(rows, points, workers, found); }, nearest.rows);
@@ -165,8 +165,8 @@ std::vector<TerritoryBorder> territory_borders(const InfluenceRows& nearest, con
 }
 
 std::vector<TerritoryBorder> territory_borders_after(std::span<const TerritoryBorder> before,
-                                                     const FloodPatch& patch, const InfluenceRows& nearest,
-                                                     const Graph& points,
+                                                     const TerritoryPatch& patch,
+                                                     const TerritoryRows& nearest, const Graph& points,
                                                      std::span<const std::uint8_t> lengths,
                                                      Workers& workers) {
     require(lengths.size() == points.neighbor.size(), "a length a link");

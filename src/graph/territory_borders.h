@@ -5,7 +5,6 @@
 #include "base/workers.h"
 #include "graph/csr.h"
 #include "graph/flood.h"
-#include "graph/influences.h"
 
 #include <span>
 #include <vector>
@@ -23,15 +22,15 @@ struct TerritoryBorder {
 };
 
 // All borders, ascending by (a, b). `nearest`: the flood from the samples over the graph `points`.
-std::vector<TerritoryBorder> territory_borders(const InfluenceRows& nearest, const Graph& points,
+std::vector<TerritoryBorder> territory_borders(const TerritoryRows& nearest, const Graph& points,
                                                Workers& workers);
 
-// The same after add_territories() or add_starts() made `nearest` of the rows that `before` are the borders
-// of, and `patch` with it; `lengths` are those of the links. Only vertices that another sample has become the
-// nearest of are looked at.
+// The same after add_territories() made `nearest` of the rows that `before` are the borders of, and `patch`
+// with it; `lengths` are those of the links. Only vertices that another sample has become the nearest of are
+// looked at.
 std::vector<TerritoryBorder> territory_borders_after(std::span<const TerritoryBorder> before,
-                                                     const FloodPatch& patch, const InfluenceRows& nearest,
-                                                     const Graph& points,
+                                                     const TerritoryPatch& patch,
+                                                     const TerritoryRows& nearest, const Graph& points,
                                                      std::span<const std::uint8_t> lengths, Workers& workers);
 
 } // namespace knead

@@ -69,16 +69,16 @@ TEST(SampleGraph, HangsTogetherAsThePointsDo) {
 SampleGraph with_added(const Cloud& cloud, const std::vector<Index>& samples, std::size_t base) {
     Machine machine;
     const std::span all(samples);
-    InfluenceRows nearest =
+    const InfluenceRows nearest =
         flood(cloud.graph, cloud.lengths, all.first(base), machine.workers, machine.progress);
-    const auto before = territory_borders(nearest, cloud.graph, machine.workers);
-    const FloodPatch patch = add_territories(nearest, cloud.graph, cloud.lengths,
-                                             starts_of(all.subspan(base), static_cast<Index>(base)),
-                                             machine.workers, machine.progress);
+    TerritoryRows territory = territory_rows(nearest, machine.workers);
+    const auto before = territory_borders(territory, cloud.graph, machine.workers);
+    const TerritoryPatch patch = add_territories(territory, cloud.graph, cloud.lengths,
+                                                 starts_of(all.subspan(base), static_cast<Index>(base)),
+                                                 machine.workers, machine.progress);
     const auto borders =
-        territory_borders_after(before, patch, nearest, cloud.graph, cloud.lengths, machine.workers);
-    revert(nearest, patch);
-    return sample_graph(nearest, samples, borders, machine.workers);
+        territory_borders_after(before, patch, territory, cloud.graph, cloud.lengths, machine.workers);
+    return sample_graph(base_rows(nearest, samples, static_cast<Index>(base)), borders, machine.workers);
 }
 
 // But for a few: of two added samples it is known only how far they are from each other if their territories

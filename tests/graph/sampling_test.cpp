@@ -17,7 +17,9 @@ std::vector<Index> handle_samples_of(const Cloud& cloud, std::span<const Index> 
                                      std::span<const Index> base, std::size_t budget) {
     Machine machine;
     const InfluenceRows nearest = flood(cloud.graph, cloud.lengths, base, machine.workers, machine.progress);
-    return handle_samples(cloud.shape(), label, base, nearest, budget, machine.workers).added;
+    return handle_samples(cloud.shape(), label, base, territory_rows(nearest, machine.workers), budget,
+                          machine.workers)
+        .added;
 }
 
 using Part = std::pair<Index, Index>; // handle, component

@@ -12,13 +12,18 @@ namespace {
 using test::Cloud;
 using test::Machine;
 
+TerritoryRows flooded(const Cloud& cloud, const std::vector<Index>& samples, Machine& machine) {
+    return territory_rows(flood(cloud.graph, cloud.lengths, samples, machine.workers, machine.progress),
+                          machine.workers);
+}
+
 // Counted for every link from both ends, in the plainest way. Samples from `first_added` on were added.
-std::vector<TerritoryBorder> counted(const Cloud& cloud, const InfluenceRows& nearest,
+std::vector<TerritoryBorder> counted(const Cloud& cloud, const TerritoryRows& nearest,
                                      Index first_added = no_index) {
     std::map<std::pair<Index, Index>, TerritoryBorder> borders;
     for (Index p = 0; p < cloud.size(); ++p)
         for (Index link = cloud.graph.first[p]; link < cloud.graph.first[p + 1]; ++link) {
-            const WideRow here = nearest[p], there = nearest[cloud.graph.neighbor[link]];
+            const WideTerritory here = nearest[p], there = nearest[cloud.graph.neighbor[link]];
             const Index a = here.sample[0], b = there.sample[0];
             if (!(a < b)) continue;
             TerritoryBorder& border = borders[{a, b}];
@@ -38,9 +43,8 @@ TEST(TerritoryBorders, AreTheLinksBetweenTerritories) {
         for (const std::size_t samples : {0U, 1U, 5U, 150U}) {
             SCOPED_TRACE(name + ", " + std::to_string(samples) + " samples");
             Machine machine;
-            const InfluenceRows nearest =
-                flood(cloud.graph, cloud.lengths, test::random_vertices(cloud.size(), samples, 3),
-                      machine.workers, machine.progress);
+            const TerritoryRows nearest =
+                flooded(cloud, test::random_vertices(cloud.size(), samples, 3), machine);
             EXPECT_EQ(territory_borders(nearest, cloud.graph, machine.workers), counted(cloud, nearest));
         }
 }
@@ -56,23 +60,15 @@ TEST(TerritoryBorders, FollowAddedSamples) {
                 const std::vector<Index> samples = test::random_vertices(cloud.size(), base + more, 6);
                 const std::vector<Index> old(samples.begin(), samples.begin() + static_cast<int>(base));
                 const std::vector<Index> added(samples.begin() + static_cast<int>(base), samples.end());
-                InfluenceRows nearest =
-                    flood(cloud.graph, cloud.lengths, old, machine.workers, machine.progress);
+                TerritoryRows nearest = flooded(cloud, old, machine);
                 const auto before = territory_borders(nearest, cloud.graph, machine.workers);
                 const auto first_added = static_cast<Index>(base);
-                auto all = nearest;
-                const std::vector<FloodStart> starts = starts_of(added, first_added);
-                const FloodPatch patch_of_all =
-                    add_starts(all, cloud.graph, cloud.lengths, starts, machine.workers, machine.progress);
-                const FloodPatch patch = add_territories(nearest, cloud.graph, cloud.lengths, starts,
-                                                         machine.workers, machine.progress);
-                const auto expected = counted(cloud, all, first_added);
-                EXPECT_EQ(territory_borders_after(before, patch_of_all, all, cloud.graph, cloud.lengths,
-                                                  machine.workers),
-                          expected);
+                const TerritoryPatch patch =
+                    add_territories(nearest, cloud.graph, cloud.lengths, starts_of(added, first_added),
+                                    machine.workers, machine.progress);
                 EXPECT_EQ(territory_borders_after(before, patch, nearest, cloud.graph, cloud.lengths,
                                                   machine.workers),
-                          expected);
+                          counted(cloud, flooded(cloud, samples, machine), first_added));
             }
 }
 
@@ -82,13 +78,13 @@ TEST(TerritoryBorders, FollowSamplesThatMakeRowsWide) {
     const std::vector<Index> all = test::random_vertices(cloud.size(), cloud.size(), 1);
     const std::vector<Index> samples(all.begin(), all.begin() + 65'000),
         added(all.begin() + 65'000, all.end());
-    InfluenceRows nearest = flood(cloud.graph, cloud.lengths, samples, machine.workers, machine.progress);
-    ASSERT_FALSE(nearest.are_wide());
+    TerritoryRows nearest = flooded(cloud, samples, machine);
+    ASSERT_TRUE(std::holds_alternative<std::vector<NarrowTerritory>>(nearest.rows));
     const auto before = territory_borders(nearest, cloud.graph, machine.workers);
-    const FloodPatch patch =
-        add_starts(nearest, cloud.graph, cloud.lengths, starts_of(added, static_cast<Index>(samples.size())),
-                   machine.workers, machine.progress);
-    ASSERT_TRUE(nearest.are_wide());
+    const TerritoryPatch patch = add_territories(nearest, cloud.graph, cloud.lengths,
+                                                 starts_of(added, static_cast<Index>(samples.size())),
+                                                 machine.workers, machine.progress);
+    ASSERT_TRUE(std::holds_alternative<std::vector<WideTerritory>>(nearest.rows));
     EXPECT_EQ(territory_borders_after(before, patch, nearest, cloud.graph, cloud.lengths, machine.workers),
               counted(cloud, nearest, static_cast<Index>(samples.size())));
 }
@@ -96,8 +92,7 @@ TEST(TerritoryBorders, FollowSamplesThatMakeRowsWide) {
 TEST(TerritoryBorders, AreTheSameForAnyNumberOfThreads) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::knot, 40'000));
     Machine two;
-    const InfluenceRows nearest =
-        flood(cloud.graph, cloud.lengths, test::random_vertices(40'000, 900, 2), two.workers, two.progress);
+    const TerritoryRows nearest = flooded(cloud, test::random_vertices(40'000, 900, 2), two);
     const auto expected = territory_borders(nearest, cloud.graph, two.workers);
     for (const unsigned threads : {1U, 5U}) {
         Machine machine(threads);

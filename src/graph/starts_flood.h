@@ -1,0 +1,26 @@
+#pragma once
+// Floods of starts that change from time to time, most of them at the end of the list.
+
+#include "graph/flood.h"
+
+#include <span>
+#include <vector>
+
+namespace knead {
+
+// What the flood from some starts changed.
+struct StartsFlood {
+    std::vector<FloodStart> starts;
+    FloodPatch patch;
+};
+
+// Brings rows from the starts that `floods` hold, one flood upon the other, to those of `starts`, and
+// `floods` with them: as add_starts() would from rows without any. As long as the list begins as it did
+// before, that much stays; the rest is taken back, and what is the same of it is a flood by itself from then
+// on, so that whoever changes the end again changes little. A flood that is cancelled leaves `nearest` good
+// for nothing.
+void change_starts(std::vector<StartsFlood>& floods, std::span<const FloodStart> starts,
+                   InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
+                   Workers& workers, Progress& progress);
+
+} // namespace knead

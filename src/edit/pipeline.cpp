@@ -155,6 +155,7 @@ void Pipeline::prepare_samples(Progress& progress) {
     base_samples_ = samples_.size();
     seconds_.sampling += clock.lap();
 
+    changed_rows_.clear();
     from_handles_.clear(); // before the next are made
     nearest_ = {};
     territory_ = {};
@@ -162,6 +163,7 @@ void Pipeline::prepare_samples(Progress& progress) {
     base_borders_.clear();
     if (!every_point_) {
         nearest_ = flood(*graph_, link_lengths_, samples_, workers_, progress);
+        changed_rows_.assign(blocks_of_rows(nearest_.size()), 1);
         territory_ = territory_rows(nearest_, workers_);
         rows_of_base_ = base_rows(nearest_, samples_, static_cast<Index>(base_samples_));
         base_borders_ = territory_borders(territory_, *graph_, workers_);
@@ -214,8 +216,11 @@ void Pipeline::prepare_upsampler() {
     posed_.positions.resize(rest.positions.size());
     posed_.normals.resize(rest.normals.size());
     written_.resize(blocks_of(order_.points()), 0);
-    upsampler_.prepare({rest.positions, rest.normals, mover_of_point_, &nearest_, input_.settings.weights},
+    if (std::ranges::any_of(changed_rows_, std::identity{})) ++rows_version_;
+    upsampler_.prepare({rest.positions, rest.normals, mover_of_point_, &nearest_, input_.settings.weights,
+                        rows_version_, changed_rows_},
                        motions_.size());
+    std::ranges::fill(changed_rows_, std::uint8_t{0});
     seconds_.device += clock.lap();
 }
 

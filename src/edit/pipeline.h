@@ -208,6 +208,8 @@ private:
     std::size_t base_samples_ = 0;
     InfluenceRows nearest_;                 // of each vertex; empty if every point is a sample
     std::vector<StartsFlood> from_handles_; // that are in these
+    std::uint64_t rows_version_ = 0;        // as an upsampler is told
+    std::vector<std::uint8_t> changed_rows_; // since then
     // Of the base samples alone: the first places of the rows, the rows of the samples, and their borders.
     TerritoryRows territory_;
     std::vector<WideRow> rows_of_base_;

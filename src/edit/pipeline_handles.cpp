@@ -48,8 +48,8 @@ void Pipeline::prepare_handles(Progress& progress) {
     stale_.samples = true; // a flood that is cancelled leaves lists that nothing can revert
     const std::vector<TerritoryBorder> borders = borders_with(added, progress);
     nearest_.first_handle = first_handle_number();
-    change_starts(from_handles_, handle_starts(needed.borders), nearest_, *graph_, link_lengths_, workers_,
-                  progress);
+    change_starts(from_handles_, handle_starts(needed.borders), nearest_, changed_rows_, *graph_,
+                  link_lengths_, workers_, progress);
     stale_.samples = false;
     link_samples(added, borders);
     find_pulled();

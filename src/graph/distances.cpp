@@ -1,5 +1,6 @@
 #include "graph/distances.h"
 
+#include "base/paged.h"
 #include "base/require.h"
 #include "base/types.h"
 
@@ -7,6 +8,7 @@
 #include <limits>
 #include <queue>
 #include <utility>
+#include <vector>
 
 namespace knead {
 
@@ -15,21 +17,31 @@ std::vector<Reached> reached_within(const Graph& graph, std::span<const float> p
     require(positions.size() == 3 * graph.size(), "a position a vertex");
     using Waiting = std::pair<double, Index>;
     std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue;
-    std::vector<double> distance(graph.size(), std::numeric_limits<double>::infinity());
-    const auto offer = [&](Index v, double way) {
-        if (!(way < distance[v]) || way > limit) return;
-        distance[v] = way;
-        queue.emplace(way, v);
+    Paged<double> distance(graph.size(), std::numeric_limits<double>::infinity());
+    const auto come = [&](Index v, double way) {
+        distance.make_room(v);
+        distance.set(v, way);
     };
-    for (const Index source : sources) offer(source, 0);
     std::vector<Reached> reached;
+    for (const Index source : sources) {
+        come(source, 0);
+        reached.push_back({source, 0});
+    }
+    const auto go_on = [&](Index v, double way) {
+        for (const Index u : graph.row(v)) {
+            const double there = way + (point_at(positions, u) - point_at(positions, v)).norm();
+            if (!(there < distance[u]) || there > limit) continue;
+            come(u, there);
+            queue.emplace(there, u);
+        }
+    };
+    for (const Index source : sources) go_on(source, 0);
     while (!queue.empty()) {
         const auto [way, v] = queue.top();
         queue.pop();
         if (way > distance[v]) continue; // a shorter way was found since
         reached.push_back({v, way});
-        for (const Index u : graph.row(v))
-            offer(u, way + (point_at(positions, u) - point_at(positions, v)).norm());
+        go_on(v, way);
     }
     return reached;
 }

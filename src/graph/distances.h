@@ -13,9 +13,10 @@ struct Reached {
     double distance = 0; // along links, in the units of the positions
 };
 
-// All vertices within `limit` of the nearest of the sources, the sources among them with 0, in the order of
-// their distances (Dijkstra; of equal ones the lower vertex first). `positions`: 3 floats a vertex. Costs
-// what is reached, beside one number a vertex.
+// All vertices within `limit` of the nearest of the sources, which are different: the sources themselves, as
+// they are given, with 0, and then the others in the order of their distances (Dijkstra; of equal ones the
+// lower vertex first). `positions`: 3 floats a vertex. Costs what is reached, as long as neighbours have near
+// numbers (PointOrder).
 std::vector<Reached> reached_within(const Graph& graph, std::span<const float> positions,
                                     std::span<const Index> sources, double limit);
 

@@ -18,6 +18,12 @@ namespace knead {
 
 inline constexpr std::size_t influences_per_row = 8; // K of the paper
 
+// Rows by blocks of consecutive ones: which of them changed is told by block.
+inline constexpr std::size_t rows_in_block = 256;
+constexpr std::size_t blocks_of_rows(std::size_t rows) {
+    return (rows + rows_in_block - 1) / rows_in_block;
+}
+
 // The K nearest samples and handles of a vertex, by (distance, number). A vertex whose component has fewer
 // than K keeps the last places empty: `none` for sample and distance.
 template<typename Number>

@@ -17,10 +17,11 @@ struct StartsFlood {
 // Brings rows from the starts that `floods` hold, one flood upon the other, to those of `starts`, and
 // `floods` with them: as add_starts() would from rows without any. As long as the list begins as it did
 // before, that much stays; the rest is taken back, and what is the same of it is a flood by itself from then
-// on, so that whoever changes the end again changes little. A flood that is cancelled leaves `nearest` good
-// for nothing.
+// on, so that whoever changes the end again changes little. `changed`: a byte a block of rows
+// (blocks_of_rows()), set to 1 where any of them may be another one afterwards. A flood that is cancelled
+// leaves `nearest` good for nothing.
 void change_starts(std::vector<StartsFlood>& floods, std::span<const FloodStart> starts,
-                   InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
-                   Workers& workers, Progress& progress);
+                   InfluenceRows& nearest, std::span<std::uint8_t> changed, const Graph& graph,
+                   std::span<const std::uint8_t> lengths, Workers& workers, Progress& progress);
 
 } // namespace knead

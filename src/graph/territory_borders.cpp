@@ -1,6 +1,7 @@
 #include "graph/territory_borders.h"
 
 #include "base/gathered.h"
+#include "base/paged.h"
 #include "base/require.h"
 
 #include <algorithm>
@@ -121,12 +122,13 @@ constexpr Index unchanged = no_index - 1;
 
 // Of each vertex the sample that was the nearest, where it is another one now.
 template<typename Row>
-std::vector<Index> former_nearest(const std::vector<Row>& nearest, const OldRows<Row>& blocks,
-                                  Workers& workers) {
-    std::vector<Index> former(nearest.size(), unchanged);
+Paged<Index> former_nearest(const std::vector<Row>& nearest, const OldRows<Row>& blocks, Workers& workers) {
+    Paged<Index> former(nearest.size(), unchanged);
+    for (const auto& block : blocks)
+        for (const OldRow<Row>& old : block) former.make_room(old.vertex);
     workers.for_each(blocks.size(), 1, [&](std::size_t block) {
         for (const OldRow<Row>& old : blocks[block])
-            if (old.sample[0] != nearest[old.vertex].sample[0]) former[old.vertex] = old.sample[0];
+            if (old.sample[0] != nearest[old.vertex].sample[0]) former.set(old.vertex, old.sample[0]);
     });
     return former;
 }
@@ -134,7 +136,7 @@ std::vector<Index> former_nearest(const std::vector<Row>& nearest, const OldRows
 template<typename Row>
 void find_changed(const std::vector<Row>& nearest, const OldRows<Row>& blocks, const Graph& points,
                   std::span<const std::uint8_t> lengths, Workers& workers, Changes& found) {
-    const std::vector<Index> former = former_nearest(nearest, blocks, workers);
+    const Paged<Index> former = former_nearest(nearest, blocks, workers);
     workers.for_each(blocks.size(), 1, [&](std::size_t block) {
         Changes::Block changes(found);
         Tally tally;

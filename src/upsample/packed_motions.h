@@ -1,6 +1,5 @@
 #pragma once
-// Private to this room: what the kernel and its reference share, the motions as they read them and the checks
-// of what they are given.
+// Private to this room: the motions as the kernel and its reference read them.
 
 #include "upsample/upsample.h"
 
@@ -16,11 +15,5 @@ struct alignas(64) PackedMotion {
 
 // One for each, of as many.
 void pack_motions(std::span<const Motion> motions, InfluenceWeights weights, std::span<PackedMotion> packed);
-
-// Breaks off on sizes that do not fit each other, and on rows and samples that do not exist.
-void require_valid_input(const UpsampleInput& input, std::size_t motions, Workers& workers);
-void require_valid_frame(const UpsampleInput& input, std::size_t motions_prepared,
-                         std::span<const Motion> motions, std::span<float> positions,
-                         std::span<float> normals);
 
 } // namespace knead

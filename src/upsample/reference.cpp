@@ -2,6 +2,7 @@
 
 #include "base/workers.h"
 #include "upsample/changed_blocks.h"
+#include "upsample/checked_input.h"
 #include "upsample/point_blocks.h"
 
 #include <algorithm>
@@ -188,7 +189,7 @@ public:
     std::string device() const override { return "reference"; }
 
     void prepare(const UpsampleInput& input, std::size_t motions) override {
-        require_valid_input(input, motions, workers_);
+        checked_.check(input, motions, workers_);
         input_ = input;
         packed_.assign(motions, {});
         changes_.prepare(input, motions, workers_);
@@ -227,6 +228,7 @@ private:
     Workers& workers_;
     UpsampleInput input_;
     std::vector<PackedMotion> packed_;
+    CheckedInput checked_;
     ChangedBlocks changes_;
 };
 

@@ -45,7 +45,14 @@ struct Changing {
     }
 
     void change(const std::vector<FloodStart>& starts) {
-        change_starts(floods, starts, rows, cloud.graph, cloud.lengths, machine.workers, machine.progress);
+        const InfluenceRows before = rows;
+        std::vector<std::uint8_t> changed(blocks_of_rows(rows.size()), 0);
+        change_starts(floods, starts, rows, changed, cloud.graph, cloud.lengths, machine.workers,
+                      machine.progress);
+        for (Index v = 0; v < rows.size(); ++v) {
+            const bool same = rows[v].sample == before[v].sample && rows[v].distance == before[v].distance;
+            ASSERT_TRUE(same || changed[v / rows_in_block] == 1) << v;
+        }
         InfluenceRows expected = base;
         add_starts(expected, cloud.graph, cloud.lengths, starts, machine.workers, machine.progress);
         expect_same(rows, expected);

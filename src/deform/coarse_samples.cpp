@@ -20,6 +20,8 @@ constexpr std::size_t samples_a_coarse = 50;
 
 constexpr int relaxing_rounds = 2;
 
+constexpr std::size_t grain = 256;
+
 // The samples and their graph in the order of the Morton curve: floods go through near memory then, which
 // samples in their own scrambled order are not.
 struct OrderedSamples {
@@ -41,14 +43,18 @@ OrderedSamples ordered(const Graph& graph, std::span<const Vec3d> position, Work
     result.positions.resize(positions.size());
     gather(order, positions, 3, result.positions, workers);
     for (Index at = 0; at < result.sample.size(); ++at) result.place[result.sample[at]] = at;
-    result.graph.first.push_back(0);
-    result.graph.neighbor.reserve(graph.neighbor.size());
-    for (const Index s : result.sample) {
-        const auto begin = static_cast<std::ptrdiff_t>(result.graph.neighbor.size());
-        for (const Index j : graph.row(s)) result.graph.neighbor.push_back(result.place[j]);
-        std::sort(result.graph.neighbor.begin() + begin, result.graph.neighbor.end());
-        result.graph.first.push_back(static_cast<Index>(result.graph.neighbor.size()));
-    }
+    std::vector<Index>& first = result.graph.first;
+    first.push_back(0);
+    for (const Index s : result.sample)
+        first.push_back(first.back() + static_cast<Index>(graph.row(s).size()));
+    result.graph.neighbor.resize(graph.neighbor.size());
+    workers.for_each(result.sample.size(), grain, [&](std::size_t at) {
+        const std::span<Index> row =
+            std::span(result.graph.neighbor).subspan(first[at], first[at + 1] - first[at]);
+        std::ranges::transform(graph.row(result.sample[at]), row.begin(),
+                               [&](Index j) { return result.place[j]; });
+        std::ranges::sort(row);
+    });
     return result;
 }
 
@@ -89,14 +95,15 @@ std::vector<Index> choose(const Graph& graph, std::span<const Index> handle, con
 }
 
 // As points follow samples.
-void find_followed(const OrderedSamples& ordered, const InfluenceRows& nearest, CoarseSamples& coarse) {
+void find_followed(const OrderedSamples& ordered, const InfluenceRows& nearest, CoarseSamples& coarse,
+                   Workers& workers) {
     coarse.followed.resize(nearest.size());
     coarse.nearest.resize(nearest.size());
-    for (Index at = 0; at < nearest.size(); ++at) {
+    workers.for_each(nearest.size(), grain, [&](std::size_t at) {
         const Index s = ordered.sample[at];
-        coarse.followed[s] = influence_of(nearest, InfluenceWeights::smooth, at);
+        coarse.followed[s] = influence_of(nearest, InfluenceWeights::smooth, static_cast<Index>(at));
         coarse.nearest[s] = coarse.followed[s].count > 0 ? coarse.followed[s].motion[0] : no_index;
-    }
+    });
 }
 
 } // namespace
@@ -114,7 +121,7 @@ CoarseSamples coarse_samples(const Graph& graph, std::span<const Vec3d> position
     for (const Index at : chosen) result.sample.push_back(places.sample[at]);
     SilentProgress progress;
     const InfluenceRows nearest = flood(places.graph, lengths, chosen, workers, progress);
-    find_followed(places, nearest, result);
+    find_followed(places, nearest, result, workers);
     result.between = sample_graph(nearest, chosen, places.graph, workers);
     return result;
 }

@@ -165,7 +165,7 @@ void Pipeline::prepare_samples(Progress& progress) {
         nearest_ = flood(*graph_, link_lengths_, samples_, workers_, progress);
         changed_rows_.assign(blocks_of_rows(nearest_.size()), 1);
         territory_ = territory_rows(nearest_, workers_);
-        rows_of_base_ = base_rows(nearest_, samples_, static_cast<Index>(base_samples_));
+        rows_of_base_ = rows_at(nearest_, samples_);
         base_borders_ = territory_borders(territory_, *graph_, workers_);
     } else {
         sample_graph_ = sample_graph_of_all(with_solid_links(*graph_, vertex_positions(), workers_));

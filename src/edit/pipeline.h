@@ -164,7 +164,6 @@ private:
     bool turns_freely(Index label) const;
     Index first_handle_number() const;
     std::vector<FloodStart> handle_starts(std::span<const BorderVertex> borders) const;
-    void link_samples(std::span<const Index> added, std::span<const TerritoryBorder> borders);
     Index followed_by(std::size_t point) const;
     void find_pulled();
     void choose_coarse_samples();

@@ -51,7 +51,10 @@ void Pipeline::prepare_handles(Progress& progress) {
     change_starts(from_handles_, handle_starts(needed.borders), nearest_, changed_rows_, *graph_,
                   link_lengths_, workers_, progress);
     stale_.samples = false;
-    link_samples(added, borders);
+    std::vector<WideRow> rows = rows_of_base_;
+    const std::vector<WideRow> more = rows_without(from_handles_, nearest_, added, workers_);
+    rows.insert(rows.end(), more.begin(), more.end());
+    sample_graph_ = knead::sample_graph(rows, borders, workers_);
     find_pulled();
     choose_coarse_samples();
     seconds_.geodesic += clock.lap();
@@ -67,15 +70,6 @@ std::vector<TerritoryBorder> Pipeline::borders_with(std::span<const Index> added
         territory_borders_after(base_borders_, flood, territory_, *graph_, link_lengths_, workers_);
     revert(territory_, flood);
     return borders;
-}
-
-// The graph of all samples. Where a handle is near, one number of a row is its own, or more: enough others
-// are left.
-void Pipeline::link_samples(std::span<const Index> added, std::span<const TerritoryBorder> borders) {
-    std::vector<WideRow> rows = rows_of_base_;
-    const std::vector<WideRow> more = base_rows(nearest_, added, static_cast<Index>(base_samples_));
-    rows.insert(rows.end(), more.begin(), more.end());
-    sample_graph_ = knead::sample_graph(rows, borders, workers_);
 }
 
 // Handles have the numbers from here on, which stay what they are while samples come and go: so what was

@@ -14,6 +14,13 @@ WideRow InfluenceRows::operator[](std::size_t v) const {
     return widened(std::get<std::vector<NarrowRow>>(rows)[v]);
 }
 
+std::vector<WideRow> rows_at(const InfluenceRows& rows, std::span<const Index> vertices) {
+    std::vector<WideRow> result;
+    result.reserve(vertices.size());
+    for (const Index v : vertices) result.push_back(rows[v]);
+    return result;
+}
+
 WideRow widened(const NarrowRow& row) {
     const auto wide = [](std::uint16_t number) {
         return number == NarrowRow::none ? WideRow::none : Index{number};
@@ -28,7 +35,7 @@ void widen(InfluenceRows& rows) {
     const auto* narrow = std::get_if<std::vector<NarrowRow>>(&rows.rows);
     if (!narrow) return;
     std::vector<WideRow> wide(narrow->size());
-    std::ranges::transform(*narrow, wide.begin(), widened);
+    std::ranges::transform(*narrow, wide.begin(), [](const NarrowRow& row) { return widened(row); });
     rows.rows = std::move(wide);
 }
 

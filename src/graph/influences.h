@@ -54,8 +54,14 @@ struct InfluenceRows {
     WideRow operator[](std::size_t v) const;
 };
 
+// Those of these vertices, as wide ones.
+std::vector<WideRow> rows_at(const InfluenceRows& rows, std::span<const Index> vertices);
+
 // The same as a wide row.
 WideRow widened(const NarrowRow& row);
+inline const WideRow& widened(const WideRow& row) {
+    return row;
+}
 
 // Makes the rows wide if they are narrow.
 void widen(InfluenceRows& rows);

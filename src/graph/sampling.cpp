@@ -182,24 +182,6 @@ HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> la
     return {std::move(added), std::move(borders)};
 }
 
-std::vector<WideRow> base_rows(const InfluenceRows& nearest, std::span<const Index> vertices, Index base) {
-    std::vector<WideRow> rows;
-    rows.reserve(vertices.size());
-    for (const Index v : vertices) {
-        const WideRow row = nearest[v];
-        WideRow& kept = rows.emplace_back();
-        kept.sample.fill(WideRow::none);
-        kept.distance.fill(WideRow::none);
-        std::size_t count = 0;
-        for (std::size_t k = 0; k < row.count(); ++k) {
-            if (row.sample.at(k) >= base) continue;
-            kept.sample.at(count) = row.sample.at(k);
-            kept.distance.at(count++) = row.distance.at(k);
-        }
-    }
-    return rows;
-}
-
 SampleGraph sample_graph(std::span<const WideRow> nearest, std::span<const TerritoryBorder> borders,
                          Workers& workers) {
     const std::vector<Way> ways = ways_of_added(nearest, borders);
@@ -212,7 +194,7 @@ SampleGraph sample_graph(std::span<const WideRow> nearest, std::span<const Terri
     touching.reserve(borders.size());
     for (const TerritoryBorder& border : borders) touching.emplace_back(border.a, border.b);
     SampleGraph result;
-    result.graph = with_edges(symmetric_graph(links, sample_neighbors, workers), touching);
+    result.graph = with_edges(symmetric_graph(links, sample_neighbors, workers), touching, workers);
     result.contact.assign(result.graph.neighbor.size(), 0.5F);
     for (const auto& [a, b, crossing, way] : borders) {
         const auto contact = static_cast<float>(crossing);
@@ -224,7 +206,7 @@ SampleGraph sample_graph(std::span<const WideRow> nearest, std::span<const Terri
 
 SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
                          Workers& workers) {
-    return sample_graph(base_rows(nearest, samples, static_cast<Index>(samples.size())),
+    return sample_graph(rows_at(nearest, samples),
                         territory_borders(territory_rows(nearest, workers), points, workers), workers);
 }
 

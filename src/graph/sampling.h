@@ -52,9 +52,9 @@ struct SampleGraph {
 // Links each sample to the `sample_neighbors` nearest others along the surface, and back, and to all whose
 // territories touch its own. The latter never leave a seam between rows of samples, and make the components
 // of the samples those of the points: where the six nearest leave a neck open, the floods still meet.
-// `nearest`: of each sample the row of its vertex, with base samples alone, the first of them itself unless
-// it was added later; `borders`: of all their territories. How far two added ones are from each other is
-// known only where their territories touch; they count as near only there.
+// `nearest`: of each sample the row of its vertex in the flood of base samples, the first of them itself
+// unless it was added later; `borders`: of all their territories. How far two added ones are from each other
+// is known only where their territories touch; they count as near only there.
 inline constexpr std::size_t sample_neighbors = 6;
 SampleGraph sample_graph(std::span<const WideRow> nearest, std::span<const TerritoryBorder> borders,
                          Workers& workers);
@@ -62,9 +62,6 @@ SampleGraph sample_graph(std::span<const WideRow> nearest, std::span<const Terri
 // `nearest`: the flood from them over the graph `points`.
 SampleGraph sample_graph(const InfluenceRows& nearest, std::span<const Index> samples, const Graph& points,
                          Workers& workers);
-
-// The rows of these vertices, without what has numbers from `base` on: samples and handles that were added.
-std::vector<WideRow> base_rows(const InfluenceRows& nearest, std::span<const Index> vertices, Index base);
 
 // The sample graph where every point is a sample: that of the points (solid_links.h), every contact 1.
 SampleGraph sample_graph_of_all(const Graph& points);

@@ -119,7 +119,7 @@ Graph with_solid_links(const Graph& points, std::span<const float> positions, Wo
         find_surroundings(points, v, around);
         link_nearest(points, positions, v, around, added);
     }
-    return added.empty() ? points : with_edges(points, added);
+    return added.empty() ? points : with_edges(points, added, workers);
 }
 
 } // namespace knead

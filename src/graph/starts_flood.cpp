@@ -1,5 +1,6 @@
 #include "graph/starts_flood.h"
 
+#include "base/paged.h"
 #include "base/require.h"
 
 #include <algorithm>
@@ -47,6 +48,26 @@ void change_starts(std::vector<StartsFlood>& floods, std::span<const FloodStart>
             {{part.begin(), part.end()}, add_starts(nearest, graph, lengths, part, workers, progress)});
         mark(floods.back().patch, changed);
     }
+}
+
+std::vector<WideRow> rows_without(std::span<const StartsFlood> floods, const InfluenceRows& nearest,
+                                  std::span<const Index> vertices, Workers& workers) {
+    std::vector<WideRow> rows = rows_at(nearest, vertices);
+    Paged<Index> place(nearest.size(), no_index);
+    for (Index at = 0; at < vertices.size(); ++at) {
+        place.make_room(vertices[at]);
+        place.set(vertices[at], at);
+    }
+    const auto before = [&]<typename Row>(const OldRows<Row>& blocks) {
+        workers.for_each(blocks.size(), 16, [&](std::size_t block) {
+            for (const OldRow<Row>& old : blocks[block])
+                if (const Index at = place[old.vertex]; at != no_index)
+                    rows[at] = widened(Row{old.sample, old.distance});
+        });
+    };
+    for (auto flood = floods.rbegin(); flood != floods.rend(); ++flood)
+        std::visit(before, flood->patch.blocks);
+    return rows;
 }
 
 } // namespace knead

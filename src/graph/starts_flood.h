@@ -24,4 +24,8 @@ void change_starts(std::vector<StartsFlood>& floods, std::span<const FloodStart>
                    InfluenceRows& nearest, std::span<std::uint8_t> changed, const Graph& graph,
                    std::span<const std::uint8_t> lengths, Workers& workers, Progress& progress);
 
+// The rows of these vertices, which are different, as they would be without any of the floods.
+std::vector<WideRow> rows_without(std::span<const StartsFlood> floods, const InfluenceRows& nearest,
+                                  std::span<const Index> vertices, Workers& workers);
+
 } // namespace knead

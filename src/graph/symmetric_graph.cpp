@@ -12,7 +12,7 @@ namespace knead {
 
 namespace {
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t grain = 1024;
 
 // Looks at all of a list, which is short: where to end early is what a processor guesses wrong.
 bool names(std::span<const Index> list, Index vertex) {
@@ -89,32 +89,33 @@ Graph symmetric_graph(std::span<const Index> lists, std::size_t width, Workers& 
     return graph;
 }
 
-Graph with_edges(const Graph& graph, std::span<const std::pair<Index, Index>> edges) {
+Graph with_edges(const Graph& graph, std::span<const std::pair<Index, Index>> edges, Workers& workers) {
     // Rows with room for all, then each sorted and closed up.
     std::vector<Index> begin(graph.size() + 1, 0);
     for (std::size_t v = 0; v < graph.size(); ++v) begin[v] = graph.first[v + 1] - graph.first[v];
     for (const auto& [a, b] : edges) ++begin[a], ++begin[b];
     counts_to_rows(begin);
     std::vector<Index> end(begin.begin(), begin.end());
-    Graph result;
-    result.neighbor.resize(begin.back());
+    std::vector<Index> all(begin.back());
     for (std::size_t v = 0; v < graph.size(); ++v)
-        for (const Index u : graph.row(v)) result.neighbor[end[v]++] = u;
+        for (const Index u : graph.row(v)) all[end[v]++] = u;
     for (const auto& [a, b] : edges) {
-        result.neighbor[end[a]++] = b;
-        result.neighbor[end[b]++] = a;
+        all[end[a]++] = b;
+        all[end[b]++] = a;
     }
-    result.first.assign(1, 0);
-    Index closed = 0;
-    for (std::size_t v = 0; v < graph.size(); ++v) {
-        std::ranges::sort(std::span(result.neighbor).subspan(begin[v], end[v] - begin[v]));
-        for (Index at = begin[v]; at < end[v]; ++at) {
-            const Index u = result.neighbor[at];
-            if (closed == result.first[v] || result.neighbor[closed - 1] != u) result.neighbor[closed++] = u;
-        }
-        result.first.push_back(closed);
-    }
-    result.neighbor.resize(closed);
+    Graph result;
+    result.first.assign(graph.size() + 1, 0);
+    workers.for_each(graph.size(), grain, [&](std::size_t v) {
+        const std::span<Index> row = std::span(all).subspan(begin[v], end[v] - begin[v]);
+        std::ranges::sort(row);
+        result.first[v] = static_cast<Index>(std::ranges::unique(row).begin() - row.begin());
+    });
+    counts_to_rows(result.first);
+    result.neighbor.resize(result.first.back());
+    workers.for_each(graph.size(), grain, [&](std::size_t v) {
+        const std::size_t count = result.first[v + 1] - result.first[v];
+        std::ranges::copy(std::span(all).subspan(begin[v], count), result.neighbor.begin() + result.first[v]);
+    });
     return result;
 }
 

@@ -16,7 +16,7 @@ namespace knead {
 Graph symmetric_graph(std::span<const Index> lists, std::size_t width, Workers& workers);
 
 // `graph` with further undirected edges (pairs may repeat, and may be there already).
-Graph with_edges(const Graph& graph, std::span<const std::pair<Index, Index>> edges);
+Graph with_edges(const Graph& graph, std::span<const std::pair<Index, Index>> edges, Workers& workers);
 
 // The links of `graph` whose entry in `stays` is not 0 (one for every entry of graph.neighbor, the same for
 // both directions of a link), and the undirected ones of `added`, which may repeat but not name a link that

@@ -80,8 +80,8 @@ void CheckedInput::check(const UpsampleInput& input, std::size_t motions, Worker
             });
         },
         input.rows->rows);
-    version_ = input.rows_version;
     require(blocks == 0 || std::ranges::max(past_largest_) <= motions, "every influence's motion exists");
+    version_ = input.rows_version;
 }
 
 void require_valid_frame(const UpsampleInput& input, std::size_t motions_prepared,

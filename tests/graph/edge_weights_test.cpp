@@ -61,7 +61,8 @@ struct Lattice {
                         edges.emplace_back(x * edge + y, (x + dx) * edge + y + dy);
             }
         }
-        graph = with_edges(graph, edges);
+        test::Machine machine;
+        graph = with_edges(graph, edges, machine.workers);
     }
 
     // Largest over smallest eigenvalue of Σ w e eᵀ in the plane, at the middle of the lattice.

@@ -78,7 +78,7 @@ SampleGraph with_added(const Cloud& cloud, const std::vector<Index>& samples, st
                                                  machine.workers, machine.progress);
     const auto borders =
         territory_borders_after(before, patch, territory, cloud.graph, cloud.lengths, machine.workers);
-    return sample_graph(base_rows(nearest, samples, static_cast<Index>(base)), borders, machine.workers);
+    return sample_graph(rows_at(nearest, samples), borders, machine.workers);
 }
 
 // But for a few: of two added samples it is known only how far they are from each other if their territories

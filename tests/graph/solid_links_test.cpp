@@ -104,7 +104,8 @@ TEST(SolidLinks, LeaveAloneWhatHangsOnOneLink) {
     test::append(cloud.positions, 1.01 * cloud.at(nearest));
     cloud.graph.first.push_back(cloud.graph.first.back());
     const std::pair<Index, Index> hanging(nearest, middle);
-    cloud.graph = with_edges(cloud.graph, {&hanging, 1});
+    Machine machine;
+    cloud.graph = with_edges(cloud.graph, {&hanging, 1}, machine.workers);
     const Graph graph = solid_links_of(cloud);
     EXPECT_GT(graph.row(nearest).size(), cloud.graph.row(nearest).size());
     EXPECT_EQ(graph.row(middle).size(), 1U);

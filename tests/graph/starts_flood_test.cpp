@@ -53,6 +53,12 @@ struct Changing {
             const bool same = rows[v].sample == before[v].sample && rows[v].distance == before[v].distance;
             ASSERT_TRUE(same || changed[v / rows_in_block] == 1) << v;
         }
+        const std::vector<Index> some = test::random_vertices(rows.size(), 500, 4);
+        const std::vector<WideRow> without = rows_without(floods, rows, some, machine.workers);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            ASSERT_EQ(without[i].sample, base[some[i]].sample);
+            ASSERT_EQ(without[i].distance, base[some[i]].distance);
+        }
         InfluenceRows expected = base;
         add_starts(expected, cloud.graph, cloud.lengths, starts, machine.workers, machine.progress);
         expect_same(rows, expected);

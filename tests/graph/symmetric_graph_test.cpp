@@ -73,7 +73,8 @@ TEST(WithEdges, AddsBothDirectionsOnce) {
     std::vector<std::pair<Index, Index>> edges{{0, 299}, {299, 0}, {0, 299}, {17, 40}};
     const Index there = graph.row(5).front();
     edges.emplace_back(5, there);
-    const Graph result = with_edges(graph, edges);
+    test::Machine machine;
+    const Graph result = with_edges(graph, edges, machine.workers);
     test::expect_well_formed(result);
     Links expected = links_of(graph);
     for (const auto& [a, b] : edges) {
@@ -82,7 +83,7 @@ TEST(WithEdges, AddsBothDirectionsOnce) {
     }
     EXPECT_EQ(links_of(result), expected);
     EXPECT_EQ(result.neighbor.size(), expected.size());
-    EXPECT_TRUE(test::same_graph(with_edges(graph, {}), graph));
+    EXPECT_TRUE(test::same_graph(with_edges(graph, {}, machine.workers), graph));
 }
 
 } // namespace

@@ -27,7 +27,7 @@ Components parts_of(std::size_t points, const std::vector<Triangle>& triangles) 
     Graph unlinked;
     unlinked.first.assign(points + 1, 0);
     Workers workers(1);
-    return find_components(with_edges(unlinked, edges), workers);
+    return find_components(with_edges(unlinked, edges, workers), workers);
 }
 
 } // namespace

@@ -269,16 +269,17 @@ TEST_P(EveryUpsampler, ReadsWhatChangedOfTheRows) {
         input.rows_version = 7;
         input.changed_rows = changed;
         upsampler->prepare(input, 5);
-        EXPECT_THROW(upsampler->prepare(input, 4), BrokenInvariant); // what it knows of them is checked
-        upsampler->prepare(input, 5);
 
         auto& number = std::get<std::vector<NarrowRow>>(scene.rows.rows)[300].sample[0];
         number = 5;
+        upsampler->prepare(input, 5); // is told that they are what they were
         ++input.rows_version;
-        changed = {0, 1, 0, 0};
-        changed.resize(blocks_of_rows(scene.rows.size()));
+        changed.assign(changed.size(), 0);
+        changed[300 / rows_in_block] = 1;
         EXPECT_THROW(upsampler->prepare(input, 5), BrokenInvariant);
         number = 4;
+        upsampler->prepare(input, 5);
+        EXPECT_THROW(upsampler->prepare(input, 4), BrokenInvariant); // what it knows of them is checked
         upsampler->prepare(input, 5);
         number = 5;
         changed.assign(changed.size(), 0);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <ranges>
 #include <utility>
 
 namespace knead {
@@ -76,9 +77,8 @@ void hand_over(const Tally& tally, Changes::Block& changes) {
     tally.each([&](const Change& change) { changes.push(change); });
 }
 
-// What the changes come to.
-std::vector<TerritoryBorder> summed(std::vector<Change> changes) {
-    std::ranges::sort(changes, {}, &Change::border);
+// What the changes, ascending, come to.
+std::vector<TerritoryBorder> summed(std::span<const Change> changes) {
     std::vector<TerritoryBorder> borders;
     for (auto change = changes.begin(); change != changes.end();) {
         const std::uint64_t border = change->border;
@@ -97,10 +97,16 @@ std::vector<TerritoryBorder> summed(std::vector<Change> changes) {
 
 std::vector<TerritoryBorder> summed(std::span<const TerritoryBorder> before, Changes& found) {
     std::vector<Change> changes;
-    changes.reserve(before.size() + found.size());
-    for (const auto& [a, b, links, way] : before) changes.push_back({std::uint64_t{a} << 32 | b, links, way});
+    changes.reserve(found.size());
     found.take([&](const Change& change) { changes.push_back(change); });
-    return summed(std::move(changes));
+    std::ranges::sort(changes, {}, &Change::border);
+    std::vector<Change> all(before.size() + changes.size());
+    const auto as_change = [](const TerritoryBorder& border) {
+        return Change{std::uint64_t{border.a} << 32 | border.b, border.links, border.way};
+    };
+    std::ranges::merge(std::views::transform(before, as_change), changes, all.begin(), {}, &Change::border,
+                       &Change::border);
+    return summed(all);
 }
 
 template<typename Row>

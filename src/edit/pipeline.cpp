@@ -8,6 +8,7 @@
 #include "graph/edge_weights.h"
 #include "graph/octree.h"
 #include "graph/relaxing.h"
+#include "graph/row_ends.h"
 #include "graph/solid_links.h"
 
 #include <algorithm>
@@ -156,6 +157,7 @@ void Pipeline::prepare_samples(Progress& progress) {
     seconds_.sampling += clock.lap();
 
     changed_rows_.clear();
+    row_ends_.clear();
     from_handles_.clear(); // before the next are made
     nearest_ = {};
     territory_ = {};
@@ -164,6 +166,7 @@ void Pipeline::prepare_samples(Progress& progress) {
     if (!every_point_) {
         nearest_ = flood(*graph_, link_lengths_, samples_, workers_, progress);
         changed_rows_.assign(blocks_of_rows(nearest_.size()), 1);
+        row_ends_.resize(changed_rows_.size());
         territory_ = territory_rows(nearest_, workers_);
         rows_of_base_ = rows_at(nearest_, samples_);
         base_borders_ = territory_borders(territory_, *graph_, workers_);
@@ -216,11 +219,12 @@ void Pipeline::prepare_upsampler() {
     posed_.positions.resize(rest.positions.size());
     posed_.normals.resize(rest.normals.size());
     written_.resize(blocks_of(order_.points()), 0);
-    if (std::ranges::any_of(changed_rows_, std::identity{})) ++rows_version_;
-    upsampler_.prepare({rest.positions, rest.normals, mover_of_point_, &nearest_, input_.settings.weights,
-                        rows_version_, changed_rows_},
-                       motions_.size());
+    find_row_ends(nearest_, changed_rows_, row_ends_, workers_);
     std::ranges::fill(changed_rows_, std::uint8_t{0});
+    const Index end = row_ends_.empty() ? 0 : std::ranges::max(row_ends_);
+    upsampler_.prepare(
+        {rest.positions, rest.normals, mover_of_point_, &nearest_, input_.settings.weights, end},
+        motions_.size());
     seconds_.device += clock.lap();
 }
 

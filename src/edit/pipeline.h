@@ -205,10 +205,10 @@ private:
     bool every_point_ = false;
     std::vector<Index> samples_;
     std::size_t base_samples_ = 0;
-    InfluenceRows nearest_;                 // of each vertex; empty if every point is a sample
-    std::vector<StartsFlood> from_handles_; // that are in these
-    std::uint64_t rows_version_ = 0;        // as an upsampler is told
-    std::vector<std::uint8_t> changed_rows_; // since then
+    InfluenceRows nearest_;                  // of each vertex; empty if every point is a sample
+    std::vector<StartsFlood> from_handles_;  // that are in these
+    std::vector<Index> row_ends_;            // of blocks of rows: find_row_ends()
+    std::vector<std::uint8_t> changed_rows_; // since those were found
     // Of the base samples alone: the first places of the rows, the rows of the samples, and their borders.
     TerritoryRows territory_;
     std::vector<WideRow> rows_of_base_;

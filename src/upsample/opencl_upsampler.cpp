@@ -164,7 +164,7 @@ public:
     std::string device() const override { return device_.description.name; }
 
     void prepare(const UpsampleInput& input, std::size_t motions) override {
-        checked_.check(input, motions, workers_);
+        require_valid_input(input, motions, workers_);
         input_ = {};
         motion_count_ = motions;
         moved_positions_ = {};
@@ -370,7 +370,6 @@ private:
     cl_ulong row_count_ = 0;
     cl_uint first_handle_ = 0;
     cl_uint paper_ = 0; // whether the weights are those of the paper
-    CheckedInput checked_;
     ChangedBlocks changes_;
     std::vector<Index> listed_; // the blocks of the last frame, and room for all of them
     std::size_t listed_count_ = 0;

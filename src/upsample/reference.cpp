@@ -189,7 +189,7 @@ public:
     std::string device() const override { return "reference"; }
 
     void prepare(const UpsampleInput& input, std::size_t motions) override {
-        checked_.check(input, motions, workers_);
+        require_valid_input(input, motions, workers_);
         input_ = input;
         packed_.assign(motions, {});
         changes_.prepare(input, motions, workers_);
@@ -228,7 +228,6 @@ private:
     Workers& workers_;
     UpsampleInput input_;
     std::vector<PackedMotion> packed_;
-    CheckedInput checked_;
     ChangedBlocks changes_;
 };
 

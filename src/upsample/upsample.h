@@ -26,8 +26,8 @@
 #include "graph/influences.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -53,11 +53,8 @@ struct UpsampleInput {
     std::span<const Index> mover;     // n: what moves each point, as influence_of() reads it
     const InfluenceRows* rows = nullptr;
     InfluenceWeights weights = InfluenceWeights::smooth;
-    // What the rows were when an Upsampler was told of them last need not be read again. 0: nobody counts
-    // their versions. Else 1, 2, …, with a byte for each block of rows_in_block of them that is not 0 if any
-    // has changed since the version before.
-    std::uint64_t rows_version = 0;
-    std::span<const std::uint8_t> changed_rows = {};
+    // One past the largest number in all rows, if it is known: prepare() reads them all to find out, else.
+    std::optional<Index> rows_end = std::nullopt;
 };
 
 // An OpenCL device cannot do its work: the words say which call failed, on what, and OpenCL's reason, with

@@ -61,19 +61,21 @@ void show_frame(Pipeline& pipeline, const PipelineInput& input) {
     pipeline.upsample(motions, state);
 }
 
-HandleTimingRow measure_plane(const PointCloud& cloud, std::size_t repeats, Upsampler& upsampler,
-                              Workers& workers, Progress& progress) {
+HandleTimingRow measure_plane(const PointCloud& cloud, bool is_first, std::size_t repeats,
+                              Upsampler& upsampler, Workers& workers, Progress& progress) {
     Pipeline pipeline(cloud, workers, upsampler);
     PipelineInput two;
     two.settings.samples = samples_asked;
     two.handles = two_handles(cloud);
     pipeline.prepare(two, progress);
     PipelineInput three = two;
-    three.handles.push_back(third_handle(cloud, radius_of_third * pipeline.cloud_size()));
+    const Handle third = third_handle(cloud, radius_of_third * pipeline.cloud_size());
+    three.handles.insert(is_first ? three.handles.begin() : three.handles.end(), third);
 
     HandleTimingRow figures;
     figures.points = cloud.size();
-    figures.in_handle = three.handles.back().points->size();
+    figures.in_handle = third.points->size();
+    figures.is_first = is_first;
     std::array<std::vector<double>, stages.size()> seconds;
     std::vector<double> frame, live;
     for (std::size_t change = 0; change < 2 * (repeats + 1); ++change) {
@@ -110,7 +112,9 @@ HandleTiming measure_handle_timing(std::size_t most_points, const Table1Options&
     timing.device = choice.upsampler->device();
     for (std::size_t points = fewest_points; points <= most_points; points *= 10) {
         const PointCloud cloud = made_cloud(Shape::plane, points, workers, progress);
-        timing.rows.push_back(measure_plane(cloud, options.repeats, *choice.upsampler, workers, progress));
+        for (const bool is_first : {false, true})
+            timing.rows.push_back(
+                measure_plane(cloud, is_first, options.repeats, *choice.upsampler, workers, progress));
     }
     if (std::string words = choice.upsampler->take_warning(); !words.empty())
         timing.warnings.push_back(std::move(words));
@@ -118,19 +122,19 @@ HandleTiming measure_handle_timing(std::size_t most_points, const Table1Options&
 }
 
 std::string handle_timing_text(const HandleTiming& timing) {
-    std::vector<std::string> heading{"points", "samples", "in handle"};
+    std::vector<std::string> heading{"points", "samples", "in handle", "place"};
     for (const TimedStage& stage : stages) heading.emplace_back(stage.name);
     for (const char* name : {"frame", "live again", "spread"}) heading.emplace_back(name);
     TextTable table{{machine_text(timing.machine)},
                     {std::to_string(timing.threads) + (timing.threads == 1 ? " thread" : " threads") +
                      " and " + timing.device},
-                    {"A third handle on the plane comes or goes: the stages that run again, and the first "
-                     "frame with it."},
+                    {"A third handle on the plane comes or goes, at this place in the list: the stages that "
+                     "run again, and the first frame."},
                     {""},
                     heading};
     for (const HandleTimingRow& row : timing.rows) {
         std::vector<std::string> line{count_text(row.points), count_text(row.samples),
-                                      count_text(row.in_handle)};
+                                      count_text(row.in_handle), row.is_first ? "first" : "last"};
         for (const TimedStage& stage : stages) line.push_back(duration_text((row.*stage.after).median));
         line.push_back(duration_text(row.frame.median));
         line.push_back(duration_text(row.live.median));
@@ -157,6 +161,7 @@ std::string handle_timing_json(const HandleTiming& timing) {
         json["rows"].push_back({{"points", row.points},
                                 {"samples", row.samples},
                                 {"in_handle", row.in_handle},
+                                {"place", row.is_first ? "first" : "last"},
                                 {"seconds", seconds}});
     }
     return json_text(json);

@@ -15,6 +15,7 @@ struct HandleTimingRow {
     std::size_t points = 0;
     std::size_t samples = 0;                       // actual, with three handles
     std::size_t in_handle = 0;                     // points that the third handle holds
+    bool is_first = false;                         // in the list of the three, or the last of them
     Summary sampling, geodesic, factorize, device; // the stages that ran again (StageSeconds)
     Summary frame; // the first with the new handles: start, iterations, all points
     Summary live;  // all of it, from the change to the first frame
@@ -30,7 +31,8 @@ struct HandleTiming {
 
 // Measures planes of 100,000, 1,000,000 … points up to `most_points` with 5000 samples: the third handle, a
 // disc in the middle with a radius of 3 % of the cloud's size, comes and goes `options.repeats` times each,
-// after once that warms up.
+// after once that warms up; at the end of the list, as in the editor, and at its beginning, where all others
+// have to be flooded again.
 HandleTiming measure_handle_timing(std::size_t most_points, const Table1Options& options, Progress& progress);
 
 // A table for people, at most 130 columns wide; one JSON object with every number.

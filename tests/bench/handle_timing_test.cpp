@@ -15,8 +15,10 @@ TEST(HandleTiming, MeasuresEveryStage) {
     options.device = "reference";
     SilentProgress progress;
     const HandleTiming timing = measure_handle_timing(100'000, options, progress);
-    ASSERT_EQ(timing.rows.size(), 1U);
+    ASSERT_EQ(timing.rows.size(), 2U);
+    EXPECT_TRUE(timing.rows.back().is_first);
     const HandleTimingRow& row = timing.rows.front();
+    EXPECT_FALSE(row.is_first);
     EXPECT_EQ(row.points, 100'000U);
     EXPECT_GT(row.samples, 5000U);
     EXPECT_LE(row.samples, 6003U); // a fifth more, and one a handle
@@ -31,6 +33,7 @@ TEST(HandleTiming, MeasuresEveryStage) {
 
     const json all = json::parse(handle_timing_json(timing));
     EXPECT_EQ(all["rows"][0]["points"], 100'000);
+    EXPECT_EQ(all["rows"][1]["place"], "first");
     EXPECT_EQ(all["rows"][0]["seconds"]["live"]["median"], row.live.median);
     const std::string text = handle_timing_text(timing);
     for (const char* words : {"100,000", "geodesic", "live again"})

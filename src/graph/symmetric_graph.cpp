@@ -107,8 +107,8 @@ Graph with_edges(const Graph& graph, std::span<const std::pair<Index, Index>> ed
     result.first.assign(graph.size() + 1, 0);
     workers.for_each(graph.size(), grain, [&](std::size_t v) {
         const std::span<Index> row = std::span(all).subspan(begin[v], end[v] - begin[v]);
-        std::ranges::sort(row);
-        result.first[v] = static_cast<Index>(std::ranges::unique(row).begin() - row.begin());
+        std::sort(row.begin(), row.end());
+        result.first[v] = static_cast<Index>(std::unique(row.begin(), row.end()) - row.begin());
     });
     counts_to_rows(result.first);
     result.neighbor.resize(result.first.back());

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <ranges>
 #include <utility>
 
 namespace knead {
@@ -96,16 +95,14 @@ std::vector<TerritoryBorder> summed(std::span<const Change> changes) {
 }
 
 std::vector<TerritoryBorder> summed(std::span<const TerritoryBorder> before, Changes& found) {
-    std::vector<Change> changes;
-    changes.reserve(found.size());
-    found.take([&](const Change& change) { changes.push_back(change); });
-    std::ranges::sort(changes, {}, &Change::border);
-    std::vector<Change> all(before.size() + changes.size());
-    const auto as_change = [](const TerritoryBorder& border) {
-        return Change{std::uint64_t{border.a} << 32 | border.b, border.links, border.way};
-    };
-    std::ranges::merge(std::views::transform(before, as_change), changes, all.begin(), {}, &Change::border,
-                       &Change::border);
+    std::vector<Change> all;
+    all.reserve(before.size() + found.size());
+    for (const auto& [a, b, links, way] : before) all.push_back({std::uint64_t{a} << 32 | b, links, way});
+    const auto middle = static_cast<std::ptrdiff_t>(all.size()); // up to which they ascend
+    found.take([&](const Change& change) { all.push_back(change); });
+    const auto by_border = [](const Change& one, const Change& other) { return one.border < other.border; };
+    std::sort(all.begin() + middle, all.end(), by_border);
+    std::inplace_merge(all.begin(), all.begin() + middle, all.end(), by_border);
     return summed(all);
 }
 

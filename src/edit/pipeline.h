@@ -39,7 +39,6 @@
 #include "upsample/upsample.h"
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 

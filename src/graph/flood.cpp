@@ -342,9 +342,11 @@ private:
 };
 
 // Floods narrow rows where they will do, else wide ones, and returns what use(rows) makes of them.
-template<typename Narrow, typename Wide, typename Use>
+template<typename Rows, typename Use>
 auto flooded(const Graph& graph, std::span<const std::uint8_t> lengths, std::span<const Index> samples,
              Workers& workers, Progress& progress, Use&& use) {
+    using Narrow = typename Rows::Narrow;
+    using Wide = typename Rows::Wide;
     const std::vector<FloodStart> starts = starts_of(samples, 0);
     if (samples.size() < Narrow::none) {
         std::vector<Narrow> rows(graph.size(), empty_row<Narrow>());
@@ -354,19 +356,6 @@ auto flooded(const Graph& graph, std::span<const std::uint8_t> lengths, std::spa
     require(Flood<Wide>(rows, graph, lengths, workers).run(starts, false, progress),
             "a way along the surface is shorter than 2^32 levels");
     return use(rows);
-}
-
-WideTerritory widened(const NarrowTerritory& row) {
-    if (row.sample[0] == NarrowTerritory::none) return {{WideTerritory::none}, {WideTerritory::none}};
-    return {{Index{row.sample[0]}}, {Index{row.distance[0]}}};
-}
-
-void widen(TerritoryRows& nearest) {
-    const auto* narrow = std::get_if<std::vector<NarrowTerritory>>(&nearest.rows);
-    if (!narrow) return;
-    std::vector<WideTerritory> wide(narrow->size());
-    std::ranges::transform(*narrow, wide.begin(), [](const NarrowTerritory& row) { return widened(row); });
-    nearest.rows = std::move(wide);
 }
 
 // Puts old rows back, into rows that may have become wide since.
@@ -383,9 +372,12 @@ void put_back(const OldRows<Old>& blocks, std::vector<Row>& rows) {
 }
 
 // Floods from these starts, too.
-template<typename Narrow, typename Wide, typename Rows>
-RowPatch<Narrow, Wide> patched(Rows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
-                               std::span<const FloodStart> starts, Workers& workers, Progress& progress) {
+template<std::size_t places>
+RowPatch<places> patched(NearestRows<places>& nearest, const Graph& graph,
+                         std::span<const std::uint8_t> lengths, std::span<const FloodStart> starts,
+                         Workers& workers, Progress& progress) {
+    using Narrow = typename NearestRows<places>::Narrow;
+    using Wide = typename NearestRows<places>::Wide;
     auto* narrow = std::get_if<std::vector<Narrow>>(&nearest.rows);
     const auto is_narrow = [](const FloodStart& start) { return start.number < Narrow::none; };
     if (narrow && std::ranges::all_of(starts, is_narrow)) {
@@ -401,11 +393,12 @@ RowPatch<Narrow, Wide> patched(Rows& nearest, const Graph& graph, std::span<cons
     return {flood.take_old_rows()};
 }
 
-template<typename Rows, typename Patch>
-void reverted(Rows& nearest, const Patch& patch) {
+template<std::size_t places>
+void reverted(NearestRows<places>& nearest, const RowPatch<places>& patch) {
+    using Narrow = typename NearestRows<places>::Narrow;
     std::visit(
         []<typename Row, typename Old>(std::vector<Row>& rows, const OldRows<Old>& blocks) {
-            if constexpr (sizeof(Row) >= sizeof(Old))
+            if constexpr (std::is_same_v<Row, Old> || std::is_same_v<Old, Narrow>)
                 put_back(blocks, rows);
             else
                 require(false, "rows do not become narrow again");
@@ -451,20 +444,23 @@ std::vector<Index> shuffled(std::vector<Index> vertices) {
 
 InfluenceRows flood(const Graph& graph, std::span<const std::uint8_t> lengths, std::span<const Index> samples,
                     Workers& workers, Progress& progress) {
-    return flooded<NarrowRow, WideRow>(graph, lengths, samples, workers, progress,
-                                       [](auto& rows) { return InfluenceRows{std::move(rows)}; });
+    return flooded<InfluenceRows>(graph, lengths, samples, workers, progress, [](auto& rows) {
+        InfluenceRows nearest;
+        nearest.rows = std::move(rows);
+        return nearest;
+    });
 }
 
 std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t> lengths,
                                std::span<const Index> samples, Workers& workers, Progress& progress) {
-    return flooded<NarrowTerritory, WideTerritory>(
-        graph, lengths, samples, workers, progress, []<typename Row>(const std::vector<Row>& rows) {
-            std::vector<Index> nearest(rows.size());
-            std::ranges::transform(rows, nearest.begin(), [](const Row& row) {
-                return row.sample[0] == Row::none ? no_index : Index{row.sample[0]};
-            });
-            return nearest;
-        });
+    return flooded<TerritoryRows>(graph, lengths, samples, workers, progress,
+                                  []<typename Row>(const std::vector<Row>& rows) {
+                                      std::vector<Index> nearest(rows.size());
+                                      std::ranges::transform(rows, nearest.begin(), [](const Row& row) {
+                                          return row.sample[0] == Row::none ? no_index : Index{row.sample[0]};
+                                      });
+                                      return nearest;
+                                  });
 }
 
 std::vector<FloodStart> starts_of(std::span<const Index> samples, Index first) {
@@ -474,19 +470,10 @@ std::vector<FloodStart> starts_of(std::span<const Index> samples, Index first) {
     return starts;
 }
 
-std::size_t TerritoryRows::size() const {
-    return std::visit([](const auto& kind) { return kind.size(); }, rows);
-}
-
-WideTerritory TerritoryRows::operator[](std::size_t v) const {
-    if (const auto* wide = std::get_if<std::vector<WideTerritory>>(&rows)) return (*wide)[v];
-    return widened(std::get<std::vector<NarrowTerritory>>(rows)[v]);
-}
-
 TerritoryRows territory_rows(const InfluenceRows& nearest, Workers& workers) {
     return std::visit(
         [&]<typename Number>(const std::vector<SampleRow<Number>>& rows) {
-            std::vector<Territory<Number>> first(rows.size());
+            std::vector<SampleRow<Number, 1>> first(rows.size());
             workers.for_each(rows.size(), largest_tile, [&](std::size_t v) {
                 first[v] = {{rows[v].sample[0]}, {rows[v].distance[0]}};
             });
@@ -497,7 +484,7 @@ TerritoryRows territory_rows(const InfluenceRows& nearest, Workers& workers) {
 
 FloodPatch add_starts(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
                       std::span<const FloodStart> starts, Workers& workers, Progress& progress) {
-    return patched<NarrowRow, WideRow>(nearest, graph, lengths, starts, workers, progress);
+    return patched(nearest, graph, lengths, starts, workers, progress);
 }
 
 void revert(InfluenceRows& nearest, const FloodPatch& patch) {
@@ -507,7 +494,7 @@ void revert(InfluenceRows& nearest, const FloodPatch& patch) {
 TerritoryPatch add_territories(TerritoryRows& nearest, const Graph& graph,
                                std::span<const std::uint8_t> lengths, std::span<const FloodStart> starts,
                                Workers& workers, Progress& progress) {
-    return patched<NarrowTerritory, WideTerritory>(nearest, graph, lengths, starts, workers, progress);
+    return patched(nearest, graph, lengths, starts, workers, progress);
 }
 
 void revert(TerritoryRows& nearest, const TerritoryPatch& patch) {

@@ -21,7 +21,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <variant>
 #include <vector>
@@ -47,21 +46,6 @@ InfluenceRows flood(const Graph& graph, std::span<const std::uint8_t> lengths, s
 std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t> lengths,
                                std::span<const Index> samples, Workers& workers, Progress& progress);
 
-// A row of the nearest sample alone. `none` for both in a component without samples.
-template<typename Number>
-struct Territory {
-    static constexpr Number none = std::numeric_limits<Number>::max();
-    std::array<Number, 1> sample, distance;
-};
-using NarrowTerritory = Territory<std::uint16_t>;
-using WideTerritory = Territory<Index>;
-struct TerritoryRows { // one a vertex
-    std::variant<std::vector<NarrowTerritory>, std::vector<WideTerritory>> rows;
-
-    std::size_t size() const;
-    WideTerritory operator[](std::size_t v) const;
-};
-
 // The first places of these rows.
 TerritoryRows territory_rows(const InfluenceRows& nearest, Workers& workers);
 
@@ -77,12 +61,13 @@ struct OldRow {
 template<typename Row>
 using OldRows = std::vector<std::vector<OldRow<Row>>>;
 
-template<typename Narrow, typename Wide>
+template<std::size_t places>
 struct RowPatch {
-    std::variant<OldRows<Narrow>, OldRows<Wide>> blocks;
+    using Rows = NearestRows<places>;
+    std::variant<OldRows<typename Rows::Narrow>, OldRows<typename Rows::Wide>> blocks;
 };
-using FloodPatch = RowPatch<NarrowRow, WideRow>;
-using TerritoryPatch = RowPatch<NarrowTerritory, WideTerritory>;
+using FloodPatch = RowPatch<influences_per_row>;
+using TerritoryPatch = RowPatch<1>;
 
 // Where a flood starts, and what: the number that rows will hold.
 struct FloodStart {

@@ -11,6 +11,7 @@
 #include <array>
 #include <limits>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -24,14 +25,14 @@ constexpr std::size_t blocks_of_rows(std::size_t rows) {
     return (rows + rows_in_block - 1) / rows_in_block;
 }
 
-// The K nearest samples and handles of a vertex, by (distance, number). A vertex whose component has fewer
-// than K keeps the last places empty: `none` for sample and distance.
-template<typename Number>
-struct alignas(2 * influences_per_row * sizeof(Number)) SampleRow { // within a cache line
+// The K nearest samples and handles of a vertex, by (distance, number), or fewer `places` of them. A vertex
+// whose component has fewer keeps the last places empty: `none` for sample and distance.
+template<typename Number, std::size_t places = influences_per_row>
+struct alignas(2 * places * sizeof(Number)) SampleRow { // within a cache line
     static constexpr Number none = std::numeric_limits<Number>::max();
 
-    std::array<Number, influences_per_row> sample;
-    std::array<Number, influences_per_row> distance; // in levels, see flood.h
+    std::array<Number, places> sample;
+    std::array<Number, places> distance; // in levels, see flood.h
 
     std::size_t count() const {
         return static_cast<std::size_t>(std::ranges::find(sample, none) - sample.begin());
@@ -40,31 +41,60 @@ struct alignas(2 * influences_per_row * sizeof(Number)) SampleRow { // within a 
 using NarrowRow = SampleRow<std::uint16_t>;
 using WideRow = SampleRow<Index>;
 
+// The same as a wide row.
+template<std::size_t places>
+const SampleRow<Index, places>& widened(const SampleRow<Index, places>& row) {
+    return row;
+}
+template<std::size_t places>
+SampleRow<Index, places> widened(const SampleRow<std::uint16_t, places>& row) {
+    using Narrow = SampleRow<std::uint16_t, places>;
+    SampleRow<Index, places> result;
+    const auto wide = [](std::uint16_t number) { return number == Narrow::none ? no_index : Index{number}; };
+    std::ranges::transform(row.sample, result.sample.begin(), wide);
+    std::ranges::transform(row.distance, result.distance.begin(), wide);
+    return result;
+}
+
 // One row a vertex. They are narrow where all numbers and distances are below 65,535, which halves what a
 // flood and a frame have to move, else wide; the flood decides. What they mean is the same.
-struct InfluenceRows {
-    std::variant<std::vector<NarrowRow>, std::vector<WideRow>> rows;
-    // Numbers from here on are not samples but handles, which start from all along their borders.
-    Index first_handle = no_index;
+template<std::size_t places>
+struct NearestRows {
+    using Narrow = SampleRow<std::uint16_t, places>;
+    using Wide = SampleRow<Index, places>;
 
-    std::size_t size() const;
+    std::variant<std::vector<Narrow>, std::vector<Wide>> rows;
+
+    std::size_t size() const {
+        return std::visit([](const auto& kind) { return kind.size(); }, rows);
+    }
     bool are_wide() const { return rows.index() == 1; }
 
     // Row v as a wide one, whichever it is.
-    WideRow operator[](std::size_t v) const;
+    Wide operator[](std::size_t v) const {
+        return std::visit([v](const auto& kind) -> Wide { return widened(kind[v]); }, rows);
+    }
 };
+using TerritoryRows = NearestRows<1>; // of the nearest sample alone
+struct InfluenceRows : NearestRows<influences_per_row> {
+    // Numbers from here on are not samples but handles, which start from all along their borders.
+    Index first_handle = no_index;
+};
+
+// Makes the rows wide if they are narrow.
+template<std::size_t places>
+void widen(NearestRows<places>& nearest) {
+    using Rows = NearestRows<places>;
+    const auto* narrow = std::get_if<std::vector<typename Rows::Narrow>>(&nearest.rows);
+    if (!narrow) return;
+    std::vector<typename Rows::Wide> wide;
+    wide.reserve(narrow->size());
+    for (const auto& row : *narrow) wide.push_back(widened(row));
+    nearest.rows = std::move(wide);
+}
 
 // Those of these vertices, as wide ones.
 std::vector<WideRow> rows_at(const InfluenceRows& rows, std::span<const Index> vertices);
-
-// The same as a wide row.
-WideRow widened(const NarrowRow& row);
-inline const WideRow& widened(const WideRow& row) {
-    return row;
-}
-
-// Makes the rows wide if they are narrow.
-void widen(InfluenceRows& rows);
 
 // How a sample's weight falls with its distance d from the point.
 enum class InfluenceWeights {

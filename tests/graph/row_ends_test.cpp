@@ -19,7 +19,8 @@ TEST(RowEnds, AreOnePastTheLargestNumbers) {
             row.sample.at(k) = static_cast<std::uint16_t>(random() % 65'535);
     }
     for (std::size_t v = 2 * rows_in_block; v < 3 * rows_in_block; ++v) rows[v].sample.fill(NarrowRow::none);
-    InfluenceRows nearest{rows};
+    InfluenceRows nearest;
+    nearest.rows = rows;
     for (const bool wide : {false, true}) {
         if (wide) widen(nearest);
         Machine machine;

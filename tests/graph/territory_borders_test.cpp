@@ -23,7 +23,7 @@ std::vector<TerritoryBorder> counted(const Cloud& cloud, const TerritoryRows& ne
     std::map<std::pair<Index, Index>, TerritoryBorder> borders;
     for (Index p = 0; p < cloud.size(); ++p)
         for (Index link = cloud.graph.first[p]; link < cloud.graph.first[p + 1]; ++link) {
-            const WideTerritory here = nearest[p], there = nearest[cloud.graph.neighbor[link]];
+            const TerritoryRows::Wide here = nearest[p], there = nearest[cloud.graph.neighbor[link]];
             const Index a = here.sample[0], b = there.sample[0];
             if (!(a < b)) continue;
             TerritoryBorder& border = borders[{a, b}];
@@ -79,12 +79,12 @@ TEST(TerritoryBorders, FollowSamplesThatMakeRowsWide) {
     const std::vector<Index> samples(all.begin(), all.begin() + 65'000),
         added(all.begin() + 65'000, all.end());
     TerritoryRows nearest = flooded(cloud, samples, machine);
-    ASSERT_TRUE(std::holds_alternative<std::vector<NarrowTerritory>>(nearest.rows));
+    ASSERT_FALSE(nearest.are_wide());
     const auto before = territory_borders(nearest, cloud.graph, machine.workers);
     const TerritoryPatch patch = add_territories(nearest, cloud.graph, cloud.lengths,
                                                  starts_of(added, static_cast<Index>(samples.size())),
                                                  machine.workers, machine.progress);
-    ASSERT_TRUE(std::holds_alternative<std::vector<WideTerritory>>(nearest.rows));
+    ASSERT_TRUE(nearest.are_wide());
     EXPECT_EQ(territory_borders_after(before, patch, nearest, cloud.graph, cloud.lengths, machine.workers),
               counted(cloud, nearest, static_cast<Index>(samples.size())));
 }

@@ -46,28 +46,31 @@ double least_falloff(const Held& held, double cloud_size) {
 }
 
 // What each handle holds of each stretch of vertices: the handles of the first stretch, of the second, ...
-std::vector<Held> held_by_stretch(std::size_t handles, std::span<const Index> vertex_handle,
+std::vector<Held> held_by_stretch(std::size_t handles, const VertexLabels& labels,
                                   std::span<const float> positions, Workers& workers) {
-    std::vector<Held> held((vertex_handle.size() + stretch - 1) / stretch * handles);
-    workers.for_chunks(vertex_handle.size(), stretch, [&](std::size_t begin, std::size_t end) {
+    const std::size_t vertices = labels.label.size();
+    std::vector<Held> held((vertices + stretch - 1) / stretch * handles);
+    workers.for_chunks(vertices, stretch, [&](std::size_t begin, std::size_t end) {
         const std::span here(held.data() + begin / stretch * handles, handles);
-        for (std::size_t v = begin; v < end;) {
-            const Index handle = vertex_handle[v];
-            const std::size_t first = v;
-            while (v < end && vertex_handle[v] == handle) ++v;
-            if (!(handle < handles)) continue;
-            Held run; // neighbours are mostly of one handle
-            for (std::size_t of_run = first; of_run < v; ++of_run)
-                run.add(point_at(positions, of_run) - point_at(positions, 0));
-            here[handle].add(run);
-        }
+        Index handle = no_index;
+        Held run; // neighbours are mostly of one handle
+        const auto next_run = [&](Index of) {
+            if (handle < handles) here[handle].add(run);
+            handle = of;
+            run = {};
+        };
+        for_each_held(labels, begin, end, [&](Index v) {
+            if (labels.label[v] != handle) next_run(labels.label[v]);
+            run.add(point_at(positions, v) - point_at(positions, 0));
+        });
+        next_run(no_index);
     });
     return held;
 }
 
 // The vertices, ascending, of the handles that are `wanted`.
 std::vector<std::vector<Index>> held_vertices(const std::vector<bool>& wanted, std::span<const Held> held,
-                                              std::span<const Index> vertex_handle, Workers& workers) {
+                                              const VertexLabels& labels, Workers& workers) {
     const std::size_t handles = wanted.size();
     std::vector<std::vector<Index>> vertices(handles);
     std::vector<std::size_t> place;
@@ -76,11 +79,11 @@ std::vector<std::vector<Index>> held_vertices(const std::vector<bool>& wanted, s
         place.push_back(vertices[h].size());
         if (wanted[h]) vertices[h].resize(place.back() + here.count);
     }
-    workers.for_chunks(vertex_handle.size(), stretch, [&](std::size_t begin, std::size_t end) {
+    workers.for_chunks(labels.label.size(), stretch, [&](std::size_t begin, std::size_t end) {
         const std::span places(place.data() + begin / stretch * handles, handles);
-        for (std::size_t v = begin; v < end; ++v)
-            if (const Index h = vertex_handle[v]; h < handles && wanted[h])
-                vertices[h][places[h]++] = static_cast<Index>(v);
+        for_each_held(labels, begin, end, [&](Index v) {
+            if (const Index h = labels.label[v]; h < handles && wanted[h]) vertices[h][places[h]++] = v;
+        });
     });
     return vertices;
 }
@@ -109,10 +112,10 @@ double spread_at(const SampleRest& rest, Index sample) {
 
 } // namespace
 
-std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> vertex_handle,
+std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, const VertexLabels& labels,
                                    std::span<const Index> samples, const Graph& graph,
                                    std::span<const float> positions, double cloud_size, Workers& workers) {
-    const std::vector<Held> parts = held_by_stretch(handles.size(), vertex_handle, positions, workers);
+    const std::vector<Held> parts = held_by_stretch(handles.size(), labels, positions, workers);
     std::vector<Held> whole(handles.size());
     for (std::size_t i = 0; i < parts.size(); ++i) whole[i % handles.size()].add(parts[i]);
     std::vector<double> falloff(handles.size(), 0);
@@ -123,10 +126,10 @@ std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span
         pulls[h] = falloff[h] > 0;
     }
     if (std::ranges::none_of(pulls, std::identity{})) return {};
-    const std::vector<std::vector<Index>> held = held_vertices(pulls, parts, vertex_handle, workers);
+    const std::vector<std::vector<Index>> held = held_vertices(pulls, parts, labels, workers);
     std::unordered_map<Index, Index> sample_of;
     for (Index s = 0; s < samples.size(); ++s)
-        if (vertex_handle[samples[s]] == no_index) sample_of.emplace(samples[s], s);
+        if (labels.label[samples[s]] == no_index) sample_of.emplace(samples[s], s);
     std::vector<Pulled> pulled;
     for (Index h = 0; h < held.size(); ++h) {
         if (!pulls[h]) continue;

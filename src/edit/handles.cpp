@@ -92,16 +92,31 @@ void label_by(const std::vector<Handle>& handles, const PointOrder& order, std::
         }
 
     labels.outside = outside;
-    labels.point.resize(order.points());
-    labels.vertex.resize(order.vertices());
-    workers.for_each(order.vertices(), grain, [&](std::size_t v) {
-        Index vertex = no_index;
-        for (Index i = order.first_point[v]; i < order.first_point[v + 1]; ++i) {
+    labels.point.resize(order.points(), no_index);
+    labels.vertex.resize(order.vertices(), no_index);
+    labels.held.resize(blocks_of_rows(order.vertices()), 0);
+    labels.changed.resize(labels.held.size(), 0);
+    workers.for_each(labels.held.size(), grain / rows_in_block, [&](std::size_t block) {
+        const std::size_t begin = block * rows_in_block;
+        const std::size_t end = std::min(begin + rows_in_block, order.vertices());
+        const auto is_held = [&](Index file_index) { return of_file_point[file_index] != free; };
+        const bool held = std::any_of(order.file_index.begin() + order.first_point[begin],
+                                      order.file_index.begin() + order.first_point[end], is_held);
+        if (!held && !labels.held[block]) return;
+        bool changed = false;
+        for (Index i = order.first_point[begin]; i < order.first_point[end]; ++i) {
             const Label label = of_file_point[order.file_index[i]];
-            labels.point[i] = label == free ? no_index : Index{label};
-            vertex = stronger(vertex, labels.point[i], outside);
+            const Index before = std::exchange(labels.point[i], label == free ? no_index : Index{label});
+            changed |= labels.point[i] != before;
         }
-        labels.vertex[v] = vertex;
+        if (!changed) return;
+        labels.held[block] = held ? 1 : 0;
+        labels.changed[block] = 1;
+        for (std::size_t v = begin; v < end; ++v) {
+            labels.vertex[v] = no_index;
+            for (Index i = order.first_point[v]; i < order.first_point[v + 1]; ++i)
+                labels.vertex[v] = stronger(labels.vertex[v], labels.point[i], outside);
+        }
     });
 }
 

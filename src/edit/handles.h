@@ -4,6 +4,7 @@
 #include "cloud/point_cloud.h"
 #include "deform/sample_system.h"
 #include "edit/session.h"
+#include "graph/vertex_labels.h"
 #include "view/transform.h"
 
 #include <functional>
@@ -70,10 +71,18 @@ struct HandleLabels {
     std::vector<Index> point;
     std::vector<Index> vertex; // that of its points which was declared last; free only if all of them are
     Index outside = 0;         // = the number of handles
+
+    // Of each block of rows_in_block vertices: 0 only where all of them and of their points are free, ...
+    std::vector<std::uint8_t> held;
+    // ... and 1 where a label changed since whoever looks for changes set that to 0.
+    std::vector<std::uint8_t> changed;
+
+    VertexLabels of_vertices() const { return {vertex, held}; }
 };
 struct PointOrder;
 class Workers;
-// `labels` are written over, and keep their memory.
+// `labels`: none yet, or those of other handles of the same cloud; only what those held, or these hold, is
+// looked at. Where no point's label changed, vertices keep theirs, whatever became of these since.
 void label_points(const std::vector<Handle>& handles, const PointOrder& order, std::size_t file_points,
                   Workers& workers, HandleLabels& labels);
 

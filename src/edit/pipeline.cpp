@@ -126,6 +126,8 @@ void Pipeline::prepare_bridges(Progress& progress) {
     const Stopwatch clock;
     graph_ = neighbors_;
     hanging_.clear();
+    labels_ = {};
+    held_blocks_.clear();
     std::optional<JoinedGraph> joined =
         input_.settings.strays == knead::Strays::bridge
             ? bridged(*neighbors_, vertex_positions(), workers_, progress)

@@ -167,7 +167,9 @@ private:
     void find_pulled();
     void choose_coarse_samples();
     void label_vertices();
+    void label_hanging();
     void count_strays();
+    bool note_mover_numbers(std::size_t first_handle);
     void prepare_influences();
     void prepare_carried(std::span<const Index> mover_of_label);
     void prepare_systems();
@@ -214,6 +216,7 @@ private:
     std::vector<TerritoryBorder> base_borders_;
 
     HandleLabels labels_;
+    std::vector<HeldBlock> held_blocks_; // of those
     std::vector<Pulled> pulled_;
     Strays strays_;
     std::vector<bool> held_component_;
@@ -222,6 +225,11 @@ private:
     std::uint64_t samples_version_ = 0;
 
     std::vector<Index> mover_of_point_; // as influence_of() reads it
+    struct MoverNumbers {
+        std::size_t first_handle = 0; // where every part holds one; 0: else, or there are no movers
+        std::vector<bool> turning;    // of each handle, whether it leaves rotation free
+    };
+    MoverNumbers mover_numbers_; // that they were made with
     Contacts contacts_;
     CarriedParts carried_;
 

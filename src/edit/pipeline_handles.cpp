@@ -23,7 +23,7 @@ std::size_t handle_budget(std::size_t base_samples) {
 } // namespace
 
 void Pipeline::find_pulled() {
-    pulled_ = pulled_samples(input_.handles, labels_.vertex, samples_, *graph_, vertex_positions(),
+    pulled_ = pulled_samples(input_.handles, labels_.of_vertices(), samples_, *graph_, vertex_positions(),
                              cloud_size_, workers_);
 }
 
@@ -39,8 +39,8 @@ void Pipeline::prepare_handles(Progress& progress) {
         return;
     }
     const VertexShape shape{order_.code, vertex_positions(), *graph_, *components_};
-    HandleSamples needed =
-        handle_samples(shape, labels_.vertex, samples_, territory_, handle_budget(base_samples_), workers_);
+    HandleSamples needed = handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_, territory_,
+                                          handle_budget(base_samples_));
     const std::vector<Index> added = shuffled(std::move(needed.added));
     samples_.insert(samples_.end(), added.begin(), added.end());
     seconds_.sampling += clock.lap();
@@ -110,24 +110,27 @@ void Pipeline::choose_coarse_samples() {
     coarse_.samples = coarse_samples(sample_graph_.graph, position, handle, workers_);
 }
 
+// An outlier has no say: held or not, it is like the vertex that it hangs on, or turns along with it. Its own
+// points still follow their handle, but nothing else does for its sake.
+void Pipeline::label_hanging() {
+    workers_.for_each(hanging_.size(), grain, [&](std::size_t v) { // in blocks: see rows_in_block
+        if (!hanging_[v]) return;
+        Index label = labels_.vertex[graph_->row(v).front()]; // which does not hang
+        if (label != no_index && turns_freely(label)) label = no_index;
+        if (labels_.vertex[v] == label) return;
+        labels_.vertex[v] = label;
+        labels_.held[v / rows_in_block] = labels_.changed[v / rows_in_block] = 1;
+    });
+}
+
 // Who holds what, and which components hold a handle.
 void Pipeline::label_vertices() {
     label_points(input_.handles, order_, cloud_.size(), workers_, labels_);
-    // An outlier has no say: held or not, it is like the vertex that it hangs on, or turns along with it. Its
-    // own points still follow their handle, but nothing else does for its sake.
-    if (!hanging_.empty())
-        for (std::size_t v = 0; v < order_.vertices(); ++v) {
-            if (!hanging_[v]) continue;
-            const Index label = labels_.vertex[graph_->row(v).front()];
-            labels_.vertex[v] = label != no_index && turns_freely(label) ? no_index : label;
-        }
-    std::vector<std::uint8_t> holds(components_->size.size(), 0);
-    workers_.for_each(order_.vertices(), grain, [&](std::size_t v) {
-        if (labels_.vertex[v] == no_index) return;
-        const std::atomic_ref<std::uint8_t> here(holds[components_->component[v]]);
-        if (!here.load(std::memory_order_relaxed)) here.store(1, std::memory_order_relaxed);
-    });
-    std::vector<bool> held(holds.begin(), holds.end());
+    label_hanging();
+    find_held(labels_.of_vertices(), labels_.changed, *graph_, *components_, workers_, held_blocks_);
+    std::vector<bool> held(components_->size.size(), false);
+    for (const HeldBlock& block : held_blocks_)
+        for (const HeldPart& part : block.parts) held[part.component] = true;
     stale_.contacts |= held != held_component_;
     held_component_ = std::move(held);
     count_strays();
@@ -155,6 +158,19 @@ Index Pipeline::followed_by(std::size_t point) const {
     return label != no_index && !turns_freely(label) ? label : no_index;
 }
 
+// Whether movers are what they were before, but for those of points whose labels changed: what no handle
+// holds has the same one for all handles, if every part holds one. `first_handle`: as a mover.
+bool Pipeline::note_mover_numbers(std::size_t first_handle) {
+    std::vector<bool> turning(input_.handles.size()); // how what a handle holds follows it
+    for (Index label = 0; label < turning.size(); ++label) turning[label] = turns_freely(label);
+    const std::size_t both = std::min(turning.size(), mover_numbers_.turning.size());
+    const bool same = strays_.parts == 0 && mover_numbers_.first_handle == first_handle &&
+                      std::equal(turning.begin(), turning.begin() + static_cast<std::ptrdiff_t>(both),
+                                 mover_numbers_.turning.begin());
+    mover_numbers_ = {strays_.parts == 0 ? first_handle : 0, std::move(turning)};
+    return same;
+}
+
 void Pipeline::prepare_influences() {
     Stopwatch clock;
     // A held point is moved by its handle alone, whatever samples are near, and a point of a stray part by
@@ -166,19 +182,21 @@ void Pipeline::prepare_influences() {
     std::iota(mover_of_label.begin(), mover_of_label.end(), static_cast<Index>(first_handle));
     const Index first_carried = mover_of_label.back() + 1;
     prepare_carried(mover_of_label);
-    mover_of_point_.resize(order_.points());
-    workers_.for_each(order_.points(), grain, [&](std::size_t i) {
-        const Index vertex = order_.vertex[i];
+    const auto mover_of = [&](std::size_t point) {
+        const Index vertex = order_.vertex[point];
         const Index component = components_->component[vertex];
-        Index& mover = mover_of_point_[i];
-        if (const Index label = followed_by(i); label != no_index)
-            mover = mover_of_label[label];
-        else if (held_component_[component])
-            mover = vertex;
-        else if (carried_.size() > 0)
-            mover = first_carried + contacts_.part[component];
-        else
-            mover = mover_of_label[outside];
+        if (const Index label = followed_by(point); label != no_index) return mover_of_label[label];
+        if (held_component_[component]) return vertex;
+        return carried_.size() > 0 ? first_carried + contacts_.part[component] : mover_of_label[outside];
+    };
+    const bool only_changed = note_mover_numbers(first_handle);
+    mover_of_point_.resize(order_.points());
+    workers_.for_each(labels_.changed.size(), grain / rows_in_block, [&](std::size_t block) {
+        if (only_changed && !labels_.changed[block]) return;
+        labels_.changed[block] = 0;
+        const std::size_t end = std::min((block + 1) * rows_in_block, order_.vertices());
+        for (Index i = order_.first_point[block * rows_in_block]; i < order_.first_point[end]; ++i)
+            mover_of_point_[i] = mover_of(i);
     });
     motions_.assign(first_handle_motion_ + outside + 1 + carried_.size(), Motion{});
     seconds_.geodesic += clock.lap();

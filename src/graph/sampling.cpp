@@ -1,6 +1,5 @@
 #include "graph/sampling.h"
 
-#include "base/gathered.h"
 #include "base/require.h"
 #include "graph/octree.h"
 #include "graph/symmetric_graph.h"
@@ -13,46 +12,22 @@ namespace knead {
 
 namespace {
 
-constexpr std::size_t grain = 1 << 14;
-
 // So many samples a border gets for each territory that it runs through.
 constexpr std::size_t samples_a_territory = 2;
 
-// The label of a vertex and its component.
-using Part = std::pair<Index, Index>;
-
-bool touches_free(const Graph& graph, std::span<const Index> label, Index v) {
-    return std::ranges::any_of(graph.row(v), [&](Index u) { return label[u] == no_index; });
-}
-
-struct Labelled {
+struct Held {
     std::vector<BorderVertex> borders; // ascending by (label, vertex)
-    std::set<Part> parts;              // that labels reach into
+    std::set<HeldPart> parts;
 };
 
-Labelled find_labelled(const VertexShape& shape, std::span<const Index> label, Workers& workers) {
-    Gathered<BorderVertex> borders;
-    Gathered<Part> parts;
-    workers.for_chunks(label.size(), grain, [&](std::size_t begin, std::size_t end) {
-        Gathered<BorderVertex>::Block borders_here(borders);
-        std::set<Part> parts_here;
-        Part last{no_index, no_index};
-        for (auto v = static_cast<Index>(begin); v < end; ++v) {
-            if (label[v] == no_index) continue;
-            const Part part{label[v], shape.components.component[v]};
-            if (part != last) parts_here.insert(part);
-            last = part;
-            if (touches_free(shape.graph, label, v)) borders_here.push({label[v], v});
-        }
-        Gathered<Part>::Block found(parts);
-        for (const Part& part : parts_here) found.push(part);
-    });
-    Labelled result;
-    borders.take([&](const BorderVertex& each) { result.borders.push_back(each); });
-    std::ranges::sort(result.borders, {},
-                      [](const BorderVertex& each) { return std::pair(each.label, each.vertex); });
-    parts.take([&](const Part& part) { result.parts.insert(part); });
-    return result;
+Held all_of(std::span<const HeldBlock> blocks) {
+    Held all;
+    for (const HeldBlock& block : blocks) {
+        all.borders.insert(all.borders.end(), block.borders.begin(), block.borders.end());
+        all.parts.insert(block.parts.begin(), block.parts.end());
+    }
+    std::ranges::stable_sort(all.borders, {}, &BorderVertex::label);
+    return all;
 }
 
 // How many territories of base samples these vertices belong to; what no base sample reaches counts as one.
@@ -96,14 +71,14 @@ std::map<Index, std::size_t> shares(const std::map<Index, std::vector<Index>>& b
 }
 
 // One vertex of each of these parts.
-std::vector<Index> one_of_each(const std::set<Part>& parts, const VertexShape& shape,
-                               std::span<const Index> label) {
-    std::map<Part, std::vector<Index>> vertices; // ascending
+std::vector<Index> one_of_each(const std::set<HeldPart>& parts, const VertexShape& shape,
+                               const VertexLabels& labels) {
+    std::map<HeldPart, std::vector<Index>> vertices; // ascending
     if (!parts.empty())
-        for (Index v = 0; v < label.size(); ++v) {
-            const Part part{label[v], shape.components.component[v]};
-            if (label[v] != no_index && parts.contains(part)) vertices[part].push_back(v);
-        }
+        for_each_held(labels, 0, labels.label.size(), [&](Index v) {
+            const HeldPart part{labels.label[v], shape.components.component[v]};
+            if (parts.contains(part)) vertices[part].push_back(v);
+        });
     std::vector<Index> chosen;
     chosen.reserve(vertices.size());
     for (const auto& [part, among] : vertices)
@@ -157,13 +132,13 @@ std::vector<Index> nearest_others(const WideRow& row, Index sample, std::span<co
 
 } // namespace
 
-HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> label,
-                             std::span<const Index> base, const TerritoryRows& nearest, std::size_t budget,
-                             Workers& workers) {
-    require(nearest.size() == label.size(), "a row and a label a vertex");
-    const auto part_of = [&](Index v) { return Part{label[v], shape.components.component[v]}; };
-    auto [borders, parts] = find_labelled(shape, label, workers);
-    std::vector<bool> taken(label.size(), false);
+HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& labels,
+                             std::span<const HeldBlock> held, std::span<const Index> base,
+                             const TerritoryRows& nearest, std::size_t budget) {
+    require(nearest.size() == labels.label.size(), "a row and a label a vertex");
+    const auto part_of = [&](Index v) { return HeldPart{labels.label[v], shape.components.component[v]}; };
+    auto [borders, parts] = all_of(held);
+    std::vector<bool> taken(labels.label.size(), false);
     for (const Index v : base) {
         taken[v] = true;
         parts.erase(part_of(v));
@@ -178,7 +153,7 @@ HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> la
             added.push_back(v);
             parts.erase(part_of(v));
         }
-    for (const Index v : one_of_each(parts, shape, label)) added.push_back(v);
+    for (const Index v : one_of_each(parts, shape, labels)) added.push_back(v);
     return {std::move(added), std::move(borders)};
 }
 

@@ -2,6 +2,7 @@
 // The samples of a cloud, the graph between them, and which of them move a point.
 
 #include "graph/flood.h"
+#include "graph/held_blocks.h"
 #include "graph/neighbors.h"
 #include "graph/territory_borders.h"
 
@@ -19,28 +20,23 @@ struct VertexShape {
     const Components& components;
 };
 
-// A vertex of a handle that has a free neighbour.
-struct BorderVertex {
-    Index label, vertex;
-};
-
 // What a set of handles needs beside the base samples.
 struct HandleSamples {
     std::vector<Index> added;          // vertices that hold no base sample, pairwise different
     std::vector<BorderVertex> borders; // all of them, ascending by (label, vertex)
 };
 
-// The samples that a set of handles adds. Labels tell the handles apart: label[v] is the handle of vertex v,
-// or no_index where it is free.
+// The samples that a set of handles adds.
 //   - Two for each territory of a base sample that a border runs through, if it has as many vertices, are
 //     spread along it: more gain nothing, and have to be flooded and taken back at every change of handles.
 //     Where this is more than `budget` in all, the borders share that by it, and none is left out while
 //     another has two.
 //   - Every label owns at least one sample in every component that it reaches into, budget or not.
-// `base`: vertices, in any order; `nearest`: the flood from them, a row a vertex, and nothing added to it.
-HandleSamples handle_samples(const VertexShape& shape, std::span<const Index> label,
-                             std::span<const Index> base, const TerritoryRows& nearest, std::size_t budget,
-                             Workers& workers);
+// `held`: find_held() of all these; `base`: vertices, in any order; `nearest`: the flood from them, a row a
+// vertex, and nothing added to it.
+HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& labels,
+                             std::span<const HeldBlock> held, std::span<const Index> base,
+                             const TerritoryRows& nearest, std::size_t budget);
 
 // The graph between samples, and how long a border the territories of two linked ones share.
 struct SampleGraph {

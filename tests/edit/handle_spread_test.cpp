@@ -24,7 +24,9 @@ Graph chain(Index vertices) {
 
 // A chain with a handle up to a vertex, and another from a vertex on; every so manieth vertex is a sample.
 HandleSpread spread_of_chain(Index first_ends, Index second_begins, Index step, Index handles = 2) {
-    HandleLabels labels{{}, std::vector<Index>(length, no_index), handles};
+    HandleLabels labels;
+    labels.vertex.assign(length, no_index);
+    labels.outside = handles;
     for (Index v = 0; v < length; ++v)
         labels.vertex[v] = v < first_ends ? 0 : v >= second_begins ? 1 : no_index;
     std::vector<Index> samples;

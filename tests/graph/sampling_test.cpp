@@ -17,8 +17,11 @@ std::vector<Index> handle_samples_of(const Cloud& cloud, std::span<const Index> 
                                      std::span<const Index> base, std::size_t budget) {
     Machine machine;
     const InfluenceRows nearest = flood(cloud.graph, cloud.lengths, base, machine.workers, machine.progress);
-    return handle_samples(cloud.shape(), label, base, territory_rows(nearest, machine.workers), budget,
-                          machine.workers)
+    const std::vector<std::uint8_t> held(blocks_of_rows(label.size()), 1);
+    std::vector<HeldBlock> blocks;
+    find_held({label, held}, held, cloud.graph, cloud.components, machine.workers, blocks);
+    return handle_samples(cloud.shape(), {label, held}, blocks, base,
+                          territory_rows(nearest, machine.workers), budget)
         .added;
 }
 

@@ -1,0 +1,61 @@
+#include "graph/held_blocks.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace knead {
+
+namespace {
+
+constexpr std::size_t blocks_at_once = 64;
+
+void mark(std::uint8_t& flag) {
+    const std::atomic_ref<std::uint8_t> here(flag);
+    if (!here.load(std::memory_order_relaxed)) here.store(1, std::memory_order_relaxed);
+}
+
+// Of each block, 1 if it changed or has neighbours in one that did.
+std::vector<std::uint8_t> near_changed(std::span<const std::uint8_t> changed, const Graph& graph,
+                                       Workers& workers) {
+    std::vector<std::uint8_t> marks(changed.size(), 0);
+    workers.for_each(changed.size(), blocks_at_once, [&](std::size_t block) {
+        if (!changed[block]) return;
+        mark(marks[block]);
+        const std::size_t end = std::min(graph.size(), (block + 1) * rows_in_block);
+        for (std::size_t v = block * rows_in_block; v < end; ++v)
+            for (const Index neighbor : graph.row(v)) mark(marks[neighbor / rows_in_block]);
+    });
+    return marks;
+}
+
+bool touches_free(const Graph& graph, std::span<const Index> label, Index v) {
+    return std::ranges::any_of(graph.row(v), [&](Index u) { return label[u] == no_index; });
+}
+
+void look_at(std::size_t block, const VertexLabels& labels, const Graph& graph, const Components& components,
+             HeldBlock& found) {
+    found.parts.clear();
+    found.borders.clear();
+    const std::size_t begin = block * rows_in_block, end = std::min(graph.size(), begin + rows_in_block);
+    for_each_held(labels, begin, end, [&](Index v) {
+        const HeldPart part{labels.label[v], components.component[v]};
+        if (found.parts.empty() || found.parts.back() != part) found.parts.push_back(part);
+        if (touches_free(graph, labels.label, v)) found.borders.push_back({labels.label[v], v});
+    });
+    std::ranges::sort(found.parts);
+    found.parts.erase(std::unique(found.parts.begin(), found.parts.end()), found.parts.end());
+}
+
+} // namespace
+
+void find_held(const VertexLabels& labels, std::span<const std::uint8_t> changed, const Graph& graph,
+               const Components& components, Workers& workers, std::vector<HeldBlock>& blocks) {
+    const std::vector<std::uint8_t> marks =
+        blocks.empty() ? std::vector<std::uint8_t>(changed.size(), 1) : near_changed(changed, graph, workers);
+    blocks.resize(changed.size());
+    workers.for_each(blocks.size(), blocks_at_once, [&](std::size_t block) {
+        if (marks[block]) look_at(block, labels, graph, components, blocks[block]);
+    });
+}
+
+} // namespace knead

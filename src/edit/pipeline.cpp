@@ -162,16 +162,14 @@ void Pipeline::prepare_samples(Progress& progress) {
     row_ends_.clear();
     from_handles_.clear(); // before the next are made
     nearest_ = {};
-    territory_ = {};
+    territories_ = {};
     rows_of_base_.clear();
-    base_borders_.clear();
     if (!every_point_) {
         nearest_ = flood(*graph_, link_lengths_, samples_, workers_, progress);
         changed_rows_.assign(blocks_of_rows(nearest_.size()), 1);
         row_ends_.resize(changed_rows_.size());
-        territory_ = territory_rows(nearest_, workers_);
         rows_of_base_ = rows_at(nearest_, samples_);
-        base_borders_ = territory_borders(territory_, *graph_, workers_);
+        territories_ = territories_of_base(nearest_, *graph_, workers_);
     } else {
         sample_graph_ = sample_graph_of_all(with_solid_links(*graph_, vertex_positions(), workers_));
     }

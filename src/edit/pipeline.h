@@ -31,6 +31,7 @@
 #include "edit/falloffs.h"
 #include "edit/handle_demand.h"
 #include "edit/handles.h"
+#include "graph/changing_territories.h"
 #include "graph/neighbors.h"
 #include "graph/point_order.h"
 #include "graph/sampling.h"
@@ -159,7 +160,7 @@ private:
     void prepare_bridges(Progress& progress);
     void prepare_samples(Progress& progress);
     void prepare_handles(Progress& progress);
-    std::vector<TerritoryBorder> borders_with(std::span<const Index> added, Progress& progress);
+    std::vector<std::vector<FloodStart>> added_by_handles() const;
     bool turns_freely(Index label) const;
     Index first_handle_number() const;
     std::vector<FloodStart> handle_starts(std::span<const BorderVertex> borders) const;
@@ -206,14 +207,12 @@ private:
     bool every_point_ = false;
     std::vector<Index> samples_;
     std::size_t base_samples_ = 0;
-    InfluenceRows nearest_;                  // of each vertex; empty if every point is a sample
-    std::vector<StartsFlood> from_handles_;  // that are in these
-    std::vector<Index> row_ends_;            // of blocks of rows: find_row_ends()
-    std::vector<std::uint8_t> changed_rows_; // since those were found
-    // Of the base samples alone: the first places of the rows, the rows of the samples, and their borders.
-    TerritoryRows territory_;
-    std::vector<WideRow> rows_of_base_;
-    std::vector<TerritoryBorder> base_borders_;
+    InfluenceRows nearest_; // of each vertex; empty if every point is a sample
+    std::vector<StartsFlood<influences_per_row>> from_handles_; // that are in these
+    std::vector<Index> row_ends_;                               // of blocks of rows: find_row_ends()
+    std::vector<std::uint8_t> changed_rows_;                    // since those were found
+    std::vector<WideRow> rows_of_base_; // of the base samples, in the flood from them alone
+    ChangingTerritories territories_;
 
     HandleLabels labels_;
     std::vector<HeldBlock> held_blocks_; // of those

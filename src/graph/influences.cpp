@@ -4,13 +4,6 @@
 
 namespace knead {
 
-std::vector<WideRow> rows_at(const InfluenceRows& rows, std::span<const Index> vertices) {
-    std::vector<WideRow> result;
-    result.reserve(vertices.size());
-    for (const Index v : vertices) result.push_back(rows[v]);
-    return result;
-}
-
 Influence influence_of(const InfluenceRows& rows, InfluenceWeights weights, Index number) {
     Influence result{};
     if (number >= rows.size()) {

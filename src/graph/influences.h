@@ -94,7 +94,14 @@ void widen(NearestRows<places>& nearest) {
 }
 
 // Those of these vertices, as wide ones.
-std::vector<WideRow> rows_at(const InfluenceRows& rows, std::span<const Index> vertices);
+template<std::size_t places>
+std::vector<SampleRow<Index, places>> rows_at(const NearestRows<places>& nearest,
+                                              std::span<const Index> vertices) {
+    std::vector<SampleRow<Index, places>> rows;
+    rows.reserve(vertices.size());
+    for (const Index v : vertices) rows.push_back(nearest[v]);
+    return rows;
+}
 
 // How a sample's weight falls with its distance d from the point.
 enum class InfluenceWeights {

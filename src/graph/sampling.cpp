@@ -5,6 +5,7 @@
 #include "graph/symmetric_graph.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -30,13 +31,36 @@ Held all_of(std::span<const HeldBlock> blocks) {
     return all;
 }
 
-// How many territories of base samples these vertices belong to; what no base sample reaches counts as one.
-std::size_t territories_of(std::span<const Index> vertices, const TerritoryRows& nearest) {
-    std::vector<Index> samples;
-    samples.reserve(vertices.size());
-    for (const Index v : vertices) samples.push_back(nearest[v].sample[0]);
-    std::ranges::sort(samples);
-    return static_cast<std::size_t>(std::unique(samples.begin(), samples.end()) - samples.begin());
+// Of a border, what may become samples.
+struct Border {
+    std::vector<Index> vertices;    // ascending
+    std::vector<Index> territories; // the base samples that are nearest to them, no_index where none is near
+};
+
+// Those of the labels, without vertices that are taken.
+std::map<Index, Border> open_borders(std::span<const BorderVertex> borders, const std::vector<bool>& taken,
+                                     const ChangingTerritories& nearest, Workers& workers) {
+    std::vector<BorderVertex> open;
+    std::ranges::copy_if(borders, std::back_inserter(open),
+                         [&](const BorderVertex& each) { return !taken[each.vertex]; });
+    std::vector<Index> vertices(open.size());
+    std::ranges::transform(open, vertices.begin(), &BorderVertex::vertex);
+    const std::vector<Index> samples = nearest_of_base(nearest, vertices, workers);
+    std::map<Index, Border> result;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        Border& border = result[open[i].label];
+        border.vertices.push_back(open[i].vertex);
+        border.territories.push_back(samples[i]);
+    }
+    return result;
+}
+
+// How many samples a border needs.
+std::size_t needed_by(const Border& border) {
+    std::vector<Index> territories = border.territories;
+    std::ranges::sort(territories);
+    const auto count = std::unique(territories.begin(), territories.end()) - territories.begin();
+    return std::min(border.vertices.size(), samples_a_territory * static_cast<std::size_t>(count));
 }
 
 // One to each border that got none, from those that got most, as long as these have some to spare.
@@ -52,13 +76,10 @@ void leave_none_out(std::map<Index, std::size_t>& share) {
 }
 
 // How many samples the border of each label gets.
-std::map<Index, std::size_t> shares(const std::map<Index, std::vector<Index>>& borders,
-                                    const TerritoryRows& nearest, std::size_t budget) {
+std::map<Index, std::size_t> shares(const std::map<Index, Border>& borders, std::size_t budget) {
     std::map<Index, std::size_t> share;
     std::size_t wanted = 0;
-    for (const auto& [label, vertices] : borders)
-        wanted += share[label] =
-            std::min(vertices.size(), samples_a_territory * territories_of(vertices, nearest));
+    for (const auto& [label, border] : borders) wanted += share[label] = needed_by(border);
     if (wanted <= budget) return share;
     std::size_t before = 0; // of what is wanted
     for (auto& [label, count] : share) {
@@ -134,8 +155,8 @@ std::vector<Index> nearest_others(const WideRow& row, Index sample, std::span<co
 
 HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& labels,
                              std::span<const HeldBlock> held, std::span<const Index> base,
-                             const TerritoryRows& nearest, std::size_t budget) {
-    require(nearest.size() == labels.label.size(), "a row and a label a vertex");
+                             const ChangingTerritories& nearest, std::size_t budget, Workers& workers) {
+    require(nearest.nearest.size() == labels.label.size(), "a row and a label a vertex");
     const auto part_of = [&](Index v) { return HeldPart{labels.label[v], shape.components.component[v]}; };
     auto [borders, parts] = all_of(held);
     std::vector<bool> taken(labels.label.size(), false);
@@ -143,17 +164,17 @@ HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& label
         taken[v] = true;
         parts.erase(part_of(v));
     }
-    std::map<Index, std::vector<Index>> border; // by label, ascending within each
-    for (const auto& [handle, v] : borders)
-        if (!taken[v]) border[handle].push_back(v);
-    const std::map<Index, std::size_t> share = shares(border, nearest, budget);
+    const std::map<Index, Border> open = open_borders(borders, taken, nearest, workers);
+    const std::map<Index, std::size_t> share = shares(open, budget);
     std::vector<Index> added;
-    for (const auto& [handle, vertices] : border)
-        for (const Index v : octree_samples(shape.code, shape.positions, vertices, share.at(handle))) {
+    for (const auto& [label, border] : open)
+        for (const Index v : octree_samples(shape.code, shape.positions, border.vertices, share.at(label))) {
             added.push_back(v);
             parts.erase(part_of(v));
         }
     for (const Index v : one_of_each(parts, shape, labels)) added.push_back(v);
+    added = shuffled(std::move(added));
+    std::ranges::stable_sort(added, {}, [&](Index v) { return labels.label[v]; });
     return {std::move(added), std::move(borders)};
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 // The samples of a cloud, the graph between them, and which of them move a point.
 
+#include "graph/changing_territories.h"
 #include "graph/flood.h"
 #include "graph/held_blocks.h"
 #include "graph/neighbors.h"
-#include "graph/territory_borders.h"
 
 #include <span>
 #include <utility>
@@ -22,7 +22,8 @@ struct VertexShape {
 
 // What a set of handles needs beside the base samples.
 struct HandleSamples {
-    std::vector<Index> added;          // vertices that hold no base sample, pairwise different
+    std::vector<Index> added;          // vertices that hold no base sample, all different, ascending by
+                                       // label, and in no order within each
     std::vector<BorderVertex> borders; // all of them, ascending by (label, vertex)
 };
 
@@ -32,11 +33,10 @@ struct HandleSamples {
 //     Where this is more than `budget` in all, the borders share that by it, and none is left out while
 //     another has two.
 //   - Every label owns at least one sample in every component that it reaches into, budget or not.
-// `held`: find_held() of all these; `base`: vertices, in any order; `nearest`: the flood from them, a row a
-// vertex, and nothing added to it.
+// `held`: find_held() of all these; `base`: vertices, in any order; `nearest`: their territories.
 HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& labels,
                              std::span<const HeldBlock> held, std::span<const Index> base,
-                             const TerritoryRows& nearest, std::size_t budget);
+                             const ChangingTerritories& nearest, std::size_t budget, Workers& workers);
 
 // The graph between samples, and how long a border the territories of two linked ones share.
 struct SampleGraph {

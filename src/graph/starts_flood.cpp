@@ -24,7 +24,7 @@ void mark(const FloodPatch& patch, std::span<std::uint8_t> changed) {
 
 } // namespace
 
-void change_starts(std::vector<StartsFlood>& floods, std::span<const FloodStart> starts,
+void change_starts(std::vector<StartsFlood<influences_per_row>>& floods, std::span<const FloodStart> starts,
                    InfluenceRows& nearest, std::span<std::uint8_t> changed, const Graph& graph,
                    std::span<const std::uint8_t> lengths, Workers& workers, Progress& progress) {
     require(changed.size() == blocks_of_rows(nearest.size()), "a byte a block of rows");
@@ -50,9 +50,11 @@ void change_starts(std::vector<StartsFlood>& floods, std::span<const FloodStart>
     }
 }
 
-std::vector<WideRow> rows_without(std::span<const StartsFlood> floods, const InfluenceRows& nearest,
-                                  std::span<const Index> vertices, Workers& workers) {
-    std::vector<WideRow> rows = rows_at(nearest, vertices);
+template<std::size_t places>
+std::vector<SampleRow<Index, places>> rows_without(std::span<const StartsFlood<places>> floods,
+                                                   const NearestRows<places>& nearest,
+                                                   std::span<const Index> vertices, Workers& workers) {
+    std::vector<SampleRow<Index, places>> rows = rows_at(nearest, vertices);
     Paged<Index> place(nearest.size(), no_index);
     for (Index at = 0; at < vertices.size(); ++at) {
         place.make_room(vertices[at]);
@@ -69,5 +71,12 @@ std::vector<WideRow> rows_without(std::span<const StartsFlood> floods, const Inf
         std::visit(before, flood->patch.blocks);
     return rows;
 }
+
+template std::vector<WideRow> rows_without(std::span<const StartsFlood<influences_per_row>> floods,
+                                           const NearestRows<influences_per_row>& nearest,
+                                           std::span<const Index> vertices, Workers& workers);
+template std::vector<SampleRow<Index, 1>> rows_without(std::span<const StartsFlood<1>> floods,
+                                                       const NearestRows<1>& nearest,
+                                                       std::span<const Index> vertices, Workers& workers);
 
 } // namespace knead

@@ -9,9 +9,10 @@
 namespace knead {
 
 // What the flood from some starts changed.
+template<std::size_t places>
 struct StartsFlood {
     std::vector<FloodStart> starts;
-    FloodPatch patch;
+    RowPatch<places> patch;
 };
 
 // Brings rows from the starts that `floods` hold, one flood upon the other, to those of `starts`, and
@@ -20,12 +21,14 @@ struct StartsFlood {
 // on, so that whoever changes the end again changes little. `changed`: a byte a block of rows
 // (blocks_of_rows()), set to 1 where any of them may be another one afterwards. A flood that is cancelled
 // leaves `nearest` good for nothing.
-void change_starts(std::vector<StartsFlood>& floods, std::span<const FloodStart> starts,
+void change_starts(std::vector<StartsFlood<influences_per_row>>& floods, std::span<const FloodStart> starts,
                    InfluenceRows& nearest, std::span<std::uint8_t> changed, const Graph& graph,
                    std::span<const std::uint8_t> lengths, Workers& workers, Progress& progress);
 
 // The rows of these vertices, which are different, as they would be without any of the floods.
-std::vector<WideRow> rows_without(std::span<const StartsFlood> floods, const InfluenceRows& nearest,
-                                  std::span<const Index> vertices, Workers& workers);
+template<std::size_t places>
+std::vector<SampleRow<Index, places>> rows_without(std::span<const StartsFlood<places>> floods,
+                                                   const NearestRows<places>& nearest,
+                                                   std::span<const Index> vertices, Workers& workers);
 
 } // namespace knead

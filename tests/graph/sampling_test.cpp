@@ -21,7 +21,7 @@ std::vector<Index> handle_samples_of(const Cloud& cloud, std::span<const Index> 
     std::vector<HeldBlock> blocks;
     find_held({label, held}, held, cloud.graph, cloud.components, machine.workers, blocks);
     return handle_samples(cloud.shape(), {label, held}, blocks, base,
-                          territory_rows(nearest, machine.workers), budget)
+                          territories_of_base(nearest, cloud.graph, machine.workers), budget, machine.workers)
         .added;
 }
 

@@ -33,7 +33,7 @@ struct Changing {
     const Cloud& cloud;
     InfluenceRows base;
     InfluenceRows rows = base;
-    std::vector<StartsFlood> floods;
+    std::vector<StartsFlood<influences_per_row>> floods;
     Machine machine;
 
     Changing(const Cloud& flooded_cloud, const std::vector<Index>& samples)
@@ -54,7 +54,8 @@ struct Changing {
             ASSERT_TRUE(same || changed[v / rows_in_block] == 1) << v;
         }
         const std::vector<Index> some = test::random_vertices(rows.size(), 500, 4);
-        const std::vector<WideRow> without = rows_without(floods, rows, some, machine.workers);
+        const std::vector<WideRow> without =
+            rows_without<influences_per_row>(floods, rows, some, machine.workers);
         for (std::size_t i = 0; i < some.size(); ++i) {
             ASSERT_EQ(without[i].sample, base[some[i]].sample);
             ASSERT_EQ(without[i].distance, base[some[i]].distance);
@@ -67,7 +68,7 @@ struct Changing {
     // Of each flood, how many starts.
     std::vector<std::size_t> sizes() const {
         std::vector<std::size_t> sizes;
-        for (const StartsFlood& flood : floods) sizes.push_back(flood.starts.size());
+        for (const auto& flood : floods) sizes.push_back(flood.starts.size());
         return sizes;
     }
 };

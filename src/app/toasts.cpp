@@ -91,8 +91,10 @@ Drawn draw_toast(const Ui& ui, const Toast& toast, int number, ImVec2 corner) {
 void add_toast(UiState& state, Notice notice) {
     // The same again only begins its time anew.
     std::erase_if(state.toasts, [&](const Toast& old) {
-        return old.notice.kind == notice.kind && old.notice.words == notice.words;
+        const bool is_outdated = notice.about != Notice::About::itself && old.notice.about == notice.about;
+        return is_outdated || (old.notice.kind == notice.kind && old.notice.words == notice.words);
     });
+    if (notice.words.empty()) return;
     const double seconds = reading_time(notice);
     state.toasts.push_back({std::move(notice), seconds, 0});
     while (state.toasts.size() > most) state.toasts.pop_front();

@@ -24,7 +24,7 @@ Vec3d to_eigen(const glm::dvec3& v) {
 }
 
 void say(Editor& editor, Notice::Kind kind, std::string words) {
-    editor.notices.push_back({kind, std::move(words)});
+    editor.notices.push_back({.kind = kind, .words = std::move(words)});
 }
 
 bool needs_document(Editor& editor) {

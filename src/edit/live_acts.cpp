@@ -56,6 +56,7 @@ void LiveWork::carry_out(task::Lines& lines) {
     ahead_ = may_choose_ = true;
     // New settings show at once on a pose that stands; nothing else leaves one.
     converge_ = document_->is_posed();
+    if (!converge_) publisher_.demand({});
     show_document();
 }
 
@@ -105,6 +106,7 @@ void LiveWork::redo_act() {
 // After going back or forth; where that goes on at once, only the last shape is made.
 void LiveWork::show_where_it_rests() {
     ahead_ = true; // other samples, perhaps
+    publisher_.demand({});
     const bool goes_on = shared_.with([](const LiveShared& s) {
         return !s.inbox.empty() && (std::holds_alternative<task::Undo>(s.inbox.front()) ||
                                     std::holds_alternative<task::Redo>(s.inbox.front()));

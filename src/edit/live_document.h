@@ -78,7 +78,9 @@ void changed_since(std::uint64_t version, const PosedFrame& frame, std::vector<P
 // What the user should hear.
 struct Notice {
     enum class Kind { information, warning, error } kind = Kind::information;
-    std::string words;
+    std::string words; // empty: what was said about this before holds no longer
+    // One about the shape takes the place of what was said about the same before.
+    enum class About { itself, demand, strays } about = About::itself;
 };
 
 // Everything that stays of the opened cloud; views into the live document, valid as long as it lives.

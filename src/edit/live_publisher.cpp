@@ -8,7 +8,7 @@
 namespace knead {
 
 void LivePublisher::say(Notice::Kind kind, const std::string& words) {
-    shared_.with([&](LiveShared& s) { s.notices.push_back({kind, words}); });
+    shared_.with([&](LiveShared& s) { s.notices.push_back({.kind = kind, .words = words}); });
 }
 
 void LivePublisher::refuse(StepNumber step) {
@@ -89,17 +89,22 @@ void LivePublisher::view(const Document& document, const LiveRecording& recordin
     });
 }
 
+void LivePublisher::tell(Notice::About about, std::string words, std::string& told) {
+    if (words == told) return;
+    told = words;
+    if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+    if (!words.empty()) words += '.';
+    shared_.with([&](LiveShared& s) {
+        s.notices.push_back({Notice::Kind::information, std::move(words), about});
+    });
+}
+
 void LivePublisher::strays(const Pipeline::Strays& strays) {
-    const std::string words = words_about(strays);
-    if (!words.empty() && words != told_of_strays_) say(Notice::Kind::information, words);
-    told_of_strays_ = words;
+    tell(Notice::About::strays, words_about(strays), told_of_strays_);
 }
 
 void LivePublisher::demand(const HandleDemand& demand) {
-    std::string words = words_about_demand(demand);
-    if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
-    if (!words.empty() && told_of_demand_.empty()) say(Notice::Kind::information, words + ".");
-    told_of_demand_ = words;
+    tell(Notice::About::demand, words_about_demand(demand), told_of_demand_);
 }
 
 void LivePublisher::note_spacings(const Pipeline& pipeline) {

@@ -33,9 +33,10 @@ public:
     };
     void view(const Document& document, const LiveRecording& recording, const ViewFacts& facts);
 
-    // Parts that follow no handle, once for every change.
+    // Parts that follow no handle, and handles that ask for too much: said once for every change, and taken
+    // back where it is no longer so.
     void strays(const Pipeline::Strays& strays);
-    void demand(const HandleDemand& demand); // says so where the handles ask for too much
+    void demand(const HandleDemand& demand);
 
 private:
     void note_changes(const RestShape& shape, const Pipeline& pipeline);
@@ -50,6 +51,7 @@ private:
     std::vector<std::uint64_t> changed_in_; // of each block of points, the frame
     // Which of the pipeline's the last frame shows; 0: it shows another shape.
     std::uint64_t shown_upsampling_ = 0;
+    void tell(Notice::About about, std::string words, std::string& told);
     std::string told_of_strays_, told_of_demand_;
     // Copies for the window, which may look at them while the pipeline makes others.
     std::uint64_t samples_seen_ = 0;

@@ -245,7 +245,7 @@ void run_live_document(OpenRequest request, Locked<LiveShared>& shared) {
     const auto fail = [&](const std::string& words) {
         shared.with([&](LiveShared& s) {
             s.status.stage = Stage::failed;
-            if (!words.empty()) s.notices.push_back({Notice::Kind::error, words});
+            if (!words.empty()) s.notices.push_back({.kind = Notice::Kind::error, .words = words});
         });
     };
     try {

@@ -274,6 +274,33 @@ TEST_F(LiveBar, AnAbsurdPoseIsRefusedAndTheDragGoesOn) {
     expect_replay_makes_the_same();
 }
 
+TEST_F(LiveBar, SaysWhatHandlesAskForAsLongAsTheyDo) {
+    const auto said = [&] { // about what handles ask for, from oldest to newest
+        std::vector<std::string> words;
+        for (const Notice& notice : live_->take_notices())
+            if (notice.about == Notice::About::demand) words.push_back(notice.words);
+        return words;
+    };
+    Transform lift;
+    lift.shift = {0, 0, 12};
+    drag({lift});
+    const std::vector<std::string> once = said();
+    ASSERT_EQ(once.size(), 1U);
+    EXPECT_NE(once[0].find("pull the cloud"), std::string::npos) << once[0];
+    drag({lift}); // as far again
+    const std::vector<std::string> twice = said();
+    ASSERT_EQ(twice.size(), 1U);
+    EXPECT_NE(twice[0], once[0]);
+    live_->undo(step_);
+    settle_down();
+    EXPECT_EQ(said(), std::vector<std::string>{""});
+    drag({lift});
+    EXPECT_EQ(said(), twice) << "again, after it was undone";
+    lift.shift = {0, 0, -24};
+    drag({lift});
+    EXPECT_EQ(said(), std::vector<std::string>{""});
+}
+
 TEST_F(LiveBar, AFolderThatCannotBeWrittenLosesTheJournalAndNothingElse) {
     OpenRequest request = request_for(bar_file(folder_));
     request.journal_folder = "/proc/nowhere";

@@ -5,6 +5,8 @@
 
 #include "app/ui.h"
 #include "app/widgets.h"
+#include "base/error.h"
+#include "base/whole_file.h"
 #include "io/cloud_file.h"
 
 #include <imgui_stdlib.h>
@@ -53,6 +55,21 @@ std::string date_words(std::filesystem::file_time_type when) {
     return text;
 }
 
+// Whether a file can be saved there; if not, `trouble` says why, and the name stays to be mended.
+bool can_save(FileBrowser& browser, const std::filesystem::path& file) {
+    try {
+        if (browser.purpose == BrowseFor::save_cloud)
+            refuse_bad_target(file);
+        else
+            const FileInTheMaking probe(file);
+        return true;
+    } catch (const Error& error) {
+        browser.trouble = error.what();
+        browser.focus_name = true;
+        return false;
+    }
+}
+
 void choose(const Ui& ui) {
     FileBrowser& browser = ui.state.browser;
     if (browser.typed.empty()) return;
@@ -71,8 +88,11 @@ void choose(const Ui& ui) {
             ui.wish(WishOpen{file});
         else
             ui.wish(WishTakeHandles{file});
-    } else
+    } else {
+        if (!can_save(browser, file)) return;
         ui.wish(WishSaveTo{browser.purpose, file, true, browser.columns});
+    }
+    browser.folder = file.parent_path(); // where the next one begins
     ImGui::CloseCurrentPopup();
 }
 

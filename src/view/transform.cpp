@@ -357,6 +357,12 @@ std::string typed_text(const TransformDrag& drag) {
     return "[" + drag.typed + "]";
 }
 
+// With what a factor comes to that is too small to be taken.
+std::string typed_factor_text(const TransformDrag& drag) {
+    const bool is_less = typed_number(drag).value_or(1) < least_factor;
+    return typed_text(drag) + (is_less ? " is " + number(least_factor, 2) : "");
+}
+
 // Lengths are told to a hundredth of the grid, each with the letter of its axis.
 std::string lengths_text(const TransformDrag& drag) {
     const int decimals =
@@ -387,7 +393,7 @@ std::string amount_text(const TransformDrag& drag) {
     case TransformKind::scale:
         break;
     }
-    return "S  × " + (is_typed ? typed_text(drag) : number(factor_of(drag), 2)) +
+    return "S  × " + (is_typed ? typed_factor_text(drag) : number(factor_of(drag), 2)) +
            constraint_words(drag, "along");
 }
 

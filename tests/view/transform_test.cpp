@@ -402,6 +402,10 @@ TEST(AmountText, SaysWhatWasDone) {
     EXPECT_EQ(amount_text(size.drag), "S  × 1.30");
     size.constrain(2, true);
     EXPECT_EQ(amount_text(size.drag), "S  × 1.30  in world XY");
+    size.type("0");
+    EXPECT_EQ(amount_text(size.drag), "S  × [0] is 0.01  in world XY");
+    size.type(".5");
+    EXPECT_EQ(amount_text(size.drag), "S  × [0.5]  in world XY");
     Scene shift(TransformKind::translate);
     shift.drag.snap = true;
     shift.move({600, 300});

@@ -206,6 +206,24 @@ TEST_F(WindowTest, AsksBeforeItOverwritesWhatSomebodyElseSaved) {
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
 }
 
+TEST_F(WindowTest, ANameThatCannotBeSavedStaysToBeMended) {
+    open_cat();
+    make_handles();
+    desktop_->keys({"ctrl+s"});
+    pause(1);
+    desktop_->type((folder_ / "missing" / "kept.knead").string());
+    desktop_->keys({"Return"});
+    pause(1);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "missing"));
+    std::filesystem::create_directory(folder_ / "missing");
+    desktop_->keys({"Return"}); // the dialog is still there, and the name in it
+    ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(folder_ / "missing" / "kept.knead"); }));
+    pause(0.3);
+    EXPECT_EQ(read_session(folder_ / "missing" / "kept.knead").lines.size(), 2U);
+    desktop_->keys({"ctrl+q"});
+    EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+}
+
 TEST_F(WindowTest, SaysWhyAFileCannotBeOpenedAndStaysUsable) {
     editor_ = desktop_->open_editor({(folder_ / "nothing.ply").string()});
     ASSERT_TRUE(desktop_->wait_for_title("knead"));

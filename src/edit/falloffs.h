@@ -18,9 +18,10 @@ struct Pulled {
     double falloff = 0;
 };
 
-// Who is pulled by whom. `labels`: the handle of each vertex; `samples`: the vertex of each sample; `positions`: 3 floats a vertex; `cloud_size`: in their unit. Held samples are not pulled. A
-// handle that is smaller than 3 % of the cloud has a falloff of up to 6 % whatever its own is: a surface
-// cannot carry a point, and what pulls at one draws out a spike, the sharper the more samples there are.
+// Who is pulled by whom. `labels`: the handle of each vertex; `samples`: the vertex of each sample;
+// `positions`: 3 floats a vertex; `cloud_size`: in their unit. Held samples are not pulled. A handle that is
+// smaller than 3 % of the cloud has a falloff of up to 6 % whatever its own is: a surface cannot carry a
+// point, and what pulls at one draws out a spike, the sharper the more samples there are.
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, const VertexLabels& labels,
                                    std::span<const Index> samples, const Graph& graph,
                                    std::span<const float> positions, double cloud_size, Workers& workers);

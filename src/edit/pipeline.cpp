@@ -126,8 +126,9 @@ void Pipeline::prepare_bridges(Progress& progress) {
     const Stopwatch clock;
     graph_ = neighbors_;
     hanging_.clear();
-    labels_ = {};
+    labels_ = {}; // and who knew the former ones begins anew
     held_blocks_.clear();
+    mover_numbers_ = {};
     std::optional<JoinedGraph> joined =
         input_.settings.strays == knead::Strays::bridge
             ? bridged(*neighbors_, vertex_positions(), workers_, progress)

@@ -9,19 +9,31 @@ namespace {
 
 using namespace test;
 
-// Two surfaces apart, and in the second some points twice.
-PointCloud two_shapes() {
+constexpr Index twins = 600; // so many points, the first ones, have a second at their place
+
+std::vector<float> shape_of(Shape shape, std::size_t points) {
     Workers workers(2);
     SilentProgress progress;
     ShapeOptions options;
-    options.points = 4000;
-    std::vector<float> positions = make_shape(Shape::creature, options, workers, progress).positions;
-    options.points = 900;
-    const std::vector<float> second = make_shape(Shape::sphere, options, workers, progress).positions;
+    options.points = points;
+    return make_shape(shape, options, workers, progress).positions;
+}
+
+// One surface, which every handle holds a part of.
+PointCloud one_shape() {
+    std::vector<float> positions = shape_of(Shape::creature, 4000);
+    positions.insert(positions.end(), positions.begin(), positions.begin() + twins);
+    return make_cloud(positions);
+}
+
+// Two surfaces apart, and in the second some points twice.
+PointCloud two_shapes() {
+    std::vector<float> positions = shape_of(Shape::creature, 4000);
+    const std::vector<float> second = shape_of(Shape::sphere, 900);
     for (std::size_t i = 0; i < second.size(); ++i)
         positions.push_back(second[i] + (i % 3 == 0 ? 9.0F : 0.0F));
     positions.insert(positions.end(), second.begin(), second.begin() + 300); // inside the creature
-    positions.insert(positions.end(), positions.begin(), positions.begin() + 600);
+    positions.insert(positions.end(), positions.begin(), positions.begin() + twins);
     return make_cloud(positions);
 }
 
@@ -31,7 +43,7 @@ Handle random_handle(const PointCloud& cloud, std::mt19937& random) {
     };
     const Vec3d center = point_at(cloud.positions, any(cloud.size()));
     const double radius = std::array{0.0, 0.2, 0.7, 2.0}.at(any(4));
-    const Index first = any(3) == 0 ? 600 : 0; // without one of two that are at the same place
+    const Index first = any(3) == 0 ? twins : 0; // without one of two that are at the same place
     std::vector<Index> points;
     for (Index i = first; i < cloud.size(); ++i)
         if ((point_at(cloud.positions, i) - center).norm() <= radius) points.push_back(i);
@@ -93,20 +105,22 @@ void expect_same(Pipeline& changed, Pipeline& fresh, std::size_t handles) {
     EXPECT_EQ(posed(changed, handles).positions, posed(fresh, handles).positions);
 }
 
-// One surface, which every handle holds a part of.
-PointCloud one_shape() {
-    Workers workers(2);
+void expect_as_from_the_start(Pipeline& changed, const PointCloud& cloud, const PipelineInput& input,
+                              Workers& workers) {
     SilentProgress progress;
-    ShapeOptions options;
-    options.points = 4000;
-    std::vector<float> positions = make_shape(Shape::creature, options, workers, progress).positions;
-    positions.insert(positions.end(), positions.begin(), positions.begin() + 600);
-    return make_cloud(positions);
+    changed.prepare(input, progress);
+    const auto upsampler = make_reference_upsampler(workers);
+    Pipeline fresh(cloud, workers, *upsampler);
+    fresh.prepare(input, progress);
+    expect_same(changed, fresh, input.handles.size());
+}
+
+Strays other_than(Strays strays) {
+    return strays == Strays::bridge ? Strays::carry : Strays::bridge;
 }
 
 void expect_nothing_left_behind(const PointCloud& cloud, std::size_t handles, Strays strays) {
     Workers workers(2);
-    SilentProgress progress;
     const auto upsampler = make_reference_upsampler(workers);
     Pipeline pipeline(cloud, workers, *upsampler);
     PipelineInput input;
@@ -120,11 +134,9 @@ void expect_nothing_left_behind(const PointCloud& cloud, std::size_t handles, St
         if (step == 15) input.settings.samples = 500;
         if (step == 18) input.settings.samples.reset();
         if (step == 20) input.settings.samples = 400;
-        pipeline.prepare(input, progress);
-        const auto second = make_reference_upsampler(workers);
-        Pipeline fresh(cloud, workers, *second);
-        fresh.prepare(input, progress);
-        expect_same(pipeline, fresh, input.handles.size());
+        if (step % 6 == 5)
+            input.settings.strays = input.settings.strays == strays ? other_than(strays) : strays;
+        expect_as_from_the_start(pipeline, cloud, input, workers);
     }
 }
 
@@ -138,33 +150,49 @@ TEST_P(HandleChanges, LeaveNothingBehindWhereEveryPartIsHeld) {
     expect_nothing_left_behind(one_shape(), 9, GetParam()); // so many that some share a flood
 }
 
+// What is so far from the first point.
+Handle between(double nearest, double farthest, const PointCloud& cloud, Index first = 0) {
+    std::vector<Index> points;
+    for (Index i = first; i < cloud.size(); ++i) {
+        const double distance = (point_at(cloud.positions, i) - point_at(cloud.positions, 0)).norm();
+        if (nearest <= distance && distance <= farthest) points.push_back(i);
+    }
+    EXPECT_FALSE(points.empty());
+    Handle handle;
+    handle.points = std::make_shared<const std::vector<Index>>(std::move(points));
+    return handle;
+}
+
+class TwoHandles : public testing::Test {
+protected:
+    TwoHandles() {
+        input_.settings.samples = 300;
+        input_.handles = {between(0, 0.4, cloud_, twins), between(2, 99, cloud_)}; // the first without twins
+    }
+
+    void expect_as_from_the_start() { knead::expect_as_from_the_start(pipeline_, cloud_, input_, workers_); }
+
+    Workers workers_{2};
+    const std::unique_ptr<Upsampler> upsampler_ = make_reference_upsampler(workers_);
+    const PointCloud cloud_ = one_shape();
+    Pipeline pipeline_{cloud_, workers_, *upsampler_};
+    PipelineInput input_;
+};
+
 // Points at the place of held ones follow the handle, or the cloud where it leaves rotation free.
-TEST(HandleChange, OfFreeRotationReachesTwins) {
-    const PointCloud cloud = one_shape();
-    std::array<std::vector<Index>, 2> held; // the first without twins
-    for (Index i = 0; i < cloud.size(); ++i) {
-        const Vec3d p = point_at(cloud.positions, i);
-        if ((p - point_at(cloud.positions, 0)).norm() <= 0.4 && i >= 600) held[0].push_back(i);
-        if ((p - point_at(cloud.positions, 0)).norm() >= 2) held[1].push_back(i);
-    }
-    Workers workers(2);
-    SilentProgress progress;
-    const auto upsampler = make_reference_upsampler(workers);
-    Pipeline pipeline(cloud, workers, *upsampler);
-    PipelineInput input;
-    input.settings.samples = 300;
-    for (std::vector<Index>& points : held) {
-        ASSERT_FALSE(points.empty());
-        input.handles.emplace_back().points = std::make_shared<const std::vector<Index>>(std::move(points));
-    }
+TEST_F(TwoHandles, FreeRotationReachesTwins) {
     for (const bool free_rotation : {false, true, false}) {
-        input.handles[0].free_rotation = free_rotation;
-        pipeline.prepare(input, progress);
-        const auto second = make_reference_upsampler(workers);
-        Pipeline fresh(cloud, workers, *second);
-        fresh.prepare(input, progress);
-        expect_same(pipeline, fresh, input.handles.size());
+        input_.handles[0].free_rotation = free_rotation;
+        expect_as_from_the_start();
     }
+}
+
+TEST_F(TwoHandles, AThirdGoesTogetherWithASettingOfTheGraph) {
+    input_.handles.push_back(between(0.9, 1.4, cloud_));
+    expect_as_from_the_start();
+    input_.handles.pop_back();
+    input_.settings.strays = Strays::bridge;
+    expect_as_from_the_start();
 }
 
 INSTANTIATE_TEST_SUITE_P(Pipeline, HandleChanges,

@@ -186,7 +186,7 @@ HandlePose pose_of(const HandleMotion& motion, const Vec3d& pivot, const Vec3d& 
         throw Error(Trouble::usage, "", "a handle cannot be mirrored or flattened");
     HandlePose pose;
     pose.rotate = motion.rotation;
-    const Vec3d scale = split.eigenvalues();
+    const Vec3d& scale = split.eigenvalues();
     if ((scale - Vec3d::Ones()).cwiseAbs().maxCoeff() > unit_scale) {
         pose.scale = scale;
         Mat3d axes = split.eigenvectors();

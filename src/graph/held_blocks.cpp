@@ -42,7 +42,7 @@ void look_at(std::size_t block, const VertexLabels& labels, const Graph& graph, 
         if (found.parts.empty() || found.parts.back() != part) found.parts.push_back(part);
         if (touches_free(graph, labels.label, v)) found.borders.push_back({labels.label[v], v});
     });
-    std::ranges::sort(found.parts);
+    std::sort(found.parts.begin(), found.parts.end());
     found.parts.erase(std::unique(found.parts.begin(), found.parts.end()), found.parts.end());
 }
 

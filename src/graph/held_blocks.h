@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace knead {
@@ -17,7 +18,10 @@ namespace knead {
 // A component that a handle reaches into.
 struct HeldPart {
     Index label, component;
-    auto operator<=>(const HeldPart&) const = default;
+    bool operator==(const HeldPart&) const = default;
+    bool operator<(const HeldPart& other) const {
+        return std::pair(label, component) < std::pair(other.label, other.component);
+    }
 };
 
 // A vertex of a handle that has a free neighbour.

@@ -35,7 +35,7 @@ std::vector<HeldBlock> counted(const Cloud& cloud, std::span<const Index> label)
         const auto is_free = [&](Index u) { return label[u] == no_index; };
         if (std::ranges::any_of(cloud.graph.row(v), is_free)) block.borders.push_back({label[v], v});
     }
-    for (HeldBlock& block : blocks) std::ranges::sort(block.parts);
+    for (HeldBlock& block : blocks) std::sort(block.parts.begin(), block.parts.end());
     return blocks;
 }
 

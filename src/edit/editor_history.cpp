@@ -64,7 +64,7 @@ void carry_out(Editor& editor, const UndoStep& command) {
     EditorStep step = std::move(editor.past.back());
     editor.past.pop_back();
     if (step.before) restore_selection(editor, *step.before);
-    if (step.document) editor.live->undo(step.document);
+    if (step.document) editor.live->undo(step.document, command.to_look);
     if (step.choosing_before) choose_samples(editor, *step.choosing_before);
     if (step.chosen_before) choose(editor, *step.chosen_before);
     editor.drag.reset();

@@ -48,7 +48,7 @@ void LiveWork::carry_out(task::Lines& lines) {
         }
     } catch (...) {
         refuse(lines.step);
-        for (; done > 0; --done) take_back_act();
+        for (; done > 0; --done) take_back_act(false);
         show_document();
         throw;
     }
@@ -86,7 +86,7 @@ void LiveWork::carry_out(task::Undo& task) {
     finish_settling();
     may_choose_ = false;
     if (refused_.contains(task.step) || !recording_->can_undo()) return;
-    take_back_step();
+    take_back_step(task.to_look);
     show_where_it_rests();
 }
 
@@ -100,7 +100,7 @@ void LiveWork::carry_out(task::Redo& task) {
 
 void LiveWork::redo_act() {
     document_->redo("");
-    record([&] { recording_->step_forward(RedoLine{}); });
+    record([&] { recording_->step_forward(); });
 }
 
 // After going back or forth; where that goes on at once, only the last shape is made.
@@ -181,16 +181,16 @@ void LiveWork::add_act(const SessionAction& action, bool joins) {
     record([&] { recording_->add(action, joins); });
 }
 
-void LiveWork::take_back_act() {
+void LiveWork::take_back_act(bool to_look) {
     document_->undo("");
-    record([&] { recording_->step_back(UndoLine{}); });
+    record([&] { recording_->step_back(to_look); });
 }
 
-void LiveWork::take_back_step() {
+void LiveWork::take_back_step(bool to_look) {
     bool joins = false;
     do {
         joins = recording_->last_joins();
-        take_back_act();
+        take_back_act(to_look);
     } while (joins);
     converge_ = false; // an undone pose is shown as it was
 }

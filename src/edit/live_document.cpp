@@ -85,8 +85,8 @@ void LiveDocument::reset_pose(StepNumber step, std::string handle) {
     put(*shared_, task::ResetPose{step, std::move(handle)});
 }
 
-void LiveDocument::undo(StepNumber step) {
-    put(*shared_, task::Undo{step});
+void LiveDocument::undo(StepNumber step, bool to_look) {
+    put(*shared_, task::Undo{step, to_look});
 }
 
 void LiveDocument::redo(StepNumber step) {

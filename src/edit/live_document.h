@@ -178,8 +178,8 @@ public:
     void reset_pose(StepNumber step, std::string handle);
 
     // Takes the last step back, or does it again. `step` is its number, so that nothing happens if it was
-    // refused meanwhile.
-    void undo(StepNumber step);
+    // refused meanwhile. `to_look`: the journal has the step as done until something else is recorded.
+    void undo(StepNumber step, bool to_look = false);
     void redo(StepNumber step);
 
     // Does a step again like redo(), but shows the poses that were recorded, 30 a second at a speed of 1, and

@@ -39,10 +39,10 @@ void replay_session(const Session& session, Document& document, LiveRecording& r
         const std::string place = session.place(line.number);
         if (std::holds_alternative<UndoLine>(line.action)) {
             document.undo(place);
-            recording.step_back(UndoLine{});
+            recording.step_back(false);
         } else if (std::holds_alternative<RedoLine>(line.action)) {
             document.redo(place);
-            recording.step_forward(RedoLine{});
+            recording.step_forward();
         } else if (const auto* check = std::get_if<CheckLine>(&line.action)) {
             recording.note(CheckLine{session.resolve(check->positions), check->tolerance});
         } else {

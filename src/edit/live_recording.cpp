@@ -84,16 +84,22 @@ void LiveRecording::note(const SessionAction& line) {
     write_down(line);
 }
 
-void LiveRecording::step_back(const UndoLine& line) {
+void LiveRecording::step_back(bool to_look) {
     future_.push_back(past_.back());
     past_.pop_back();
-    write_down(line);
+    if (to_look)
+        ++looked_back_;
+    else
+        write_down(UndoLine{});
 }
 
-void LiveRecording::step_forward(const RedoLine& line) {
+void LiveRecording::step_forward() {
     past_.push_back(future_.back());
     future_.pop_back();
-    write_down(line);
+    if (looked_back_ > 0)
+        --looked_back_;
+    else
+        write_down(RedoLine{});
 }
 
 bool LiveRecording::last_is_settings() const {
@@ -120,12 +126,14 @@ void LiveRecording::save(const std::filesystem::path& target) const {
                 relative_to(std::filesystem::absolute(check->positions).lexically_normal(), folder);
         file.write(to_text(line) + "\n");
     }
+    for (std::size_t i = 0; i < looked_back_; ++i) file.write(to_text(UndoLine{}) + "\n");
     file.commit();
 }
 
 // Lines that could not be written are made up for before the next one, so that none is ever missing in
 // between.
 void LiveRecording::write_down(const SessionAction& line) {
+    for (; looked_back_ > 0; --looked_back_) lines_.emplace_back(UndoLine{});
     lines_.push_back(line);
     if (!journal_ && folder_.empty()) return;
     if (!journal_) {

@@ -40,9 +40,10 @@ public:
     void add_to_last(const SessionAction& act);
     // A line that is no act of the document (`check`).
     void note(const SessionAction& line);
-    // The last act was undone, the next one redone.
-    void step_back(const UndoLine& line);
-    void step_forward(const RedoLine& line);
+    // The last act was undone, the next one redone. What is undone only to look at it stays as done in the
+    // journal until something else is recorded: playing a session is no work that a crash could lose.
+    void step_back(bool to_look);
+    void step_forward();
 
     // What the newest act does that was not undone, in a few words; empty at the beginning.
     std::string last_words() const { return past_.empty() ? std::string() : past_.back().words; }
@@ -72,6 +73,7 @@ private:
     Session header_;
     std::filesystem::path cloud_;
     std::vector<SessionAction> lines_;
+    std::size_t looked_back_ = 0; // so many `undo` lines are still to follow
     struct Act {
         bool joins = false; // the step of the act before it
         bool of_settings = false;

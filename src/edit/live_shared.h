@@ -38,6 +38,7 @@ struct ResetPose {
 };
 struct Undo {
     StepNumber step = 0;
+    bool to_look = false;
 };
 struct Redo {
     StepNumber step = 0;

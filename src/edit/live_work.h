@@ -50,8 +50,8 @@ private:
     template<typename Record>
     void record(Record&& write);
     void add_act(const SessionAction& action, bool joins);
-    void take_back_act();
-    void take_back_step();
+    void take_back_act(bool to_look);
+    void take_back_step(bool to_look);
     void redo_act();
     void show_where_it_rests();
     std::vector<float> in_file_order(std::span<const float> ordered, float left_out);

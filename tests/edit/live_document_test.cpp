@@ -346,6 +346,52 @@ TEST_F(LiveBar, OnlyWhatIsNotSavedIsOfferedForRestoring) {
     EXPECT_EQ(lost[0].acts, 4U) << "it holds everything from the beginning";
 }
 
+std::vector<std::string> lines_in(const std::filesystem::path& session) {
+    std::vector<std::string> lines;
+    for (const SessionLine& line : read_session(session).lines) lines.push_back(to_text(line.action));
+    return lines;
+}
+
+TEST_F(LiveBar, LookingAtEarlierStepsIsNoWorkToRestore) {
+    live_->save_session(folder_ / "a.knead");
+    settle_down();
+    const std::vector<std::string> handles = lines_in(folder_ / "a.knead");
+    ASSERT_EQ(handles.size(), 2U);
+    const std::filesystem::path state = folder_ / "state";
+    OpenRequest request = request_for(folder_ / "a.knead");
+    request.journal_folder = state;
+    const auto look_back = [&](LiveDocument& live) {
+        wait_until_open(live);
+        for (int i = 0; i < 2; ++i) live.undo(0, true);
+        live.play(0);
+        wait_until_idle(live);
+        ASSERT_EQ(live.view()->handles.size(), 1U);
+    };
+    { // dies in the middle of it
+        LiveDocument live(request);
+        look_back(live);
+    }
+    EXPECT_TRUE(find_lost_work(state).empty());
+    { // saved there
+        LiveDocument live(request);
+        look_back(live);
+        live.save_session(folder_ / "b.knead");
+        wait_until_idle(live);
+    }
+    const std::string undo = to_text(UndoLine{});
+    EXPECT_EQ(lines_in(folder_ / "b.knead"), (std::vector{handles[0], handles[1], undo}));
+    { // goes on from there
+        LiveDocument live(request);
+        look_back(live);
+        live.post(++step_, {RenameLine{"low", "bottom"}});
+        wait_until_idle(live);
+    }
+    const std::vector<LostWork> lost = find_lost_work(state);
+    ASSERT_EQ(lost.size(), 1U);
+    EXPECT_EQ(lines_in(lost[0].journal),
+              (std::vector{handles[0], handles[1], undo, to_text(RenameLine{"low", "bottom"})}));
+}
+
 // Somebody else's work is not overwritten unnoticed, under whatever name.
 class SavingOver : public LiveBar {
 protected:

@@ -81,6 +81,10 @@ int main(int argc, char** argv) {
     CLI::App app{"knead bends, twists and stretches raw point clouds with handles.", "knead"};
     app.require_subcommand(1);
     app.set_version_flag("--version", "knead " KNEAD_VERSION);
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+        return std::string("knead: ") + error.what() +
+               "\nRun with --help or --help-all for more information.\n";
+    });
     app.set_help_all_flag("--help-all", "Show the help of every subcommand");
 
     knead::Job job;

@@ -43,7 +43,8 @@ void declare_picture_options(CLI::App& command, PictureOptions& options) {
         ->group(group);
     command
         .add_option("--color", options.color,
-                    "What the colours tell: rgb, plain, height, normal, or a column of the file")
+                    "What the colours tell: rgb, plain, height, normal, or a column of the file "
+                    "(default: rgb, or plain where the file has none)")
         ->group(group);
     command.add_option("--zoom", options.zoom, "So many times as near as the whole cloud needs")
         ->check(CLI::Range(0.01, 1000.0))
@@ -100,7 +101,7 @@ Camera camera_for(const PictureOptions& options, std::span<const float> position
 
 ColorBy parse_color(const std::string& text) {
     ColorBy by;
-    if (text == "rgb") {
+    if (text.empty() || text == "rgb") {
         by.kind = ColorBy::Kind::rgb;
     } else if (text == "plain") {
         by.kind = ColorBy::Kind::plain;

@@ -59,6 +59,9 @@ struct PictureMaker::State {
 // The camera, and what stays the same from picture to picture. Neighbours are those of the shape as opened,
 // so that what only touches when posed stays apart.
 void PictureMaker::State::begin(const PictureShape& shape) {
+    if (options.color == "rgb" && !has_colors(shape.cloud))
+        throw Error(Trouble::usage, "",
+                    "--color rgb: the cloud has no colours of its own; leave it out to see the shape alone");
     camera = camera_for(options, shape.positions, viewport);
     camera->distance *= room;
     SilentProgress quiet;

@@ -22,10 +22,10 @@ namespace knead {
 // As given on the command line.
 struct PictureOptions {
     std::string size = "1280x800";
-    std::string view;          // a side, or azimuth and elevation; empty: chosen
-    std::string color = "rgb"; // or plain, height, normal, displacement, or a column
-    std::string background;    // "#rrggbb"; empty: a dark gradient
-    double point_size = 0;     // pixels; 0: by distance
+    std::string view;       // a side, or azimuth and elevation; empty: chosen
+    std::string color;      // rgb, plain, height, normal, displacement, or a column; empty: rgb, or plain
+    std::string background; // "#rrggbb"; empty: a dark gradient
+    double point_size = 0;  // pixels; 0: by distance
     double zoom = 1;
     bool orthographic = false, flat = false;
 };

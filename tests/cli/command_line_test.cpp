@@ -18,6 +18,7 @@ TEST(CommandLine, IsTheEditorsWhereItBeginsWithAnOption) {
     const Outcome outcome = run_knead({"--threads", "none", "no-such-scan.ply"});
     EXPECT_EQ(outcome.code, 2);
     EXPECT_NE(outcome.err.find("--threads"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("knead: ")) << outcome.err;
 }
 
 } // namespace

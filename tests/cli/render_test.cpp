@@ -113,6 +113,7 @@ TEST_F(Render, RefusesWhatItCannotDraw) {
     expect_failure(render({"bar.ply", "--out", "a.png", "--background", "red"}), 2, "--background");
     expect_failure(render({"bar.ply", "--out", "a.png", "--color", "heat"}), 2, "heat");
     expect_failure(render({"bar.ply", "--out", "a.png", "--color", "displacement"}), 2, "displacement");
+    expect_failure(render({"bar.ply", "--out", "a.png", "--color", "rgb"}), 2, "no colours of its own");
     expect_failure(render({"bar.ply", "--out", "a.png", "--zoom", "0"}), 2, "--zoom");
     expect_failure(render({"bar.ply", "--out", "a.jpg"}), 2, "PNG");
     expect_failure(render({"bar.ply", "--out", "bar.ply"}), 2, "PNG");

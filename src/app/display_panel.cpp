@@ -3,6 +3,7 @@
 #include "app/scene_lines.h"
 #include "app/ui.h"
 #include "app/widgets.h"
+#include "base/counts.h"
 
 #include <array>
 

@@ -4,6 +4,7 @@
 #include "app/icons.h"
 #include "app/ui.h"
 #include "app/widgets.h"
+#include "base/counts.h"
 
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
@@ -22,8 +23,8 @@ constexpr float fewest_rows = 3; // of the list
 void selection_words(const Ui& ui) {
     const std::size_t selected = ui.editor.selected;
     if (selected > 0)
-        faint_text(grouped(selected) +
-                   (selected == 1 ? " point selected. Make it a" : " points selected. Make them a"));
+        faint_text(counted(selected, "point") +
+                   (selected == 1 ? " selected. Make it a" : " selected. Make them a"));
     else if (ui.editor.document->handles.empty())
         faint_text("Nothing selected. Draw around a part of the cloud with the left button.");
     else
@@ -142,8 +143,8 @@ bool row_button(const Ui& ui, const Handle& handle, ImVec2 size, bool renaming) 
         ui.state.renaming_begins = true;
     }
     if (!ImGui::IsPopupOpen("menu"))
-        explain(handle.name + ": " + words_for(handle.role) + ", " + grouped(handle.points->size()) +
-                " points" + (handle.free_rotation ? ", positions only" : "") +
+        explain(handle.name + ": " + words_for(handle.role) + ", " + counted(handle.points->size(), "point") +
+                (handle.free_rotation ? ", positions only" : "") +
                 (handle.falloff > 0 ? ", with a falloff" : "") +
                 "\nClick chooses it, a double click renames it, the right button has more.");
     return hovered;

@@ -2,6 +2,7 @@
 
 #include "app/ui.h"
 #include "app/widgets.h"
+#include "base/counts.h"
 
 #include <algorithm>
 #include <array>
@@ -41,7 +42,7 @@ void value_rows(const Ui& ui, LabelDialog& dialog, float height) {
         ImGui::AlignTextToFramePadding();
         ImGui::TextUnformatted(std::to_string(column.values[v].value).c_str());
         ImGui::SameLine(left + ui.scaled(62));
-        caption((grouped(column.values[v].points) + " points").c_str());
+        caption(counted(column.values[v].points, "point").c_str());
         ImGui::SameLine(left + ui.scaled(190));
         const int clicked = segmented("role", {"Moving", "Fixed", "Region", "None"},
                                       static_cast<int>(role - choices.begin()));
@@ -68,7 +69,7 @@ void buttons(const Ui& ui, const LabelDialog& dialog) {
     if (dialog.columns.empty()) return;
     ImGui::SameLine();
     ImGui::BeginDisabled(count == 0);
-    const std::string label = count == 1 ? "Make one handle" : "Make " + std::to_string(count) + " handles";
+    const std::string label = "Make " + counted(static_cast<std::size_t>(count), "handle");
     if (main_button(label.c_str(), {width, 0})) {
         make_handles(ui, dialog);
         ImGui::CloseCurrentPopup();

@@ -2,6 +2,7 @@
 
 #include "app/ui.h"
 #include "app/widgets.h"
+#include "base/counts.h"
 
 #include <algorithm>
 
@@ -85,7 +86,7 @@ void draw_recovery(const Ui& ui) {
               ui.scaled(18), palette::warning);
     ImGui::Indent(ui.scaled(30));
     ImGui::TextUnformatted("knead ended without saving");
-    faint_text("There are " + std::to_string(work.acts) + (work.acts == 1 ? " act" : " acts") + " on " +
+    faint_text((work.acts == 1 ? "There is " : "There are ") + counted(work.acts, "act") + " on " +
                work.cloud.filename().string() +
                " whose recording was not saved. Restoring brings back everything up to the "
                "last finished one.");

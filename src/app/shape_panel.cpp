@@ -2,6 +2,7 @@
 
 #include "app/ui.h"
 #include "app/widgets.h"
+#include "base/counts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +87,7 @@ std::string sample_words(const DocumentView& document) {
 
 // What decided an automatic number, in words.
 std::string words_about(const SampleChoice& choice) {
-    const std::string many = choice.samples ? grouped(*choice.samples) + " samples" : "Every point a sample";
+    const std::string many = choice.samples ? counted(*choice.samples, "sample") : "Every point a sample";
     switch (choice.reason) {
     case SampleReason::few_points:
         return many + ": there are no more points than that.";
@@ -206,16 +207,15 @@ void strays_choice(const Ui& ui, const Settings& settings) {
 void what_there_is(const DocumentView& document) {
     std::string words;
     const auto& asked = document.settings.samples;
-    const std::string used = grouped(document.samples);
-    if (document.samples > 0) words = used + " samples";
-    if (asked && document.samples > *asked) words = grouped(*asked) + " samples asked, " + used + " used";
+    if (document.samples > 0) words = counted(document.samples, "sample");
+    if (asked && document.samples > *asked)
+        words = counted(*asked, "sample") + " asked, " + grouped(document.samples) + " used";
     const std::size_t parts = document.components ? document.components->size.size() : 0;
     if (parts > 1) words += (words.empty() ? "" : ", ") + grouped(parts) + " connected parts";
     if (document.strays.parts > 0)
-        words += (words.empty() ? "" : "\n") + grouped(document.strays.parts) +
-                 (document.strays.parts == 1 ? " part (" : " parts (") + grouped(document.strays.points) +
-                 (document.strays.fate == Strays::freeze ? " points) without a handle: at rest"
-                                                         : " points) without a handle: carried along");
+        words += (words.empty() ? "" : "\n") + counted(document.strays.parts, "part") + " (" +
+                 counted(document.strays.points, "point") + ") without a handle: " +
+                 (document.strays.fate == Strays::freeze ? "at rest" : "carried along");
     if (!words.empty()) faint_text(words);
 }
 

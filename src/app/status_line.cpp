@@ -2,6 +2,7 @@
 
 #include "app/ui.h"
 #include "app/widgets.h"
+#include "base/counts.h"
 
 #include <cstdio>
 
@@ -40,12 +41,12 @@ std::string left_words(const Ui& ui) {
 std::string right_words(const Ui& ui) {
     const Measured& measured = ui.state.measured;
     const std::size_t all = ui.editor.marks.size();
-    std::string words = grouped(all) + " points";
+    std::string words = counted(all, "point");
     if (!measured.complete && measured.drawn < measured.in_view)
         words += " (" + grouped(measured.drawn) + " shown)";
     if (ui.editor.selected > 0) words += "   " + grouped(ui.editor.selected) + " selected";
     if (ui.editor.hidden > 0) words += "   " + grouped(ui.editor.hidden) + " hidden";
-    if (ui.editor.document->samples > 0) words += "   " + grouped(ui.editor.document->samples) + " samples";
+    if (ui.editor.document->samples > 0) words += "   " + counted(ui.editor.document->samples, "sample");
     if (measured.frame > 0) words += "   frame " + milliseconds(measured.frame);
     if (measured.solve > 0) words += "   solve " + milliseconds(measured.solve + measured.upsample);
     return words;

@@ -233,12 +233,6 @@ float key_caps(ImDrawList* list, ImVec2 corner, const char* keys) {
     return x - corner.x;
 }
 
-std::string grouped(std::size_t number) {
-    std::string digits = std::to_string(number);
-    for (std::size_t place = digits.size(); place > 3; place -= 3) digits.insert(place - 3, 1, ',');
-    return digits;
-}
-
 std::string byte_size(std::uintmax_t bytes) {
     const char* units[] = {"B", "kB", "MB", "GB", "TB"};
     auto amount = static_cast<double>(bytes);

@@ -43,8 +43,6 @@ int segmented(const char* id, std::initializer_list<const char*> labels, int cho
 // A shortcut as it is shown: letters on small key caps. Returns its width; draws nothing if `list` is null.
 float key_caps(ImDrawList* list, ImVec2 corner, const char* keys);
 
-// 1234567 as "1,234,567".
-std::string grouped(std::size_t number);
 // "12.4 MB"
 std::string byte_size(std::uintmax_t bytes);
 

@@ -1,3 +1,4 @@
+#include "base/counts.h"
 #include "bench/demands.h"
 #include "bench/report.h"
 
@@ -19,7 +20,7 @@ std::string demands_text(std::span<const DemandResult> results) {
          digits_text(100 * evenness_bar, 0) + " %, and said"},
         {"pose", "points", "longest", "shortest", "torn", "uneven %", "handles off / D", "said", ""}};
     for (const DemandResult& result : results)
-        table.push_back({result.name, count_text(result.points), digits_text(result.demand.strain.longest, 2),
+        table.push_back({result.name, grouped(result.points), digits_text(result.demand.strain.longest, 2),
                          digits_text(result.demand.strain.shortest, 2), digits_text(result.demand.parted, 1),
                          result.uneven ? digits_text(100 * *result.uneven, 1) : unknown_text,
                          power_text(result.handle_error), result.words.empty() ? "nothing" : "yes",

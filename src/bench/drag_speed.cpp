@@ -1,5 +1,6 @@
 #include "bench/drag_speed.h"
 
+#include "base/counts.h"
 #include "base/require.h"
 #include "base/stopwatch.h"
 #include "bench/posing.h"
@@ -80,13 +81,12 @@ namespace {
 TextTable region_table(const RegionSpeed& speed) {
     TextTable table{{},
                     {"A handle turned by 30° in 40 frames, in a region of interest of " +
-                     count_text(speed.points) + " points and without one"},
+                     grouped(speed.points) + " points and without one"},
                     {},
                     {"", "samples", "frame", "min…max", "upsampling", "min…max", "faster by"}};
     const auto line = [&](const char* what, const RegionSpeed::Frames& way, const std::string& factor) {
-        table.push_back({what, count_text(way.samples), duration_text(way.frame.median),
-                         spread_text(way.frame), duration_text(way.upsample.median),
-                         spread_text(way.upsample), factor});
+        table.push_back({what, grouped(way.samples), duration_text(way.frame.median), spread_text(way.frame),
+                         duration_text(way.upsample.median), spread_text(way.upsample), factor});
     };
     line("whole", speed.whole, "");
     line("region", speed.region,
@@ -112,7 +112,7 @@ ReportJson region_json(const RegionSpeed& speed) {
 
 std::string drag_speeds_text(const DragSpeeds& speeds) {
     TextTable table{{machine_text(speeds.machine)},
-                    {speeds.cloud + ", " + count_text(speeds.points) + " points on " + speeds.device},
+                    {speeds.cloud + ", " + grouped(speeds.points) + " points on " + speeds.device},
                     {"Bent by 60° in 30 frames, then at rest. Distances in % of D, rms / largest point"},
                     {},
                     {"samples", "answer", "frame", "min…max", "first", "last step", "first at rest",
@@ -122,7 +122,7 @@ std::string drag_speeds_text(const DragSpeeds& speeds) {
     };
     for (const DragSpeed& row : speeds.rows) {
         const auto line = [&](const char* who, const DraggedWay& way, const std::string& factor) {
-            table.push_back({count_text(row.samples), who, duration_text(way.frame.median),
+            table.push_back({grouped(row.samples), who, duration_text(way.frame.median),
                              spread_text(way.frame), duration_text(way.first_frame), apart(way.last_step),
                              apart(way.first_at_rest), apart(way.to_rest), factor});
         };

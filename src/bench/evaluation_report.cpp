@@ -1,5 +1,6 @@
 // The evaluation as text and as JSON.
 
+#include "base/counts.h"
 #include "bench/evaluation.h"
 #include "bench/report.h"
 #include "edit/json_text.h"
@@ -33,8 +34,8 @@ std::string tasks_text(const std::vector<TaskQuality>& tasks) {
         for (const SampleQuality& count : task.counts) {
             const bool first = &count == &task.counts.front();
             table.push_back(
-                {first ? task.name : "", first ? count_text(task.points) : "", asked_text(count.asked),
-                 count_text(count.samples), count.asked ? percent_text(count.deviation.rms) : unknown_text,
+                {first ? task.name : "", first ? grouped(task.points) : "", asked_text(count.asked),
+                 grouped(count.samples), count.asked ? percent_text(count.deviation.rms) : unknown_text,
                  count.bar ? percent_text(*count.bar) : "", count.bar ? verdict_text(holds(count)) : "",
                  count.asked ? percent_text(count.deviation.largest) : unknown_text,
                  power_text(count.handle_error),
@@ -77,10 +78,10 @@ std::string clouds_text(const std::vector<CloudProperties>& clouds) {
                     {"cloud", "points", "strays", "rigid / D", "", "in turns / D", "", "iterations",
                      "moved by nothing", "", "handles / D", "same again", "1 and 2 threads"}};
     for (const CloudProperties& cloud : clouds)
-        table.push_back({cloud.name, count_text(cloud.points), count_text(cloud.strays),
-                         power_text(cloud.rigid), verdict_text(cloud.rigid <= rigid_bar),
-                         power_text(cloud.rigid_in_turns), verdict_text(cloud.rigid_in_turns <= rigid_bar),
-                         std::to_string(cloud.iterations_in_turns), count_text(cloud.moved_by_nothing),
+        table.push_back({cloud.name, grouped(cloud.points), grouped(cloud.strays), power_text(cloud.rigid),
+                         verdict_text(cloud.rigid <= rigid_bar), power_text(cloud.rigid_in_turns),
+                         verdict_text(cloud.rigid_in_turns <= rigid_bar),
+                         std::to_string(cloud.iterations_in_turns), grouped(cloud.moved_by_nothing),
                          verdict_text(cloud.moved_by_nothing == 0), power_text(cloud.handle_error),
                          cloud.same_again ? "same" : "DIFFERENT",
                          cloud.same_for_threads ? "same" : "DIFFERENT"});
@@ -93,7 +94,7 @@ std::string twist_text(const TwistResult& twist) {
                verdict_text(twist_is_kept(twist, measured)) + "; a slice at most " + digits_text(uneven, 1) +
                "° from an even twist\n";
     };
-    return "A bar of 1 : 10, " + count_text(twist.points) + " points, twisted by " +
+    return "A bar of 1 : 10, " + grouped(twist.points) + " points, twisted by " +
            digits_text(twist.asked, 0) + "°, 10° and 3 iterations a frame\n" +
            line("at the last frame:    ", twist.measured, twist.uneven) +
            line("100 iterations later: ", twist.settled, twist.settled_uneven);
@@ -104,7 +105,7 @@ std::string stretches_text(const std::vector<StretchResult>& stretches) {
                     {"bar", "points", "samples", "asked", "measured", "off by", "", "iterations"}};
     for (const StretchResult& stretch : stretches)
         table.push_back(
-            {stretch.solid ? "solid" : "shell", count_text(stretch.points), asked_text(stretch.asked_samples),
+            {stretch.solid ? "solid" : "shell", grouped(stretch.points), asked_text(stretch.asked_samples),
              digits_text(stretch.asked, 2), digits_text(stretch.measured, 3),
              digits_text(std::abs(stretch.measured - stretch.asked), 3), verdict_text(holds(stretch)),
              std::to_string(stretch.iterations) + (stretch.at_rest ? "" : ", not at rest")});

@@ -1,5 +1,6 @@
 #include "bench/file_speed.h"
 
+#include "base/counts.h"
 #include "base/stopwatch.h"
 #include "base/temporary_folder.h"
 #include "base/whole_file.h"
@@ -104,8 +105,8 @@ std::string file_speed_text(const FileSpeed& speed) {
         table.push_back({"  min…max", "", spread_text(format.read), spread_text(format.load), "", "",
                          spread_text(format.copy), spread_text(format.save), "", ""});
     }
-    return "Loading and saving " + count_text(speed.points) +
-           " points with normals and colours, medians of " + std::to_string(speed.repeats) +
+    return "Loading and saving " + grouped(speed.points) + " points with normals and colours, medians of " +
+           std::to_string(speed.repeats) +
            ".\nread: the file's bytes into memory, from the system's cache. copy: the same bytes written, "
            "synced and "
            "renamed.\nsave: every point moved, the file patched, synced and renamed.\n" +

@@ -1,5 +1,6 @@
 // The growth of the stages as a picture: a diagram for points and one for samples, side by side.
 
+#include "base/counts.h"
 #include "bench/growth.h"
 #include "bench/report.h"
 
@@ -57,7 +58,7 @@ std::string grid(const LogAxis& across, const LogAxis& up, const std::string& ti
     svg += "\"/>\n";
     for (int power = across.first; power <= across.last; ++power)
         svg += text_at(across(std::pow(10, power)), side + 18, "middle",
-                       count_text(static_cast<std::size_t>(std::llround(std::pow(10, power)))));
+                       grouped(static_cast<std::size_t>(std::llround(std::pow(10, power)))));
     for (int power = up.first; power <= up.last; ++power)
         svg += text_at(-8, side - up(std::pow(10, power)) + 4, "end", duration_text(std::pow(10, power)));
     return svg + text_at(side / 2, -14, "middle", title, "#000");
@@ -116,8 +117,7 @@ std::string growth_picture(const Growth& growth) {
            diagram(growth.by_points, &RowFigures::points, "seconds over points, about 1000 samples", 0) +
            diagram(growth.by_samples, &RowFigures::samples,
                    "seconds over samples, " +
-                       count_text(growth.by_samples.empty() ? 0 : growth.by_samples.front().points) +
-                       " points",
+                       grouped(growth.by_samples.empty() ? 0 : growth.by_samples.front().points) + " points",
                    panel) +
            "</svg>\n";
 }

@@ -1,5 +1,6 @@
 // The growth of the stages as text and as JSON.
 
+#include "base/counts.h"
 #include "bench/growth.h"
 #include "bench/report.h"
 #include "edit/json_text.h"
@@ -10,7 +11,7 @@ namespace {
 
 void add_rows(std::span<const RowFigures> rows, std::size_t RowFigures::*size, TextTable& table) {
     for (const RowFigures& row : rows) {
-        std::vector<std::string> line{count_text(row.points), count_text(row.samples)};
+        std::vector<std::string> line{grouped(row.points), grouped(row.samples)};
         for (const Stage& stage : growth_stages()) line.push_back(duration_text((row.*stage.seconds).median));
         for (const std::uint64_t memory : {row.memory_held, row.memory_peak})
             line.push_back(

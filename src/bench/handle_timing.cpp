@@ -1,5 +1,6 @@
 #include "bench/handle_timing.h"
 
+#include "base/counts.h"
 #include "base/stopwatch.h"
 #include "bench/automatic_handles.h"
 #include "bench/made_cloud.h"
@@ -133,8 +134,8 @@ std::string handle_timing_text(const HandleTiming& timing) {
                     {""},
                     heading};
     for (const HandleTimingRow& row : timing.rows) {
-        std::vector<std::string> line{count_text(row.points), count_text(row.samples),
-                                      count_text(row.in_handle), row.is_first ? "first" : "last"};
+        std::vector<std::string> line{grouped(row.points), grouped(row.samples), grouped(row.in_handle),
+                                      row.is_first ? "first" : "last"};
         for (const TimedStage& stage : stages) line.push_back(duration_text((row.*stage.after).median));
         line.push_back(duration_text(row.frame.median));
         line.push_back(duration_text(row.live.median));

@@ -1,5 +1,6 @@
 // The strip of elasticities: one bar, pulled, of every material.
 
+#include "base/counts.h"
 #include "bench/elasticity.h"
 #include "bench/page_studio.h"
 #include "bench/posing.h"
@@ -25,7 +26,7 @@ PageRow strip_of(PageStudio& studio, bool solid) {
     scene.solid = solid;
     write_session(studio, scene);
     PageRow row{(solid ? "A solid, filled with points that have no surface, " : "A shell, ") +
-                    count_text(task.cloud.size()) + " points",
+                    grouped(task.cloud.size()) + " points",
                 {}};
     for (const double ratio : ratios) {
         Settings settings;

@@ -1,5 +1,6 @@
 #include "bench/page_joints.h"
 
+#include "base/counts.h"
 #include "bench/text_table.h"
 
 #include <algorithm>
@@ -87,7 +88,7 @@ PageRow jointed_row(PageStudio& studio, const JointedPose& pose, const std::stri
     if (plain_first) {
         shape.handle = {};
         PagePicture plain = draw_scene(studio, scene, "plain", shape);
-        plain.caption = count_text(scene.cloud.size()) + " points.";
+        plain.caption = grouped(scene.cloud.size()) + " points.";
         row.pictures.push_back(plain);
     }
     row.pictures.push_back(before);

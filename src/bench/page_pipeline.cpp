@@ -1,5 +1,6 @@
 // In place of Figure 3 of the paper, which nothing here describes: from the cloud to the posed cloud.
 
+#include "base/counts.h"
 #include "base/require.h"
 #include "bench/page_studio.h"
 #include "bench/posing.h"
@@ -98,11 +99,11 @@ PageRow row_of(PageStudio& studio, const Look& look, PointCloud cloud,
     shape.positions = posed.opened;
     shape.handle = {};
     PagePicture rest = draw_scene(studio, scene, "rest", shape);
-    rest.caption = count_text(scene.cloud.size()) + " points.";
+    rest.caption = grouped(scene.cloud.size()) + " points.";
     const std::vector<PageLine> lines = sample_lines(pipeline, posed.opened);
     shape.lines = lines;
     PagePicture graph = draw_scene(studio, scene, "samples", shape);
-    graph.caption = count_text(pipeline.samples().size()) +
+    graph.caption = grouped(pipeline.samples().size()) +
                     " samples and their graph: links where territories touch, and to the six nearest.";
     const Index chosen = sample_near(pipeline, look.chosen - scene.cloud.origin);
     const std::vector<float> influence = influence_of(pipeline, chosen);

@@ -1,5 +1,6 @@
 // The survey's four shapes, with few samples and with all.
 
+#include "base/counts.h"
 #include "bench/deviation.h"
 #include "bench/page_studio.h"
 #include "bench/posing.h"
@@ -29,7 +30,7 @@ PageRow row_of(PageStudio& studio, const DeformationTask& task) {
     scene.acts = acts_of(task);
     scene.view = view_of(task.name);
     write_session(studio, scene);
-    PageRow row{task.name + ", " + count_text(task.cloud.size()) + " points", {}};
+    PageRow row{task.name + ", " + grouped(task.cloud.size()) + " points", {}};
     std::vector<float> every_point;
     const std::optional<std::uint64_t> counts[] = {std::nullopt, 1000U, 200U, 50U};
     for (const auto& count : counts) {
@@ -39,7 +40,7 @@ PageRow row_of(PageStudio& studio, const DeformationTask& task) {
         const std::string number = count ? std::to_string(*count) : "all";
         PagePicture picture = draw_scene(studio, scene, number, shape);
         const double rms = deviation_between(shape.positions, every_point, document->bounds().diagonal()).rms;
-        picture.caption = count ? count_text(*count) + " samples: " + digits_text(100 * rms, 2) +
+        picture.caption = count ? grouped(*count) + " samples: " + digits_text(100 * rms, 2) +
                                       " % of D rms from every point a sample."
                                 : "Every point a sample.";
         picture.command = replay_command(scene, "--samples " + number, picture);

@@ -1,11 +1,12 @@
 #include "bench/report.h"
 
+#include "base/counts.h"
 #include "bench/machine.h"
 
 namespace knead {
 
 std::string asked_text(const std::optional<std::uint64_t>& samples) {
-    return samples ? count_text(*samples) : "every point";
+    return samples ? grouped(*samples) : "every point";
 }
 
 std::string percent_text(double fraction) {

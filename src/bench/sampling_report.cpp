@@ -1,3 +1,4 @@
+#include "base/counts.h"
 #include "bench/report.h"
 #include "bench/sampling.h"
 
@@ -18,10 +19,10 @@ std::string sampling_text(std::span<const SamplingResult> results) {
          digits_text(100 * sampling_rms_bar, 1) + ", largest " + digits_text(100 * sampling_largest_bar, 1)},
         {"shape", "sampling", "points", "twin's", "samples", "rms %", "largest %", "", "settled"}};
     for (const SamplingResult& result : results)
-        table.push_back({result.shape, result.sampling, count_text(result.points),
-                         count_text(result.twin_points), asked_text(result.asked),
-                         percent_text(result.deviation.rms), percent_text(result.deviation.largest),
-                         verdict_text(holds(result)), result.at_rest ? "yes" : "no"});
+        table.push_back({result.shape, result.sampling, grouped(result.points), grouped(result.twin_points),
+                         asked_text(result.asked), percent_text(result.deviation.rms),
+                         percent_text(result.deviation.largest), verdict_text(holds(result)),
+                         result.at_rest ? "yes" : "no"});
     return format_table(table);
 }
 

@@ -1,3 +1,4 @@
+#include "base/counts.h"
 #include "bench/report.h"
 #include "bench/scan_samples.h"
 
@@ -24,8 +25,8 @@ std::string scan_samples_text(std::span<const ScanSamples> scans) {
             const bool first = &count == &scan.counts.front();
             const double times = noise_ratio(count, scan.counts.front());
             table.push_back(
-                {first ? scan.name : "", first ? count_text(scan.points) : "", asked_text(count.asked),
-                 count_text(count.samples), first ? unknown_text : percent_text(count.rms),
+                {first ? scan.name : "", first ? grouped(scan.points) : "", asked_text(count.asked),
+                 grouped(count.samples), first ? unknown_text : percent_text(count.rms),
                  first ? unknown_text : percent_text(count.largest), percent_text(count.noise),
                  first ? "" : digits_text(times, 2), first ? "" : verdict_text(times <= noise_bar),
                  std::to_string(count.iterations) + (count.at_rest ? "" : ", not at rest")});

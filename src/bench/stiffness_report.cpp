@@ -1,3 +1,4 @@
+#include "base/counts.h"
 #include "bench/report.h"
 #include "bench/stiffness.h"
 
@@ -40,7 +41,7 @@ std::string stiffness_text(std::span<const StiffnessResult> results) {
             table.push_back(
                 {once(short_text(result.stiffness)), once(digits_text(100 * std::sqrt(result.stiffness), 0)),
                  once(percent_text(result.from_usual.rms)), once(percent_text(result.noise)),
-                 count_text(count.asked), percent_text(count.deviation.rms),
+                 grouped(count.asked), percent_text(count.deviation.rms),
                  percent_text(stiffness_rms_bar(count.asked)), verdict_text(holds(count)),
                  digits_text(100 * count.at_scale.largest, 3), percent_text(scale_bar),
                  verdict_text(holds_at_scale(count)), count.at_rest && result.at_rest ? "yes" : "no"});

@@ -1,5 +1,6 @@
 // Table 1 as text and as JSON.
 
+#include "base/counts.h"
 #include "bench/report.h"
 #include "bench/table1.h"
 #include "bench/text_table.h"
@@ -37,7 +38,7 @@ void add_row(const Table1Result& result, TextTable& table) {
     }
     const RowFigures& ours = result.figures;
     const auto median = [](const Summary& summary) { return duration_text(summary.median); };
-    table.push_back({name, count_text(ours.points), count_text(ours.samples), median(ours.order),
+    table.push_back({name, grouped(ours.points), grouped(ours.samples), median(ours.order),
                      median(ours.neighbors), median(ours.sampling), median(ours.geodesic),
                      median(ours.set_up), median(ours.factorize), median(ours.solve), median(ours.upsample)});
     table.push_back({std::string(indent) + "min…max", "", "", "", "", "", "", spread_text(ours.set_up),

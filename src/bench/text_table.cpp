@@ -1,5 +1,7 @@
 #include "bench/text_table.h"
 
+#include "base/counts.h"
+
 #include <algorithm>
 #include <cstdio>
 
@@ -69,16 +71,9 @@ std::string spread_text(const Summary& seconds) {
            " " + unit.name;
 }
 
-std::string count_text(std::size_t count) {
-    std::string digits = std::to_string(count);
-    for (std::size_t behind = 3; behind < digits.size(); behind += 4)
-        digits.insert(digits.size() - behind, 1, ',');
-    return digits;
-}
-
 std::string factor_text(double factor) {
     const std::string number =
-        factor >= 999.5 ? count_text(static_cast<std::size_t>(factor + 0.5)) : three_digits(factor);
+        factor >= 999.5 ? grouped(static_cast<std::size_t>(factor + 0.5)) : three_digits(factor);
     return number + " ×";
 }
 

@@ -20,7 +20,6 @@ inline constexpr const char* unknown_text = "–";
 
 std::string duration_text(double seconds);         // three digits, in s, ms or µs: "1.03 s"
 std::string spread_text(const Summary& seconds);   // the shortest to the longest, in one unit: "4.1…5.0 ms"
-std::string count_text(std::size_t count);         // "437,645"
 std::string factor_text(double factor);            // "312 ×"
 std::string digits_text(double value, int digits); // so many behind the point
 std::string power_text(double value);              // "2.3e-07", and "0" for zero

@@ -1,3 +1,4 @@
+#include "base/counts.h"
 #include "bench/report.h"
 #include "bench/turns.h"
 
@@ -38,7 +39,7 @@ std::string turns_text(std::span<const TurnResult> results) {
         {"course", "points", "frames", "at the last %", "", "settled %", "", "twist", "",
          "iterations of settling"}};
     for (const TurnResult& result : results)
-        table.push_back({result.course, count_text(result.points), count_text(result.frames),
+        table.push_back({result.course, grouped(result.points), grouped(result.frames),
                          percent_text(result.at_last_frame.largest), verdict(result, result.at_last_frame),
                          percent_text(result.settled.largest), verdict(result, result.settled),
                          twist_words(result), twist_verdict(result),

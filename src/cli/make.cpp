@@ -1,5 +1,6 @@
 // `knead make SHAPE --points N --out F`: writes a generated cloud.
 
+#include "base/counts.h"
 #include "base/error.h"
 #include "base/workers.h"
 #include "cli/commands.h"
@@ -30,8 +31,8 @@ std::string words_for(const PointCloud& cloud, const MakeArguments& arguments) {
     const Vec3d size = bounds.highest - bounds.lowest;
     std::ostringstream words;
     words.precision(4);
-    words << "made " << arguments.out << ": " << arguments.shape << ", " << cloud.size() << " points, "
-          << size.x() << " × " << size.y() << " × " << size.z();
+    words << "made " << arguments.out << ": " << arguments.shape << ", " << counted(cloud.size(), "point")
+          << ", " << size.x() << " × " << size.y() << " × " << size.z();
     return words.str();
 }
 

@@ -1,6 +1,7 @@
 // knead replay SESSION: carries out a recorded session with no window.
 
 #include "edit/replay.h"
+#include "base/counts.h"
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/replay_pictures.h"
@@ -91,18 +92,13 @@ std::string duration(double seconds) {
     return text;
 }
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 // What a replay did, in plain words; stages that did not run are left out.
 void tell(const ReplayReport& report, const Arguments& arguments, Terminal& terminal) {
     const StageSeconds& stages = report.stages;
-    terminal.say("Replayed " + arguments.session + ": " + counted(report.points, "point", "points") + ", " +
-                 counted(report.samples, "sample", "samples") + ", " +
-                 counted(report.frames, "frame", "frames") + " of dragging, " +
-                 counted(report.iterations, "iteration", "iterations") + ", on " +
-                 counted(report.threads, "thread", "threads") + "; points moved by " + report.device + ".");
+    terminal.say("Replayed " + arguments.session + ": " + counted(report.points, "point") + ", " +
+                 counted(report.samples, "sample") + ", " + counted(report.frames, "frame") +
+                 " of dragging, " + counted(report.iterations, "iteration") + ", on " +
+                 counted(report.threads, "thread") + "; points moved by " + report.device + ".");
     const std::pair<const char*, double> lines[] = {
         {"reading the cloud", report.read},
         {"ordering the points", stages.order},
@@ -142,7 +138,7 @@ int run_replay(const Arguments& arguments, Terminal& terminal) {
         for (std::filesystem::path& path : pictures->targets()) report.written.push_back(std::move(path));
     terminal.clear_bar();
     if (arguments.dry_run)
-        terminal.say(arguments.session + ": " + counted(session.lines.size() + 1, "line", "lines") +
+        terminal.say(arguments.session + ": " + counted(session.lines.size() + 1, "line") +
                      " in order; nothing was computed or written" +
                      (arguments.out.empty() ? "" : ", so --out was not used"));
     else if (!arguments.json)
@@ -151,7 +147,7 @@ int run_replay(const Arguments& arguments, Terminal& terminal) {
         if (!check.held)
             terminal.say("knead: " + session.place(check.line) + ": check failed: " + check.words);
     if (!report.checks.empty() && report.all_checks_held())
-        terminal.say(counted(report.checks.size(), "check", "checks") + " held");
+        terminal.say(counted(report.checks.size(), "check") + " held");
     if (arguments.json) terminal.out << json_text(to_json(report)) << '\n';
     return report.all_checks_held() ? 0 : static_cast<int>(Trouble::check_failed);
 }
@@ -162,7 +158,8 @@ void add_replay(CLI::App& app, Job& job) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("replay", "Carry out a recorded session and save the shape");
     command->add_option("SESSION", arguments->session, "The session file")->required();
-    command->add_option("--cloud", arguments->cloud, "Another cloud than the session's, of as many points");
+    command->add_option("--cloud", arguments->cloud,
+                        "Another cloud than the session's; of as many points, if it says how many");
     command->add_option("--out", arguments->out, "Where to save the shape after the last line");
     command
         ->add_option("--set", arguments->settings,

@@ -1,5 +1,6 @@
 #include "edit/editor_import.h"
 
+#include "base/counts.h"
 #include "base/error.h"
 #include "edit/editor_steps.h"
 
@@ -36,8 +37,7 @@ std::optional<std::vector<LabelColumn::Value>> values_of(const Attribute& attrib
 void post_handles(Editor& editor, std::vector<SessionAction> lines) {
     const std::size_t count = lines.size();
     post_step(editor, std::move(lines));
-    say(editor, Notice::Kind::information,
-        count == 1 ? "Made one handle." : "Made " + std::to_string(count) + " handles.");
+    say(editor, Notice::Kind::information, "Made " + counted(count, "handle") + ".");
 }
 
 // The handles that stand at the end of a session, in the order of their last lines.

@@ -1,5 +1,6 @@
 #include "edit/pipeline.h"
 
+#include "base/counts.h"
 #include "base/error.h"
 #include "base/require.h"
 #include "base/stopwatch.h"
@@ -232,8 +233,8 @@ void Pipeline::prepare_upsampler() {
 std::string words_about(const Pipeline::Strays& strays) {
     if (strays.parts == 0) return {};
     const bool one = strays.parts == 1;
-    std::string words = std::to_string(strays.parts) + (one ? " part" : " parts") + " of the cloud (" +
-                        std::to_string(strays.points) + (strays.points == 1 ? " point) " : " points) ");
+    std::string words =
+        counted(strays.parts, "part") + " of the cloud (" + counted(strays.points, "point") + ") ";
     switch (strays.fate) {
     case Strays::freeze:
         words += one ? "holds no handle and stays where it is" : "hold no handle and stay where they are";

@@ -43,14 +43,6 @@ TEST(NumberText, GivesASpreadOneUnit) {
     EXPECT_EQ(spread_text({0.005, 0.0005, 0.012, 3}), "500…12000 µs");
 }
 
-TEST(NumberText, SeparatesThousands) {
-    EXPECT_EQ(count_text(0), "0");
-    EXPECT_EQ(count_text(999), "999");
-    EXPECT_EQ(count_text(1000), "1,000");
-    EXPECT_EQ(count_text(437645), "437,645");
-    EXPECT_EQ(count_text(1000000), "1,000,000");
-}
-
 TEST(NumberText, GivesFactorsThreeDigits) {
     EXPECT_EQ(factor_text(0.5772), "0.58 ×");
     EXPECT_EQ(factor_text(8.654), "8.65 ×");

@@ -1,6 +1,7 @@
 // How many iterations and milliseconds CGAL and knead take to within 1 % of D of where each converges, on the
 // same points with the same handles. Prints a table.
 
+#include "base/counts.h"
 #include "bench/automatic_handles.h"
 #include "bench/data_files.h"
 #include "bench/machine.h"
@@ -39,8 +40,8 @@ struct MeshTask {
 
 MeshTask survey_task(const std::filesystem::path& folder, const std::string& name) {
     MeshTask result{read_survey_task(folder, name), read_triangles(folder / (name + ".off")), ""};
-    result.words = name + ": " + count_text(result.task.cloud.size()) + " vertices, " +
-                   count_text(result.triangles.size()) + " triangles";
+    result.words = name + ": " + grouped(result.task.cloud.size()) + " vertices, " +
+                   grouped(result.triangles.size()) + " triangles";
     return result;
 }
 
@@ -50,8 +51,8 @@ MeshTask scan_task(const std::filesystem::path& path) {
     FoundMesh mesh = find_mesh(scan);
     MeshTask result;
     result.words = path.stem().string() + ", bent by " + digits_text(bend_degrees, 0) +
-                   "°: " + count_text(mesh.cloud.size()) + " of its " + count_text(scan.size()) +
-                   " points; CGAL found a mesh of " + count_text(mesh.triangles.size()) + " triangles in " +
+                   "°: " + grouped(mesh.cloud.size()) + " of its " + grouped(scan.size()) +
+                   " points; CGAL found a mesh of " + grouped(mesh.triangles.size()) + " triangles in " +
                    duration_text(mesh.seconds);
     result.task = bending_task(path.stem().string(), std::move(mesh.cloud), bend_degrees);
     result.triangles = std::move(mesh.triangles);
@@ -71,7 +72,7 @@ MeshTask task_named(const std::string& name) {
 // The end of a descent that did not come to rest is on its way still, so that its numbers are lower bounds.
 void add_arrival(const std::optional<Arrival>& arrival, bool at_rest, std::vector<std::string>& line) {
     const std::string bound = at_rest ? "" : "≥ ";
-    line.push_back(arrival ? bound + count_text(arrival->iterations) : "not reached");
+    line.push_back(arrival ? bound + grouped(arrival->iterations) : "not reached");
     line.push_back(arrival ? bound + duration_text(arrival->seconds) : unknown_text);
 }
 
@@ -81,11 +82,11 @@ void add_descent(const Descent& descent, double diagonal, TextTable& table) {
         return;
     }
     const Arrivals arrivals = arrivals_of(descent, bar, diagonal);
-    std::vector<std::string> line{descent.name, count_text(descent.samples),
-                                  duration_text(descent.preparation), duration_text(descent.iteration)};
+    std::vector<std::string> line{descent.name, grouped(descent.samples), duration_text(descent.preparation),
+                                  duration_text(descent.iteration)};
     add_arrival(arrivals.rms, descent.at_rest, line);
     add_arrival(arrivals.largest, descent.at_rest, line);
-    line.push_back(count_text(descent.stops.back().iterations));
+    line.push_back(grouped(descent.stops.back().iterations));
     line.push_back(percent_text(arrivals.last_tenth));
     table.push_back(line);
 }

@@ -1,6 +1,7 @@
 // knead's factors beside CHOLMOD's and SuperLU's, on the two matrices of a handle set, in turns in one run.
 // Prints a table.
 
+#include "base/counts.h"
 #include "base/stopwatch.h"
 #include "bench/data_files.h"
 #include "bench/machine.h"
@@ -235,9 +236,9 @@ void run(const Arguments& arguments) {
             std::cerr << name << ", " << samples << " samples ...\n";
             const SystemMatrices matrices = matrices_of(task, samples, workers);
             table.push_back({""});
-            table.push_back({name + ", " + count_text(samples) + " samples asked: " +
-                             count_text(static_cast<std::size_t>(matrices.rotations.size())) + " unknowns, " +
-                             count_text(matrices.rotations.value.size()) + " entries"});
+            table.push_back({name + ", " + grouped(samples) + " samples asked: " +
+                             grouped(static_cast<std::size_t>(matrices.rotations.size())) + " unknowns, " +
+                             grouped(matrices.rotations.value.size()) + " entries"});
             add_figures(measure(matrices, arguments.repeats), table);
         }
     }

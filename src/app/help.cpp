@@ -10,6 +10,8 @@ namespace knead {
 
 namespace {
 
+constexpr float narrowest_column = 290;
+
 void row(const Ui& ui, const char* keys, const char* label, const char* words) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float keys_width = ui.scaled(150);
@@ -51,6 +53,22 @@ void action_rows(const Ui& ui, std::string_view from, std::string_view to) {
     }
 }
 
+// As many side by side as there is room for.
+void columns(const Ui& ui) {
+    const int most = static_cast<int>(ImGui::GetContentRegionAvail().x / ui.scaled(narrowest_column));
+    const int count = std::clamp(most, 1, 3);
+    if (!ImGui::BeginTable("columns", count, ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_ScrollY))
+        return;
+    ImGui::TableNextColumn();
+    gesture_rows(ui);
+    action_rows(ui, "Session", "none");
+    if (count > 1) ImGui::TableNextColumn();
+    action_rows(ui, "File", "Handles");
+    if (count > 2) ImGui::TableNextColumn();
+    action_rows(ui, "Handles", "Session");
+    ImGui::EndTable();
+}
+
 } // namespace
 
 void draw_help(const Ui& ui) {
@@ -77,16 +95,7 @@ void draw_help(const Ui& ui) {
         if (icon_button("close", Icon::close, side, false, "Close (F1 or Esc)") ||
             ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false))
             ui.state.show_help = false;
-        if (ImGui::BeginTable("columns", 3, ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_ScrollY)) {
-            ImGui::TableNextColumn();
-            gesture_rows(ui);
-            action_rows(ui, "Session", "none");
-            ImGui::TableNextColumn();
-            action_rows(ui, "File", "Handles");
-            ImGui::TableNextColumn();
-            action_rows(ui, "Handles", "Session");
-            ImGui::EndTable();
-        }
+        columns(ui);
     }
     ImGui::End();
 }

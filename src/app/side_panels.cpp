@@ -3,6 +3,7 @@
 #include "app/ui.h"
 #include "app/widgets.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,29 @@ void divider(const Ui& ui) {
     ImGui::Dummy({0, ui.scaled(9)});
 }
 
+// Where not all is seen: a bar in the margin at the right. ImGui's own takes room, by which everything would
+// become narrower as soon as a part is opened.
+void scroll_bar(const Ui& ui) {
+    const float farthest = ImGui::GetScrollMaxY();
+    if (farthest <= 0) return;
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const float margin = ImGui::GetStyle().WindowPadding.x, inset = ui.scaled(4);
+    const float height = std::max(ui.scaled(24), size.y * size.y / (size.y + farthest));
+    const ImVec2 corner(at.x + size.x - margin, at.y + (size.y - height) * ImGui::GetScrollY() / farthest);
+    ImGui::PushClipRect(at, {at.x + size.x, at.y + size.y}, false);
+    ImGui::SetCursorScreenPos(corner);
+    ImGui::InvisibleButton("scroll", {margin, height});
+    if (ImGui::IsItemActive())
+        ImGui::SetScrollY(ImGui::GetScrollY() + ImGui::GetIO().MouseDelta.y * farthest / (size.y - height));
+    const ImGuiCol state = ImGui::IsItemActive()    ? ImGuiCol_ScrollbarGrabActive
+                           : ImGui::IsItemHovered() ? ImGuiCol_ScrollbarGrabHovered
+                                                    : ImGuiCol_ScrollbarGrab;
+    ImGui::GetWindowDrawList()->AddRectFilled({corner.x + inset, corner.y + inset},
+                                              {at.x + size.x - inset, corner.y + height - inset},
+                                              ImGui::GetColorU32(state), ui.scaled(3));
+    ImGui::PopClipRect();
+}
+
 } // namespace
 
 void draw_side_panels(const Ui& ui, Rectangle where) {
@@ -27,7 +51,8 @@ void draw_side_panels(const Ui& ui, Rectangle where) {
     ImGui::Begin("side", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
+                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                     ImGuiWindowFlags_NoNav);
     // Closer than elsewhere, so that all of it is seen on a small display.
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, ui.scaled(5)});
     ImGui::PushItemWidth(-1);
@@ -44,6 +69,7 @@ void draw_side_panels(const Ui& ui, Rectangle where) {
         ImGui::PopID();
     }
     ImGui::PopItemWidth();
+    scroll_bar(ui);
     ImGui::PopStyleVar();
     ImGui::End();
     ImGui::PopStyleVar();

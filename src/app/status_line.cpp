@@ -38,17 +38,28 @@ std::string left_words(const Ui& ui) {
     return playback.empty() ? next_step(ui.editor) : playback;
 }
 
-std::string right_words(const Ui& ui) {
+// Of less and less account.
+std::vector<std::string> facts(const Ui& ui) {
     const Measured& measured = ui.state.measured;
-    const std::size_t all = ui.editor.marks.size();
-    std::string words = counted(all, "point");
+    std::vector<std::string> facts{counted(ui.editor.marks.size(), "point")};
     if (!measured.complete && measured.drawn < measured.in_view)
-        words += " (" + grouped(measured.drawn) + " shown)";
-    if (ui.editor.selected > 0) words += "   " + grouped(ui.editor.selected) + " selected";
-    if (ui.editor.hidden > 0) words += "   " + grouped(ui.editor.hidden) + " hidden";
-    if (ui.editor.document->samples > 0) words += "   " + counted(ui.editor.document->samples, "sample");
-    if (measured.frame > 0) words += "   frame " + milliseconds(measured.frame);
-    if (measured.solve > 0) words += "   solve " + milliseconds(measured.solve + measured.upsample);
+        facts.back() += " (" + grouped(measured.drawn) + " shown)";
+    if (ui.editor.selected > 0) facts.push_back(grouped(ui.editor.selected) + " selected");
+    if (ui.editor.hidden > 0) facts.push_back(grouped(ui.editor.hidden) + " hidden");
+    if (ui.editor.document->samples > 0) facts.push_back(counted(ui.editor.document->samples, "sample"));
+    if (measured.frame > 0) facts.push_back("frame " + milliseconds(measured.frame));
+    if (measured.solve > 0) facts.push_back("solve " + milliseconds(measured.solve + measured.upsample));
+    return facts;
+}
+
+// As many as fit.
+std::string right_words(const Ui& ui, float room) {
+    std::string words;
+    for (const std::string& fact : facts(ui)) {
+        const std::string more = words.empty() ? fact : words + "   " + fact;
+        if (ImGui::CalcTextSize(more.c_str()).x > room) break;
+        words = more;
+    }
     return words;
 }
 
@@ -66,15 +77,14 @@ void draw_status_line(const Ui& ui, Rectangle where) {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
     if (ui.has_cloud()) {
-        const std::string right = right_words(ui);
-        const float width = ImGui::CalcTextSize(right.c_str()).x;
-        const float start = where.x + where.width - width - ui.scaled(14);
         const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float end = where.x + where.width - ui.scaled(14);
+        const std::string left = left_words(ui);
+        const float room = end - at.x - ImGui::CalcTextSize(left.c_str()).x - ui.scaled(24);
+        const std::string right = right_words(ui, room);
         ImDrawList& list = *ImGui::GetWindowDrawList();
-        list.PushClipRect({where.x, where.y}, {start - ui.scaled(16), where.y + where.height}, true);
-        list.AddText(at, palette::text, left_words(ui).c_str());
-        list.PopClipRect();
-        list.AddText({start, at.y}, palette::faint, right.c_str());
+        list.AddText(at, palette::text, left.c_str());
+        list.AddText({end - ImGui::CalcTextSize(right.c_str()).x, at.y}, palette::faint, right.c_str());
     }
     ImGui::End();
     ImGui::PopFont();

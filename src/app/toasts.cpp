@@ -52,7 +52,8 @@ struct Drawn {
     bool clicked = false, hovered = false;
 };
 Drawn draw_toast(const Ui& ui, const Toast& toast, int number, ImVec2 corner) {
-    const float width = ui.scaled(400), inset = ui.scaled(44);
+    const float width = std::min(ui.scaled(400), ui.state.view.width - ui.scaled(32));
+    const float inset = ui.scaled(44);
     ImGui::SetNextWindowPos(corner, ImGuiCond_Always, {1, 1});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, toast.shown);

@@ -4,6 +4,8 @@
 #include "app/ui.h"
 #include "app/widgets.h"
 
+#include <algorithm>
+
 namespace knead {
 
 namespace {
@@ -21,16 +23,32 @@ constexpr ToolButton tools[] = {
     {SelectTool::brush, Icon::brush, "Brush (K): paints the selection; [ and ] change its size"},
 };
 
-void gap(const Ui& ui) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x;
-    const float y = at.y + ui.scaled(5);
-    ImGui::GetWindowDrawList()->AddLine({at.x + ui.scaled(6), y}, {at.x + width - ui.scaled(6), y},
-                                        palette::line);
-    ImGui::Dummy({width, ui.scaled(10)});
+// Of what the column is made of, in pixels.
+struct Sizes {
+    float margin, side, space, gap;
+};
+
+// In a low window all of it is smaller, so that no button is cut off.
+Sizes sizes_for(const Ui& ui, float height) {
+    constexpr Sizes whole{10, 36, 5, 10};
+    constexpr int buttons = 11, gaps = 3;
+    constexpr float needed =
+        2 * whole.margin + buttons * (whole.side + whole.space) + gaps * (whole.gap + whole.space);
+    const float unit = std::min(ui.scaled(1), height / needed);
+    return {whole.margin * unit, whole.side * unit, whole.space * unit, whole.gap * unit};
 }
 
-void transform_buttons(const Ui& ui, float side) {
+void gap(const Ui& ui, const Sizes& sizes) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const float y = at.y + sizes.gap / 2;
+    ImGui::GetWindowDrawList()->AddLine({at.x + ui.scaled(6), y}, {at.x + width - ui.scaled(6), y},
+                                        palette::line);
+    ImGui::Dummy({width, sizes.gap});
+}
+
+void transform_buttons(const Ui& ui, const Sizes& sizes) {
+    const float side = sizes.side;
     const Handle* handle = ui.has_cloud() ? chosen_handle(ui.editor) : nullptr;
     const bool possible = handle && handle->role == HandleRole::moving;
     const auto doing = [&](TransformKind kind) {
@@ -50,7 +68,7 @@ void transform_buttons(const Ui& ui, float side) {
     if (icon_button("scale", Icon::scale, side, doing(TransformKind::scale),
                     ("Scale the handle (S)." + hint).c_str()))
         ui.wish(WishPress{{key('S'), {}, false}});
-    gap(ui);
+    gap(ui, sizes);
     const bool local = ui.editor.local_axes;
     if (icon_button("axes", local ? Icon::local : Icon::world, side, false,
                     local ? "The gizmo has the handle's own axes; click for the world's (,)"
@@ -67,22 +85,23 @@ void transform_buttons(const Ui& ui, float side) {
 void draw_tool_column(const Ui& ui, Rectangle where) {
     ImGui::SetNextWindowPos({where.x, where.y});
     ImGui::SetNextWindowSize({where.width, where.height});
-    const float side = ui.scaled(36), margin = (where.width - side) / 2;
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {margin, ui.scaled(10)});
+    const Sizes sizes = sizes_for(ui, where.height);
+    const float side = sizes.side;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {(where.width - side) / 2, sizes.margin});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, ui.scaled(5)});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, sizes.space});
     ImGui::Begin("tools", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
     for (const ToolButton& button : tools)
         if (icon_button(button.words, button.icon, side, ui.editor.tools.select == button.tool, button.words))
             ui.wish(WishSelectTool{button.tool});
-    gap(ui);
+    gap(ui, sizes);
     if (icon_button("through", Icon::through, side, ui.editor.tools.through,
                     "Through (T): also selects what lies behind the visible surface"))
         ui.wish(WishThrough{!ui.editor.tools.through});
-    gap(ui);
-    transform_buttons(ui, side);
+    gap(ui, sizes);
+    transform_buttons(ui, sizes);
     ImGui::End();
     ImGui::PopStyleVar(3);
 }

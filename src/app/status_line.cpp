@@ -5,6 +5,7 @@
 #include "base/counts.h"
 
 #include <cstdio>
+#include <utility>
 
 namespace knead {
 
@@ -56,9 +57,11 @@ std::vector<std::string> facts(const Ui& ui) {
 std::string right_words(const Ui& ui, float room) {
     std::string words;
     for (const std::string& fact : facts(ui)) {
-        const std::string more = words.empty() ? fact : words + "   " + fact;
+        std::string more = words;
+        if (!more.empty()) more += "   ";
+        more += fact;
         if (ImGui::CalcTextSize(more.c_str()).x > room) break;
-        words = more;
+        words = std::move(more);
     }
     return words;
 }

@@ -4,22 +4,33 @@
 #include "app/scene_lines.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace knead {
+
+namespace {
+
+// What the colours tell.
+struct ColoredBy {
+    Coloring coloring{};
+    std::string attribute;
+    bool automatic_range = true;
+    ValueRange range;
+    UpAxis up = UpAxis::z;
+    bool operator==(const ColoredBy&) const = default;
+};
+
+} // namespace
 
 struct Scene::State {
     PointRenderer renderer;
     // As handed to the renderer last.
-    Coloring coloring{};
     std::vector<std::uint8_t> marks; // as drawn
     bool tints = true;               // handles are tinted
-    std::string attribute;
-    bool automatic_range = true;
-    ValueRange range;
-    bool colored = false;
+    std::optional<ColoredBy> colored;
     bool parts_known = false;
     std::shared_ptr<const std::vector<float>> spacings;
-    UpAxis up = UpAxis::z;
     SceneLinesOf lines;
     std::uint64_t version = 0; // of the frame
     std::vector<PointRange> moved;
@@ -27,6 +38,15 @@ struct Scene::State {
     bool lit = false; // by them
     std::vector<HandleLook> looks;
     std::vector<std::uint32_t> colors;
+
+    void begin_cloud(const Editor& editor, Display& display);
+    void take_positions(const Editor& editor, const Display& display);
+    void take_marks(const Editor& editor, const Display& display);
+    void take_looks(const Editor& editor, const UiState& state);
+    void take_spacings(const DocumentView& document);
+    void take_colors(Editor& editor, UiState& state);
+    void take_lines(const Editor& editor, const Display& display);
+    void take_estimated_normals(const Editor& editor, const Display& display);
 };
 
 Scene::Scene() : state_(std::make_unique<State>()) {}
@@ -64,77 +84,96 @@ bool same(const std::vector<HandleLook>& a, const std::vector<HandleLook>& b) {
 
 } // namespace
 
+void Scene::State::begin_cloud(const Editor& editor, Display& display) {
+    if (display.coloring == Coloring::attribute) // of the cloud before
+        display.coloring = Coloring::file;
+    renderer.set_points(editor.marks.size(), editor.opened.spacing);
+    spacings.reset();
+    colored.reset();
+    looks.clear();
+    lines = {};
+    renderer.set_overlay({});
+    estimated.begin_anew();
+    lit = false;
+    version = 0;
+}
+
+void Scene::State::take_positions(const Editor& editor, const Display& display) {
+    changed_since(version, editor.frame, moved);
+    renderer.set_positions(editor.frame.positions, moved);
+    if (!editor.frame.normals.empty()) renderer.set_normals(editor.frame.normals, moved);
+    version = editor.frame.version;
+    if (follows_pose(display.coloring)) colored.reset();
+}
+
+void Scene::State::take_marks(const Editor& editor, const Display& display) {
+    // Where colours tell a value, a handle's tint would tell another.
+    const bool tint = !tells_number(display.coloring) && display.coloring != Coloring::parts;
+    if (!editor.changes.cloud && !editor.changes.marks && tint == tints) return;
+    tints = tint;
+    marks = editor.marks;
+    if (!tints)
+        for (std::uint8_t& mark : marks) mark = static_cast<std::uint8_t>(mark & ~mark_handle);
+    renderer.set_marks(marks);
+}
+
+void Scene::State::take_looks(const Editor& editor, const UiState& state) {
+    std::vector<HandleLook> now = looks_of(editor, state);
+    if (same(now, looks)) return;
+    looks = std::move(now);
+    renderer.set_handle_looks(looks);
+}
+
+void Scene::State::take_spacings(const DocumentView& document) {
+    if (spacings == document.spacings) return;
+    spacings = document.spacings;
+    renderer.set_spacings(spacings ? std::span<const float>(*spacings) : std::span<const float>());
+}
+
+void Scene::State::take_colors(Editor& editor, UiState& state) {
+    const Display& display = state.display;
+    const bool needs_graph = display.coloring == Coloring::stretch || display.coloring == Coloring::parts;
+    const bool graph = editor.document->components != nullptr;
+    if (graph && !parts_known && needs_graph) colored.reset();
+    parts_known = graph;
+    ColoredBy now{display.coloring, display.attribute, display.automatic_range, display.range,
+                  editor.camera.up};
+    if (colored == now) return;
+    state.legend = color_points(display, editor, colors);
+    renderer.set_colors(colors);
+    colored = std::move(now);
+}
+
+void Scene::State::take_lines(const Editor& editor, const Display& display) {
+    SceneLinesOf now = scene_lines_of(editor, display);
+    if (now == lines) return;
+    lines = std::move(now);
+    renderer.set_overlay(scene_lines(editor, lines));
+}
+
+void Scene::State::take_estimated_normals(const Editor& editor, const Display& display) {
+    estimated.look_at(editor, display.look.shading, ImGui::GetTime());
+    const auto normals = estimated.take();
+    if (lit && estimated.outdated()) renderer.set_normals({});
+    lit &= !estimated.outdated();
+    if (normals && !estimated.outdated()) {
+        renderer.set_normals(*normals);
+        lit = true;
+    }
+}
+
 void Scene::take_in(Editor& editor, UiState& state) {
     if (!editor.document) return;
     State& own = *state_;
-    const Display& display = state.display;
-    EditorChanges& changes = editor.changes;
-    if (changes.cloud) {
-        if (display.coloring == Coloring::attribute) // of the cloud before
-            state.display.coloring = Coloring::file;
-        own.renderer.set_points(editor.marks.size(), editor.opened.spacing);
-        own.spacings.reset();
-        own.colored = false;
-        own.looks.clear();
-        own.lines = {};
-        own.renderer.set_overlay({});
-        own.estimated.begin_anew();
-        own.lit = false;
-        own.version = 0;
-    }
-    if (changes.cloud || changes.positions) {
-        changed_since(own.version, editor.frame, own.moved);
-        own.renderer.set_positions(editor.frame.positions, own.moved);
-        if (!editor.frame.normals.empty()) own.renderer.set_normals(editor.frame.normals, own.moved);
-        own.version = editor.frame.version;
-        if (follows_pose(display.coloring)) own.colored = false;
-    }
-    // Where colours tell a value, a handle's tint would tell another.
-    const bool tints = !tells_number(display.coloring) && display.coloring != Coloring::parts;
-    if (changes.cloud || changes.marks || tints != own.tints) {
-        own.tints = tints;
-        own.marks = editor.marks;
-        if (!tints)
-            for (std::uint8_t& mark : own.marks) mark = static_cast<std::uint8_t>(mark & ~mark_handle);
-        own.renderer.set_marks(own.marks);
-    }
-    changes = {false, false, false};
-    if (std::vector<HandleLook> looks = looks_of(editor, state); !same(looks, own.looks)) {
-        own.looks = std::move(looks);
-        own.renderer.set_handle_looks(own.looks);
-    }
-    const bool graph_came = !own.parts_known && editor.document->components != nullptr;
-    own.parts_known = editor.document->components != nullptr;
-    if (own.spacings != editor.document->spacings) {
-        own.spacings = editor.document->spacings;
-        own.renderer.set_spacings(own.spacings ? std::span<const float>(*own.spacings)
-                                               : std::span<const float>());
-    }
-    const bool needs_graph = display.coloring == Coloring::stretch || display.coloring == Coloring::parts;
-    if (!own.colored || own.coloring != display.coloring || own.attribute != display.attribute ||
-        own.automatic_range != display.automatic_range || own.up != editor.camera.up ||
-        !(own.range == display.range) || (graph_came && needs_graph)) {
-        state.legend = color_points(display, editor, own.colors);
-        own.renderer.set_colors(own.colors);
-        own.colored = true;
-        own.coloring = display.coloring;
-        own.attribute = display.attribute;
-        own.automatic_range = display.automatic_range;
-        own.range = display.range;
-        own.up = editor.camera.up;
-    }
-    if (SceneLinesOf lines = scene_lines_of(editor, display); !(lines == own.lines)) {
-        own.lines = std::move(lines);
-        own.renderer.set_overlay(scene_lines(editor, own.lines));
-    }
-    own.estimated.look_at(editor, display.look.shading, ImGui::GetTime());
-    const auto normals = own.estimated.take();
-    if (own.lit && own.estimated.outdated()) own.renderer.set_normals({});
-    own.lit &= !own.estimated.outdated();
-    if (normals && !own.estimated.outdated()) {
-        own.renderer.set_normals(*normals);
-        own.lit = true;
-    }
+    if (editor.changes.cloud) own.begin_cloud(editor, state.display);
+    if (editor.changes.cloud || editor.changes.positions) own.take_positions(editor, state.display);
+    own.take_marks(editor, state.display);
+    editor.changes = {false, false, false};
+    own.take_looks(editor, state);
+    own.take_spacings(*editor.document);
+    own.take_colors(editor, state);
+    own.take_lines(editor, state.display);
+    own.take_estimated_normals(editor, state.display);
 }
 
 DrawResult Scene::draw(const Editor& editor, PointLook look, std::size_t budget, bool coarse, int left,

@@ -36,7 +36,7 @@ inline void wait_until_idle(const LiveDocument& live) {
 
 // The bar of shapes/shapes.h as a file: 1 × 1 × 5 along z about the origin.
 inline std::filesystem::path bar_file(const ScratchFolder& folder, std::size_t points = 3000) {
-    const std::filesystem::path file = folder / "bar.ply";
+    std::filesystem::path file = folder / "bar.ply";
     SilentProgress silent;
     Workers workers(1);
     ShapeOptions options;

@@ -1,0 +1,262 @@
+// What a live document keeps on disk: the journal, what is restored of it, and saves over other files.
+
+#include "edit/live_document.h"
+
+#include "edit/live_bar.h"
+
+namespace knead::test {
+
+TEST_F(LiveBar, WhatACrashLeavesIsRestored) {
+    const std::filesystem::path state = folder_ / "state";
+    OpenRequest request = request_for(bar_file(folder_));
+    request.journal_folder = state;
+    PosedFrame posed;
+    {
+        LiveDocument live(request);
+        wait_until_open(live);
+        for (const SessionAction& handle : bar_handles()) live.post(++step_, {handle});
+        live.begin_drag(++step_, "high", {0, 0, 2});
+        live.drag_to(turned(1));
+        live.end_drag();
+        wait_until_idle(live);
+        live.take_frame(posed);
+        EXPECT_TRUE(find_lost_work(state).empty()) << "a recording that is open is not lost";
+        live.begin_drag(++step_, "high", {0, 0, 2}); // and dies in mid-drag
+        live.drag_to(turned(2));
+    }
+    const std::vector<LostWork> lost = find_lost_work(state);
+    ASSERT_EQ(lost.size(), 1U);
+    EXPECT_EQ(lost[0].acts, 4U); // two handles, the drag, its settling
+    EXPECT_EQ(lost[0].cloud, folder_ / "bar.ply");
+
+    OpenRequest restore = request_for({});
+    restore.journal_folder = state;
+    restore.restore = lost[0].journal;
+    LiveDocument live(restore);
+    wait_until_open(live);
+    ASSERT_EQ(live.status().stage, LiveDocument::Stage::open);
+    PosedFrame frame;
+    ASSERT_TRUE(live.take_frame(frame));
+    EXPECT_EQ(frame.positions, posed.positions);
+    EXPECT_FALSE(live.saved().session_state);
+    live.post(++step_, {CommitLine{}});
+    wait_until_idle(live);
+    EXPECT_EQ(read_session(lost[0].journal).lines.size(), 5U) << "the same recording goes on";
+}
+
+TEST_F(LiveBar, RestoringSaysSoWhereTheLastLineWasCutShort) {
+    const std::string header = R"({"knead":1,"cloud":{"path":"bar.ply"}})"
+                               "\n";
+    const std::string renamed = R"({"op":"set","iterations":4})"
+                                "\n";
+    for (const char* torn : {"", R"({"op":"commit"})", R"({"op":"com)"}) {
+        write_text(folder_ / "torn.knead", header + renamed + torn);
+        OpenRequest restore = request_for({});
+        restore.restore = folder_ / "torn.knead";
+        LiveDocument live(restore);
+        wait_until_open(live);
+        ASSERT_EQ(live.status().stage, LiveDocument::Stage::open);
+        EXPECT_EQ(live.view()->acts, std::string(torn).ends_with('}') ? 2U : 1U);
+        const std::vector<Notice> notices = live.take_notices();
+        EXPECT_EQ(notices.size(), std::string(torn) == R"({"op":"com)" ? 1U : 0U);
+        for (const Notice& notice : notices)
+            EXPECT_NE(notice.words.find("last line"), std::string::npos) << notice.words;
+    }
+}
+
+TEST_F(LiveBar, AFolderThatCannotBeWrittenLosesTheJournalAndNothingElse) {
+    OpenRequest request = request_for(bar_file(folder_));
+    request.journal_folder = "/proc/nowhere";
+    LiveDocument live(request);
+    wait_until_open(live);
+    for (const SessionAction& handle : bar_handles()) live.post(++step_, {handle});
+    wait_until_idle(live);
+    EXPECT_EQ(live.view()->handles.size(), 2U);
+    EXPECT_TRUE(live.take_refused().empty());
+    EXPECT_EQ(live.take_notices().size(), 1U) << "it is said once";
+}
+
+TEST_F(LiveBar, OnlyWhatIsNotSavedIsOfferedForRestoring) {
+    live_->save_session(folder_ / "a.knead");
+    settle_down();
+    const std::filesystem::path state = folder_ / "state";
+    OpenRequest request = request_for(folder_ / "a.knead");
+    request.journal_folder = state;
+    { // only looked at
+        LiveDocument live(request);
+        wait_until_open(live);
+        wait_until_idle(live);
+    }
+    EXPECT_TRUE(find_lost_work(state).empty());
+    { // changed and saved
+        LiveDocument live(request);
+        wait_until_open(live);
+        live.post(++step_, {RenameLine{"high", "top"}});
+        live.save_session(folder_ / "b.knead");
+        wait_until_idle(live);
+    }
+    EXPECT_TRUE(find_lost_work(state).empty());
+    { // changed, saved, and changed again
+        LiveDocument live(request);
+        wait_until_open(live);
+        live.post(++step_, {RenameLine{"high", "top"}});
+        live.save_session(folder_ / "c.knead");
+        live.post(++step_, {RenameLine{"low", "bottom"}});
+        wait_until_idle(live);
+    }
+    const std::vector<LostWork> lost = find_lost_work(state);
+    ASSERT_EQ(lost.size(), 1U);
+    EXPECT_EQ(lost[0].acts, 4U) << "it holds everything from the beginning";
+}
+
+std::vector<std::string> lines_in(const std::filesystem::path& session) {
+    std::vector<std::string> lines;
+    for (const SessionLine& line : read_session(session).lines) lines.push_back(to_text(line.action));
+    return lines;
+}
+
+TEST_F(LiveBar, LookingAtEarlierStepsIsNoWorkToRestore) {
+    live_->save_session(folder_ / "a.knead");
+    settle_down();
+    const std::vector<std::string> handles = lines_in(folder_ / "a.knead");
+    ASSERT_EQ(handles.size(), 2U);
+    const std::filesystem::path state = folder_ / "state";
+    OpenRequest request = request_for(folder_ / "a.knead");
+    request.journal_folder = state;
+    const auto look_back = [&](LiveDocument& live) {
+        wait_until_open(live);
+        for (int i = 0; i < 2; ++i) live.undo(0, true);
+        live.play(0);
+        wait_until_idle(live);
+        ASSERT_EQ(live.view()->handles.size(), 1U);
+    };
+    { // dies in the middle of it
+        LiveDocument live(request);
+        look_back(live);
+    }
+    EXPECT_TRUE(find_lost_work(state).empty());
+    { // saved there
+        LiveDocument live(request);
+        look_back(live);
+        live.save_session(folder_ / "b.knead");
+        wait_until_idle(live);
+    }
+    const std::string undo = to_text(UndoLine{});
+    EXPECT_EQ(lines_in(folder_ / "b.knead"), (std::vector{handles[0], handles[1], undo}));
+    { // goes on from there
+        LiveDocument live(request);
+        look_back(live);
+        live.post(++step_, {RenameLine{"low", "bottom"}});
+        wait_until_idle(live);
+    }
+    const std::vector<LostWork> lost = find_lost_work(state);
+    ASSERT_EQ(lost.size(), 1U);
+    EXPECT_EQ(lines_in(lost[0].journal),
+              (std::vector{handles[0], handles[1], undo, to_text(RenameLine{"low", "bottom"})}));
+}
+
+// Somebody else's work is not overwritten unnoticed, under whatever name.
+class SavingOver : public LiveBar {
+protected:
+    // Whether the save that was just posted was held back.
+    bool held() {
+        settle_down();
+        const auto saves = live_->take_held_saves();
+        if (!saves.empty()) last_held_ = saves.back();
+        return !saves.empty();
+    }
+
+    HeldSave last_held_;
+};
+
+TEST_F(SavingOver, ASessionThatSomebodyElseChangedIsAskedAbout) {
+    const std::filesystem::path session = folder_ / "a.knead";
+    live_->save_session(session);
+    EXPECT_FALSE(held());
+    live_->post(++step_, {RenameLine{"high", "top"}});
+    live_->save_session(session);
+    EXPECT_FALSE(held()) << "its own writing counts for nothing";
+    const std::string own = read_text(session);
+    const auto saved_state = live_->saved().session_state;
+
+    write_text(session, "theirs");
+    live_->post(++step_, {RenameLine{"low", "bottom"}});
+    live_->save_session(session);
+    EXPECT_TRUE(held());
+    EXPECT_EQ(last_held_.target, session);
+    EXPECT_FALSE(last_held_.columns);
+    EXPECT_EQ(read_text(session), "theirs");
+    EXPECT_EQ(live_->saved().session_state, saved_state) << "it is still unsaved";
+    live_->save_session(folder_ / "b.knead");
+    EXPECT_FALSE(held());
+    live_->save_session(session, true);
+    EXPECT_FALSE(held());
+    EXPECT_EQ(read_text(session), read_text(folder_ / "b.knead"));
+    live_->save_session(session);
+    EXPECT_FALSE(held()) << "the question was answered";
+    std::filesystem::remove(session);
+    live_->save_session(session);
+    EXPECT_FALSE(held()) << "there is nothing to lose";
+    EXPECT_TRUE(std::filesystem::exists(session));
+}
+
+TEST_F(SavingOver, AFileThatALinkOnTheWayNowLeadsToIsAskedAbout) {
+    for (const char* version : {"v1", "v2"}) std::filesystem::create_directory(folder_ / version);
+    std::filesystem::create_directory_symlink("v1", folder_ / "current");
+    live_->save_session(folder_ / "current/a.knead");
+    EXPECT_FALSE(held());
+    write_text(folder_ / "v2/a.knead", "theirs");
+    std::filesystem::remove(folder_ / "current");
+    std::filesystem::create_directory_symlink("v2", folder_ / "current");
+    live_->save_session(folder_ / "current/a.knead");
+    EXPECT_TRUE(held());
+    EXPECT_EQ(read_text(folder_ / "v2/a.knead"), "theirs");
+}
+
+TEST_F(SavingOver, EverySaveThatIsHeldBackIsAskedAbout) {
+    for (const char* name : {"a.knead", "b.knead"}) {
+        live_->save_session(folder_ / name);
+        settle_down();
+        write_text(folder_ / name, "theirs");
+    }
+    for (const char* name : {"a.knead", "b.knead"}) live_->save_session(folder_ / name);
+    settle_down();
+    const auto saves = live_->take_held_saves();
+    ASSERT_EQ(saves.size(), 2U);
+    EXPECT_EQ(saves[0].target, folder_ / "a.knead");
+}
+
+TEST_F(SavingOver, ACloudThatSomebodyElseReplacedIsAskedAbout) {
+    const std::filesystem::path cloud = live_->opened().file;
+    std::filesystem::create_symlink("bar.ply", folder_ / "link.ply");
+    live_->save_cloud(cloud);
+    EXPECT_FALSE(held());
+    // The same bytes, but another file: whoever wrote it may have meant something by it.
+    std::filesystem::copy_file(cloud, folder_ / "theirs");
+    std::filesystem::rename(folder_ / "theirs", cloud);
+    const auto theirs = stamp_of(cloud);
+    for (const std::filesystem::path& name : {cloud, folder_ / "link.ply"}) {
+        live_->save_cloud(name, {.stretch = true});
+        EXPECT_TRUE(held());
+        EXPECT_EQ(last_held_.target, name);
+        EXPECT_TRUE(last_held_.columns && last_held_.columns->stretch);
+        EXPECT_EQ(stamp_of(cloud), theirs);
+    }
+    live_->save_cloud(cloud, {}, true);
+    EXPECT_FALSE(held());
+    EXPECT_NE(stamp_of(cloud), theirs);
+}
+
+TEST_F(SavingOver, AnOpenedSessionIsKnownToo) {
+    live_->save_session(folder_ / "a.knead");
+    settle_down();
+    live_ = std::make_unique<LiveDocument>(request_for(folder_ / "a.knead"));
+    wait_until_open(*live_);
+    live_->save_session(folder_ / "a.knead");
+    EXPECT_FALSE(held());
+    write_text(folder_ / "a.knead", read_text(folder_ / "a.knead") + "\n");
+    live_->save_session(folder_ / "a.knead");
+    EXPECT_TRUE(held());
+}
+
+} // namespace knead::test

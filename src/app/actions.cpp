@@ -328,7 +328,7 @@ const Action session_actions[] = {
     {"Session", "To the end", "", "Goes to the last step that was done", std::nullopt,
      [](const Ui& ui) { play_to(ui, playback_steps(ui.editor)); }, document_has_steps},
     {"Session", "Timeline", "", "Shows the steps in a bar, to go back and forth through them", std::nullopt,
-     [](const Ui& ui) { ui.state.playback.shown = !ui.state.playback.shown; }, cloud_is_open,
+     [](const Ui& ui) { ui.state.playback.shown ? close_timeline(ui) : show_timeline(ui); }, cloud_is_open,
      [](const Ui& ui) { return ui.state.playback.shown; }, true},
 };
 

@@ -45,6 +45,21 @@ void play_step(const Ui& ui) {
     }
 }
 
+// Whether someone did something else in the middle of it.
+bool was_left(const Ui& ui) {
+    const Playback& playback = ui.state.playback;
+    return !playback.wanted &&
+           (playback_steps(ui.editor) != playback.steps || playback_position(ui.editor) != playback.position);
+}
+
+// Where the user went on, looking begins from there.
+void begin_where_left(const Ui& ui) {
+    if (!was_left(ui)) return;
+    Playback& playback = ui.state.playback;
+    playback.steps = playback_steps(ui.editor);
+    playback.origin = playback.position = playback_position(ui.editor);
+}
+
 bool can_play(const Editor& editor) {
     return editor.document && !editor.drag && playback_steps(editor) > 0;
 }
@@ -59,17 +74,25 @@ std::size_t playback_steps(const Editor& editor) {
     return count_of(editor.past) + count_of(editor.future);
 }
 
+void show_timeline(const Ui& ui) {
+    Playback& playback = ui.state.playback;
+    if (playback.shown) return;
+    playback.shown = true;
+    playback.wanted.reset();
+    playback.origin = playback.position;
+    begin_where_left(ui);
+}
+
 void toggle_playing(const Ui& ui) {
     Playback& playback = ui.state.playback;
-    playback.shown = true;
+    show_timeline(ui);
     if (playback.playing) {
         playback.playing = false;
         return ui.tell(PacePlaying{playback.speed, true});
     }
     if (!can_play(ui.editor)) return;
+    begin_where_left(ui);
     playback.playing = true;
-    playback.steps = playback_steps(ui.editor);
-    playback.position = playback_position(ui.editor);
     playback.next_at = ImGui::GetTime() + between_steps;
     ui.tell(PacePlaying{playback.speed, false});
     if (playback.position == playback.steps && !ui.editor.status.playing) playback.wanted = 0;
@@ -78,7 +101,8 @@ void toggle_playing(const Ui& ui) {
 void play_frame(const Ui& ui, int direction) {
     Playback& playback = ui.state.playback;
     if (!can_play(ui.editor)) return;
-    playback.shown = true;
+    show_timeline(ui);
+    begin_where_left(ui);
     playback.playing = false;
     ui.tell(PacePlaying{playback.speed, true});
     const std::size_t position = playback_position(ui.editor);
@@ -86,35 +110,27 @@ void play_frame(const Ui& ui, int direction) {
     if (playing && (direction > 0 || playing->frame > 1)) return ui.tell(AdvancePlaying{direction});
     if (direction < 0) return position > 0 ? play_to(ui, position - 1) : void();
     if (position == playback_steps(ui.editor)) return;
+    playback.position = position + 1;
     play_step(ui);
     ui.tell(AdvancePlaying{1});
 }
 
 void play_to(const Ui& ui, std::size_t position) {
+    begin_where_left(ui);
     ui.state.playback.wanted = position;
 }
 
-// Whoever only looked is back where they were: what was done is not lost by the next act.
+// Whoever only looked is back where they were: neither is what was done lost by the next act, nor what was
+// undone done again.
 void close_timeline(const Ui& ui) {
     ui.state.playback.shown = false;
     ui.state.playback.playing = false;
-    if (can_play(ui.editor)) play_to(ui, playback_steps(ui.editor));
+    if (can_play(ui.editor) && !was_left(ui)) play_to(ui, ui.state.playback.origin);
 }
-
-namespace {
-
-// Whether someone did something else in the middle of it.
-bool was_left(const Ui& ui) {
-    const Playback& playback = ui.state.playback;
-    return playback.playing && !playback.wanted &&
-           (playback_steps(ui.editor) != playback.steps || playback_position(ui.editor) != playback.position);
-}
-
-} // namespace
 
 void play_on(const Ui& ui) {
     Playback& playback = ui.state.playback;
-    if (!can_play(ui.editor) || was_left(ui)) {
+    if (!can_play(ui.editor) || (playback.playing && was_left(ui))) {
         playback.playing = false;
         playback.wanted.reset();
         return;
@@ -154,9 +170,11 @@ std::string playback_words(const Ui& ui) {
     else if (!playing)
         words += position == 0 ? ": the cloud as it was opened" : ": " + ui.editor.document->last_words;
     if (playback.playing) return words + " · Space holds";
-    if (position == playback_steps(ui.editor) && !playing)
-        return words + " · Space plays it all · Esc closes";
-    return words + " · Space plays on · Right shows the next frame · Esc goes back to the end";
+    const std::string close = position == playback.origin || was_left(ui)
+                                  ? " · Esc closes"
+                                  : " · Esc goes back to step " + std::to_string(playback.origin);
+    if (position == playback_steps(ui.editor) && !playing) return words + " · Space plays it all" + close;
+    return words + " · Space plays on · Right shows the next frame" + close;
 }
 
 namespace {
@@ -280,7 +298,8 @@ void draw_timeline(const Ui& ui, Rectangle where) {
     ImGui::SameLine();
     speed_choice(ui, speed_width);
     ImGui::SameLine();
-    if (icon_button("close", Icon::close, side, false, "Back to the end, and close the timeline"))
+    if (icon_button("close", Icon::close, side, false,
+                    "Closes the timeline, and goes back to where you were (Esc)"))
         close_timeline(ui);
     ImGui::End();
     ImGui::PopStyleVar(4);

@@ -20,8 +20,9 @@ struct Playback {
     bool playing = false;
     double speed = 1;                  // 1: as it was recorded
     double next_at = 0;                // ImGui's time of the next step
-    std::size_t steps = 0;             // there were when it began to play; others mean that the user went on
+    std::size_t steps = 0;             // there were when it last moved; others mean that the user went on
     std::size_t position = 0;          // it has led to; another means the same
+    std::size_t origin = 0;            // the position when it was shown, where looking ends
     std::optional<std::size_t> wanted; // the position to go to, once the document is free
 };
 
@@ -39,7 +40,9 @@ void play_to(const Ui& ui, std::size_t position);
 // Takes the step that is due. Call it once a frame.
 void play_on(const Ui& ui);
 
-// Goes to the end and takes the timeline away.
+// Shows the timeline. Takes it away, and goes back to where it was shown, unless something else was done
+// meanwhile.
+void show_timeline(const Ui& ui);
 void close_timeline(const Ui& ui);
 
 } // namespace knead

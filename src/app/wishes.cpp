@@ -85,6 +85,10 @@ void fulfil(Work& work, const WishBrowse& wish) {
     }
     if (!work.editor.document) return;
     if (wish.purpose == BrowseFor::save_session) browser.typed = opened.stem().string() + ".knead";
+    if (wish.purpose == BrowseFor::save_cloud && work.editor.looks_back && !work.editor.future.empty())
+        add_toast(work.state, {Notice::Kind::warning,
+                               "This is an earlier step: the cloud is saved as it was then, without what was "
+                               "done later."});
     if (wish.purpose == BrowseFor::save_cloud)
         browser.typed = opened.stem().string() + "-posed" +
                         (has_cloud_extension(opened) ? opened.extension().string() : ".ply");

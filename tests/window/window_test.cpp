@@ -158,6 +158,24 @@ TEST_F(WindowTest, PosesSavesAndRecordsWhatReplaysToTheSameShape) {
     expect_equal_shapes(folder_ / "kept.knead", folder_ / "kept.ply");
 }
 
+TEST_F(WindowTest, LookingAtTheTimelineLeavesWhatWasUndoneUndone) {
+    open_cat();
+    make_handles();
+    desktop_->move(500, 300);
+    desktop_->keys({"r", "4", "5", "Return"});
+    ASSERT_TRUE(wait_for_act("settle", 1));
+    desktop_->keys({"ctrl+z"});
+    ASSERT_TRUE(wait_for_act("undo", 2)); // the drag with its settling
+    save("ctrl+e", folder_ / "before.ply");
+    desktop_->keys({"Left"});
+    pause(0.5);
+    desktop_->keys({"Escape"});
+    pause(0.5);
+    save("ctrl+e", folder_ / "after.ply");
+    EXPECT_EQ(read_text(folder_ / "before.ply"), read_text(folder_ / "after.ply"));
+    EXPECT_EQ(acts("redo"), 0U);
+}
+
 TEST_F(WindowTest, WhatAKillLeavesIsRestored) {
     open_cat();
     make_handles();

@@ -65,8 +65,8 @@ void take_over(Editor& editor) {
     const std::vector<Index>& file_index = editor.opened.order->file_index;
     for (Index i = 0; i < file_index.size(); ++i) editor.ordered[file_index[i]] = i;
     editor.marks.assign(file_index.size(), 0);
-    editor.past.assign(editor.document->undoable_steps, EditorStep{1});
-    editor.future.assign(editor.document->redoable_steps, EditorStep{1});
+    editor.past.assign(editor.document->undoable_steps, EditorStep{step_of_opened_session});
+    editor.future.assign(editor.document->redoable_steps, EditorStep{step_of_opened_session});
     editor.looks_back = false;
     mark_handles(editor);
     editor.camera = first_view(bulk_box(editor.frame.positions), editor.viewport);
@@ -322,18 +322,31 @@ bool is_act(const Command& command) {
                      BeginDrag, ChangeSettings, ChooseSamples, CommitPose>(command);
 }
 
-void keep_later_steps(Editor& editor) {
+void decline(Editor& editor, const char* words) {
     std::vector<Command> unheard;
     if (editor.tools.drag) cancel_drag(editor.tools, unheard);
-    say(editor, Notice::Kind::information,
-        "This is an earlier step, and what was done later would be lost. Esc goes back to the last step. To "
+    say(editor, Notice::Kind::information, words);
+}
+
+void keep_later_steps(Editor& editor) {
+    decline(
+        editor,
+        "This is an earlier step, and what was done later would be lost. Esc goes back to where you were. To "
         "go on from an earlier one, undo to it (Ctrl+Z).");
+}
+
+// Whoever opens another file was asked what becomes of this one, as it was then.
+void keep_what_was_asked_about(Editor& editor) {
+    decline(editor,
+            "Another file is being opened and takes the place of this one: what you do here now would "
+            "be lost. Wait for it, or cancel it.");
 }
 
 } // namespace
 
 void apply(Editor& editor, const Command& command) {
     try {
+        if (editor.opening && editor.live && is_act(command)) return keep_what_was_asked_about(editor);
         if (editor.looks_back && !editor.future.empty() && is_act(command)) return keep_later_steps(editor);
         std::visit([&](const auto& c) { carry_out(editor, c); }, command);
     } catch (const Error& error) {

@@ -27,6 +27,9 @@ struct EditorChanges {
     bool marks = true;
 };
 
+// The number of all steps of a session that was opened; those of the hand come after it.
+inline constexpr StepNumber step_of_opened_session = 1;
+
 // One step of undo: a change of selection and hiding, a step of the document, or both.
 struct EditorStep {
     StepNumber document = 0; // 0: none
@@ -87,7 +90,7 @@ struct Editor {
     // --- Going back ---
     std::vector<EditorStep> past, future;
     bool looks_back = false; // UndoStep::to_look led here; of account while there is a future
-    StepNumber last_step = 1; // 1 is the number of all steps of a session that was opened
+    StepNumber last_step = step_of_opened_session;
     // Names of handles that were posted and that the document has not shown yet.
     std::vector<std::pair<StepNumber, std::string>> posted_names;
 

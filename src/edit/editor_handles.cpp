@@ -168,11 +168,11 @@ HandleMotion mirrored(const HandleMotion& motion, int axis, double at) {
     return result;
 }
 
-using Cell = std::array<int, 3>;
+using Cell = std::array<std::int64_t, 3>;
 struct CellHash {
     std::size_t operator()(const Cell& cell) const {
         std::size_t hash = 0;
-        for (const int c : cell) hash = hash * 0x9e3779b97f4a7c15U + static_cast<std::size_t>(c + 0x40000000);
+        for (const std::int64_t c : cell) hash = hash * 0x9e3779b97f4a7c15U + static_cast<std::size_t>(c);
         return hash;
     }
 };
@@ -187,7 +187,7 @@ struct PointGrid {
     std::unordered_map<Cell, std::vector<Entry>, CellHash> cells;
 
     Cell cell_of(const Vec3d& p) const {
-        const auto along = [&](int axis) { return static_cast<int>(std::floor(p[axis] / reach)); };
+        const auto along = [&](int axis) { return static_cast<std::int64_t>(std::floor(p[axis] / reach)); };
         return {along(0), along(1), along(2)};
     }
     // Whether the nearest point, if there is one within reach, belongs to the handle.
@@ -296,8 +296,7 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     choose_with_step(editor, name);
 }
 
-// --- Dragging
-// ------------------------------------------------------------------------------------------------
+// --- Dragging ---
 
 void carry_out(Editor& editor, const BeginDrag& command) {
     const auto number = number_of(editor, editor.chosen);

@@ -3,6 +3,7 @@
 #include "base/counts.h"
 #include "base/error.h"
 #include "edit/editor_steps.h"
+#include "edit/json_text.h"
 
 #include <algorithm>
 #include <optional>
@@ -131,7 +132,7 @@ void handles_from_labels(Editor& editor, const std::string& column, std::span<co
         std::vector<IndexRange>& ranges = points[choice.value];
         if (ranges.empty()) continue;
         HandleLine line;
-        line.name = column + " " + std::to_string(choice.value);
+        line.name = utf8_of(column) + " " + std::to_string(choice.value);
         line.role = choice.role;
         line.points = std::exchange(ranges, {});
         lines.emplace_back(std::move(line));

@@ -100,7 +100,11 @@ std::optional<Box3> box_of_selection(const Editor& editor) {
 
 bool has_unsaved_session(const Editor& editor) {
     if (!editor.document) return false;
-    return editor.document->state != editor.saved.session_state;
+    // Steps that were posted and not carried out yet, a drag under way among them.
+    const StepNumber done = std::max(editor.document->last_step, step_of_opened_session);
+    const bool pending =
+        std::ranges::any_of(editor.past, [&](const EditorStep& step) { return step.document > done; });
+    return pending || editor.document->state != editor.saved.session_state;
 }
 
 bool can_undo(const Editor& editor) {

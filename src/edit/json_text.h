@@ -12,4 +12,7 @@ namespace knead {
 // in any encoding, and JSON is UTF-8: bytes that are none become U+FFFD.
 std::string json_text(const nlohmann::ordered_json& json);
 
+// Text in any encoding as UTF-8, in which bytes that are none become U+FFFD: a name for a session file.
+std::string utf8_of(const std::string& text);
+
 } // namespace knead

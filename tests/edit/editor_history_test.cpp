@@ -89,6 +89,33 @@ TEST_F(BarEditor, ResettingAPoseOfAWholeTurnUnwindsIt) {
     EXPECT_NE(editor_.frame.positions, rest);
 }
 
+TEST_F(BarEditor, WhatIsPostedIsUnsavedBeforeItIsDone) {
+    EXPECT_FALSE(has_unsaved_session(editor_));
+    select_heights(2, 3);
+    apply(editor_, MakeHandle{HandleRole::moving, {}});
+    EXPECT_TRUE(has_unsaved_session(editor_));
+    calm();
+    editor_.live->save_session(folder_ / "kept.knead");
+    calm();
+    EXPECT_FALSE(has_unsaved_session(editor_));
+    press('R');
+    EXPECT_TRUE(has_unsaved_session(editor_)) << "a drag is under way";
+    press(Key::escape);
+    calm();
+    EXPECT_FALSE(has_unsaved_session(editor_));
+}
+
+TEST_F(BarEditor, NothingIsDoneThatAFileBeingOpenedWouldTakeAway) {
+    const std::size_t steps = editor_.past.size();
+    open(editor_, editor_.opening_request);
+    select_heights(2, 3);
+    apply(editor_, MakeHandle{HandleRole::moving, {}});
+    EXPECT_EQ(editor_.past.size(), steps);
+    ASSERT_FALSE(editor_.notices.empty());
+    EXPECT_NE(editor_.notices.back().words.find("being opened"), std::string::npos);
+    cancel_opening(editor_);
+}
+
 TEST_F(BarEditor, WhoeverLooksBackLosesNothingByAnAct) {
     make_handles();
     turn_chosen("40");

@@ -1,4 +1,5 @@
 #include "edit/editor_import.h"
+#include "edit/json_text.h"
 
 #include "edit/live.h"
 
@@ -90,6 +91,11 @@ TEST(LabelColumns, OfTooManyValuesAreNone) {
     const std::vector<LabelColumn> columns = label_columns(cloud);
     ASSERT_EQ(columns.size(), 1U);
     EXPECT_EQ(columns[0].name, "few");
+}
+
+TEST(NamesOfColumns, BecomeUtf8) {
+    EXPECT_EQ(utf8_of("Gebäude"), "Gebäude");
+    EXPECT_EQ(utf8_of("Geb\xe4ude"), "Geb\xef\xbf\xbdude"); // Latin 1, which no session file can hold
 }
 
 TEST_F(Import, LabelsBecomeHandlesInOneStep) {

@@ -3,6 +3,7 @@
 #include "base/stopwatch.h"
 #include "graph/shading_normals.h"
 
+#include <new>
 #include <utility>
 
 namespace knead {
@@ -56,10 +57,14 @@ void EstimatedNormals::begin(const Editor& editor, double now) {
     thread_ = std::make_unique<Background>([&result = result_, order = order_, graph = editor.document->graph,
                                             positions = editor.frame.positions] {
         const Stopwatch clock;
-        Workers workers(threads);
-        const std::vector<float> vertices = vertex_positions(*order, positions, workers);
-        std::vector<float> normals =
-            spread_to_points(shading_normals(*graph, vertices, workers), order->vertex);
+        std::vector<float> normals;
+        try {
+            Workers workers(threads);
+            const std::vector<float> vertices = vertex_positions(*order, positions, workers);
+            normals = spread_to_points(shading_normals(*graph, vertices, workers), order->vertex);
+        } catch (const std::bad_alloc&) { // then the points are flat
+            normals.clear();
+        }
         result.with([&](Result& r) { r = {true, clock.seconds(), std::move(normals)}; });
     });
 }

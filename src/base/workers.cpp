@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -86,7 +87,12 @@ struct Workers::State {
 
 Workers::Workers(unsigned threads) : state_(std::make_unique<State>()) {
     if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
-    for (unsigned i = 1; i < threads; ++i) state_->threads.emplace_back([this] { state_->worker_loop(); });
+    try {
+        for (unsigned i = 1; i < threads; ++i)
+            state_->threads.emplace_back([this] { state_->worker_loop(); });
+    } catch (const std::system_error&) {
+        // The system has no more of them: those that there are do.
+    }
 }
 
 Workers::~Workers() {

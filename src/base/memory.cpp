@@ -32,8 +32,12 @@ std::uint64_t peak_memory() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-bool forget_peak_memory() {
+void give_back_freed_memory() {
     (void)::malloc_trim(0);
+}
+
+bool forget_peak_memory() {
+    give_back_freed_memory();
     if (status_bytes("VmHWM:") == 0) return false;
     std::ofstream refs("/proc/self/clear_refs");
     refs << '5' << std::flush; // proc(5): resets the peak resident set size

@@ -2,6 +2,7 @@
 
 #include "base/counts.h"
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/require.h"
 #include "base/stopwatch.h"
 #include "cloud/extent.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace knead {
 
@@ -55,6 +57,7 @@ void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
         prepare_upsampler();
         stale_.upsampler = false;
     }
+    if (std::exchange(stale_.memory, false)) give_back_freed_memory();
 }
 
 void Pipeline::prepare_ahead(const Settings& settings, Progress& progress) {
@@ -89,7 +92,7 @@ void Pipeline::prepare_stages_without_handles(Progress& progress) {
     }
     if (stale_.samples) {
         prepare_samples(progress);
-        stale_.handles = true;
+        stale_.handles = stale_.memory = true;
         stale_.samples = false;
     }
 }
@@ -117,6 +120,11 @@ std::span<const float> Pipeline::vertex_positions() const {
 
 void Pipeline::prepare_points(Progress& progress) {
     prepare_order(progress);
+    // Links are numbered by an Index, and about half of them have no link back.
+    if (1.5 * static_cast<double>(order_.vertices()) * input_.settings.neighbors >= double{no_index})
+        throw Error(Trouble::input, "",
+                    "the cloud has too many points for " + std::to_string(input_.settings.neighbors) +
+                        " neighbours each: knead takes 4294967295 links in all; cut the cloud into pieces");
     const Stopwatch clock;
     neighbors_ = std::make_shared<const Graph>(
         neighbor_graph(vertex_positions(), input_.settings.neighbors, workers_, progress));

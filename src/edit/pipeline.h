@@ -192,6 +192,7 @@ private:
     struct Stale {
         bool points = true, bridges = true, samples = true, handles = true, contacts = true,
              influences = true, weights = true, systems = true, upsampler = true;
+        bool memory = false; // what a set-up freed is not given back yet
     };
     Stale stale_;
 

@@ -48,7 +48,7 @@ struct TaskQuality {
 // The whole motion in one frame, then up to `settle_limit` iterations more.
 inline constexpr unsigned settle_limit = 300;
 
-// Evaluates a task. What DESIGN and the issue demand of the four survey shapes is found by name.
+// Evaluates a task. The aims of the four survey shapes are found by name.
 TaskQuality evaluate_task(const DeformationTask& task, Workers& workers, Upsampler& upsampler,
                           Progress& progress);
 

@@ -24,7 +24,7 @@ constexpr std::size_t warm_up_frames = 3;
 constexpr double bend_degrees = 30;
 constexpr std::size_t large_copy_bytes = std::size_t{1} << 28; // half in, half out
 
-// Which of the paper's figures we have: those that DESIGN 6 quotes.
+// Which of the paper's figures we compare with, from its Table 1.
 constexpr FourFigures none{};
 constexpr FourFigures at_5000{std::nullopt, 1000, 30, 8};
 constexpr std::array<Table1Row, 7> rows_of_table{{

@@ -156,7 +156,7 @@ void print(const PointCloud& cloud, const Facts& facts, std::ostream& out) {
     out << "  (" << neighbors << " neighbours)\n";
     line("bridged"), components(facts.bridged.components, facts.bridged.largest_component);
     if (facts.bridged.outliers > 0) out << ", " << facts.bridged.outliers << " outliers hang on";
-    if (facts.bridged.components > facts.components) out << " and hold no parts together";
+    if (facts.bridged.components > facts.components) out << "; pieces that only they tied count apart";
     out << "  (strays \"bridge\")\n";
     if (facts.bounds.finite_points > 0) {
         line("lowest"), vector(facts.bounds.lowest);

@@ -43,7 +43,8 @@ void declare_picture_options(CLI::App& command, PictureOptions& options) {
         ->group(group);
     command
         .add_option("--color", options.color,
-                    "What the colours tell: rgb, plain, height, normal, or a column of the file "
+                    "What the colours tell: rgb, plain, height, normal, a column of the file, or in a "
+                    "replay displacement "
                     "(default: rgb, or plain where the file has none)")
         ->group(group);
     command.add_option("--zoom", options.zoom, "So many times as near as the whole cloud needs")

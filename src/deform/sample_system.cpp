@@ -49,8 +49,8 @@ void number_unknowns(SampleSystem& system) {
             number(s);
 }
 
-// ℓ²: the mean square length of the links at the unknown samples.
-// ℓ², of links that are not those of leaves, if there are any.
+// ℓ², the mean square length of the links at the unknown samples: of those that are no leaves' links, if
+// there are any.
 double mean_square_length(const SampleSystem& system) {
     const SampleRest& rest = system.rest;
     double sum = 0, sum_of_leaves = 0;

@@ -8,7 +8,7 @@
 //     E = Σ w_ij |x_j - x_i - ½(R_i + R_j) e_ij|² + β Σ w_ij |r_j - r_i|²,   β = α s²
 //
 // small: Equation (2) of the paper, of both ends of an edge, and Equation (1), which is a Laplacian of the
-// rotations (DESIGN 2; tests/deform proves it). s is the cloud's size, so that the stiffness does not depend
+// rotations (tests/deform proves it). s is the cloud's size, so that the stiffness does not depend
 // on how many samples there are. One iteration is
 //
 //     1. r*_i = the rotation nearest to Σ_j w_ij (R_i e_ij + x_j - x_i - M_ij e_ij) e_ijᵀ, of the hemisphere

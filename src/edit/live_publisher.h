@@ -43,6 +43,7 @@ private:
     void copy_changes(const std::vector<float>& from, std::vector<float>& to);
     void note_samples(const Pipeline& pipeline);
     void note_spacings(const Pipeline& pipeline);
+    void tell(Notice::About about, std::string words, std::string& told);
 
     Locked<LiveShared>& shared_;
     Workers& workers_;
@@ -51,7 +52,6 @@ private:
     std::vector<std::uint64_t> changed_in_; // of each block of points, the frame
     // Which of the pipeline's the last frame shows; 0: it shows another shape.
     std::uint64_t shown_upsampling_ = 0;
-    void tell(Notice::About about, std::string words, std::string& told);
     std::string told_of_strays_, told_of_demand_;
     // Copies for the window, which may look at them while the pipeline makes others.
     std::uint64_t samples_seen_ = 0;

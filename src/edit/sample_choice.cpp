@@ -20,7 +20,7 @@ constexpr double frame_seconds = 0.025;
 constexpr double least_for_solving = frame_seconds / 3;
 
 // Solving takes m to this power for m samples, or to a lower one (README: 2.4 ms an iteration with 10,500 and
-// 33 with 100,000).
+// 30 with 100,000).
 constexpr double growth = 1.15;
 
 // What handles ask for: two samples across the smallest, eight between any two, and 20 for a border of each

@@ -19,8 +19,7 @@
 
 namespace knead {
 
-// --- Settings
-// ------------------------------------------------------------------------------------------------------
+// --- Settings ---
 
 enum class Strays { freeze, carry, bridge };
 
@@ -50,8 +49,7 @@ Settings changed(Settings settings, const SettingsChange& change);
 // Both changes, `later` winning.
 SettingsChange merged(SettingsChange earlier, const SettingsChange& later);
 
-// --- Handles and poses
-// ---------------------------------------------------------------------------------------------
+// --- Handles and poses ---
 
 enum class HandleRole { fixed, moving, region_of_interest };
 
@@ -85,8 +83,7 @@ struct HandlePose {
     bool coarse = false;
 };
 
-// --- The lines
-// -----------------------------------------------------------------------------------------------------
+// --- The lines ---
 
 struct HandleLine {
     std::string name;

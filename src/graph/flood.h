@@ -2,12 +2,12 @@
 // The nearest samples of every vertex along the surface.
 //
 // The paper's Algorithm 1 searches the graph from every point until it has met K samples. Here all samples
-// flood the graph together, and a vertex keeps the K nearest that reach it: the same sets at about O(n K k),
-// what arrives by a way round before it does by the shortest being sent on twice, instead of O(n r) for
-// searches of r vertices. It is enough that a vertex passes
-// on what it keeps: if s is among the K first at p, it is among the K first at the vertex before p on a
-// shortest way from s, because whatever beats it there beats it at p too. Vertices should be numbered so that
-// neighbours have near numbers (PointOrder): the flood goes through them in tiles that fit into a cache.
+// flood the graph together, and a vertex keeps the K nearest that reach it: the same sets at about O(n K k)
+// instead of O(n r) for searches of r vertices (a little more, as what comes by a way round before it comes
+// by the shortest is sent on twice). It is enough that a vertex passes on what it keeps: if s is among the K
+// first at p, it is among the K first at the vertex before p on a shortest way from s, because whatever beats
+// it there beats it at p too. Vertices should be numbered so that neighbours have near numbers (PointOrder):
+// the flood goes through them in tiles that fit into a cache.
 //
 // A link is 1 to 63 levels long. With all of them 1, distance is the number of links, as in the paper. knead
 // measures them by their length (link_lengths()): the number of links follows the lattice that a scanner left

@@ -11,8 +11,8 @@ namespace knead {
 
 // The principal axes of a vertex and its neighbours: unit quaternions that turn x, y, z into the directions
 // of the largest, the middle and the smallest spread. The last is the surface's normal, up to its sign:
-// neighbouring frames are not oriented alike, and nothing here needs them to be (DESIGN 2). A vertex without
-// neighbours gets the identity. `positions`: 3 floats a vertex.
+// neighbouring frames are not oriented alike, and nothing here needs them to be (deform/sample_system.h). A
+// vertex without neighbours gets the identity. `positions`: 3 floats a vertex.
 std::vector<Quatd> local_frames(const Graph& graph, std::span<const float> positions, Workers& workers);
 
 // The same frames' normals, 3 floats a vertex, for shading a cloud whose file has none.

@@ -2,7 +2,6 @@
 
 #include "base/require.h"
 #include "graph/point_order.h"
-
 #include "graph/scrambled.h"
 
 #include <flann/flann.hpp>

@@ -87,7 +87,7 @@ TEST(Sessions, OfTheRegressionSuiteHoldAndSayWhatTheyShould) {
 }
 
 // What is recorded must be worth keeping: 50, 200 and 1000 samples beside all of them, rms over D (the aims
-// of DESIGN 6's shapes).
+// of `knead evaluate`).
 TEST(Sessions, OfTheRegressionSuiteDoNotShowTheNumberOfSamples) {
     const double aims[] = {0.009, 0.0045, 0.002};
     for (const std::string name :

@@ -276,8 +276,8 @@ TEST(Iterate, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Iterate, DependsLittleOnHowManySamplesThereAre) {
-    // β = α s² does not follow the spacing: the same bar with a quarter of the samples bends alike. DESIGN 2
-    // measured 0.2 to 1 % of D between such counts; β of the spacing would make 4 to 7 %.
+    // β = α s² does not follow the spacing: the same bar with a quarter of the samples bends alike,
+    // within 0.2 to 1 % of D between such counts; β of the spacing would make 4 to 7 %.
     SampleSystem coarse;
     SampleSystem fine;
     ASSERT_TRUE(test::built(test::bar(1000), coarse).solved);

@@ -89,7 +89,7 @@ inline PointCloud made(Shape shape, std::size_t points) {
     return make_shape(shape, options, workers, progress);
 }
 
-// The bar of DESIGN: 1 × 1 × 5 along z, around the origin.
+// The bar of shapes/shapes.h: 1 × 1 × 5 along z, around the origin.
 inline PointCloud bar(std::size_t points = 1500) {
     return made(Shape::bar, points);
 }

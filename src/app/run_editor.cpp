@@ -218,6 +218,7 @@ bool take_news(Loop& loop) {
         loop.state.overwriting.reset(); // which asked about the document before, as these would
         editor.held_saves.clear();
         loop.state.playback.playing = false;
+        loop.state.playback.steps = 0; // where looking began was in the document before
         loop.state.playback.wanted.reset();
         lay_out(loop);
         set_up(editor.camera, loop.state.display.up);

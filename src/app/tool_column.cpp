@@ -5,6 +5,7 @@
 #include "app/widgets.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace knead {
 
@@ -31,7 +32,7 @@ struct Sizes {
 // In a low window all of it is smaller, so that no button is cut off.
 Sizes sizes_for(const Ui& ui, float height) {
     constexpr Sizes whole{10, 36, 5, 10};
-    constexpr int buttons = 11, gaps = 3;
+    constexpr int buttons = std::size(tools) + 6, gaps = 3; // as draw_tool_column() has them
     constexpr float needed =
         2 * whole.margin + buttons * (whole.side + whole.space) + gaps * (whole.gap + whole.space);
     const float unit = std::min(ui.scaled(1), height / needed);

@@ -71,6 +71,14 @@ protected:
         ASSERT_TRUE(wait_for_act("handle", 2));
     }
 
+    void turn_a_cats_head() {
+        open_cat();
+        make_handles();
+        desktop_->move(500, 300);
+        desktop_->keys({"r", "3", "0", "Return"});
+        ASSERT_TRUE(wait_for_act("settle", 1));
+    }
+
     // What has been recorded so far.
     std::string recording() const {
         std::error_code none;
@@ -159,11 +167,7 @@ TEST_F(WindowTest, PosesSavesAndRecordsWhatReplaysToTheSameShape) {
 }
 
 TEST_F(WindowTest, LookingAtTheTimelineLeavesWhatWasUndoneUndone) {
-    open_cat();
-    make_handles();
-    desktop_->move(500, 300);
-    desktop_->keys({"r", "4", "5", "Return"});
-    ASSERT_TRUE(wait_for_act("settle", 1));
+    turn_a_cats_head();
     desktop_->keys({"ctrl+z"});
     ASSERT_TRUE(wait_for_act("undo", 2)); // the drag with its settling
     save("ctrl+e", folder_ / "before.ply");
@@ -177,11 +181,7 @@ TEST_F(WindowTest, LookingAtTheTimelineLeavesWhatWasUndoneUndone) {
 }
 
 TEST_F(WindowTest, WhatAKillLeavesIsRestored) {
-    open_cat();
-    make_handles();
-    desktop_->move(500, 300);
-    desktop_->keys({"r", "3", "0", "Return"});
-    ASSERT_TRUE(wait_for_act("settle", 1));
+    turn_a_cats_head();
     desktop_->keys({"g"}); // and is killed in mid-drag
     for (int step = 1; step <= 5; ++step) desktop_->move(500 + 10 * step, 300);
     editor_.kill_hard();

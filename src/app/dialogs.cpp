@@ -28,6 +28,14 @@ bool pressed(ImGuiKey key) {
     return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
 }
 
+std::string what_is_unsaved(const Editor& editor) {
+    const std::filesystem::path session = editor.document->session.filename();
+    if (session.empty())
+        return "The handles and poses of " + editor.opened.file.filename().string() +
+               " are not saved yet. A session keeps all of them, to go on with later.";
+    return "What was done since " + session.string() + " was saved is not in it.";
+}
+
 void unsaved_question(const Ui& ui) {
     if (ui.state.ask_unsaved) {
         ui.state.ask_unsaved = false;
@@ -35,15 +43,14 @@ void unsaved_question(const Ui& ui) {
     }
     if (!begin_question(ui, "unsaved", "Save what you did?")) return;
     ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(("The handles and poses of " + ui.editor.opened.file.filename().string() +
-                            " are not saved yet. A session keeps all of them, to go on with later.")
-                               .c_str());
+    ImGui::TextUnformatted(what_is_unsaved(ui.editor).c_str());
     ImGui::PopTextWrapPos();
     ImGui::Dummy({0, ui.scaled(8)});
     AfterSaving& after = ui.state.after;
+    const char* save = ui.editor.document->session.empty() ? "Save session…" : "Save session";
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
-    if (main_button("Save session…", {width, 0}) || pressed(ImGuiKey_Enter)) {
+    if (main_button(save, {width, 0}) || pressed(ImGuiKey_Enter)) {
         after.waiting_for_save = true;
         ui.wish(WishSaveSession{});
         ImGui::CloseCurrentPopup();
@@ -106,9 +113,40 @@ void overwriting_question(const Ui& ui) {
     }
     ImGui::SameLine();
     const bool gives_up = pressed(ImGuiKey_Escape);
-    if (main_button(words.elsewhere, {width, 0}) || gives_up) {
+    if (main_button(words.elsewhere, {width, 0}) || pressed(ImGuiKey_Enter) || gives_up) {
         if (target && !(gives_up && target->anyway)) ui.wish(WishBrowse{target->purpose});
         target.reset();
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+// A session whose cloud was moved, or is another file by now.
+void cloud_question(const Ui& ui) {
+    std::optional<Editor::WithoutCloud>& session = ui.state.without_cloud;
+    const FileBrowser& browser = ui.state.browser;
+    if (session && !ImGui::IsPopupOpen("cloud") && !browser.open_now && !browser.is_open)
+        ImGui::OpenPopup("cloud");
+    if (!begin_question(ui, "cloud", "Where is this session's cloud?")) return;
+    if (!session) {
+        ImGui::CloseCurrentPopup();
+        ImGui::EndPopup();
+        return;
+    }
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(session->why.c_str());
+    ImGui::PopTextWrapPos();
+    faint_text("The session can be opened with any cloud of as many points in the same order: the file where "
+               "it is now, or a copy of it.");
+    ImGui::Dummy({0, ui.scaled(8)});
+    const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    if (main_button("Choose the cloud…", {width, 0}) || pressed(ImGuiKey_Enter)) {
+        ui.wish(WishBrowse{BrowseFor::cloud_of_session});
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel", {width, 0}) || pressed(ImGuiKey_Escape)) {
+        session.reset();
         ImGui::CloseCurrentPopup();
     }
     ImGui::EndPopup();
@@ -119,6 +157,7 @@ void overwriting_question(const Ui& ui) {
 void draw_dialogs(const Ui& ui) {
     unsaved_question(ui);
     overwriting_question(ui);
+    cloud_question(ui);
 }
 
 } // namespace knead

@@ -26,6 +26,8 @@ const char* title_of(BrowseFor purpose) {
         return "Save the session";
     case BrowseFor::take_handles:
         return "Take the handles of a session";
+    case BrowseFor::cloud_of_session:
+        return "Which cloud does this session belong to?";
     default:
         return "Export the cloud";
     }
@@ -39,6 +41,8 @@ const char* verb_of(BrowseFor purpose) {
         return "Save";
     case BrowseFor::take_handles:
         return "Take";
+    case BrowseFor::cloud_of_session:
+        return "Use";
     default:
         return "Export";
     }
@@ -86,6 +90,8 @@ void choose(const Ui& ui) {
         }
         if (browser.purpose == BrowseFor::open)
             ui.wish(WishOpen{file});
+        else if (browser.purpose == BrowseFor::cloud_of_session)
+            ui.wish(WishUseCloud{file});
         else
             ui.wish(WishTakeHandles{file});
     } else {

@@ -11,10 +11,10 @@
 
 namespace knead {
 
-enum class BrowseFor { open, save_session, save_cloud, take_handles };
+enum class BrowseFor { open, save_session, save_cloud, take_handles, cloud_of_session };
 // Whether the file has to be there already.
 constexpr bool reads_file(BrowseFor purpose) {
-    return purpose == BrowseFor::open || purpose == BrowseFor::take_handles;
+    return purpose != BrowseFor::save_session && purpose != BrowseFor::save_cloud;
 }
 
 struct FolderEntry {

@@ -55,8 +55,9 @@ void read_folder(FileBrowser& browser) {
             const bool shown =
                 browser.purpose == BrowseFor::save_session || browser.purpose == BrowseFor::take_handles
                     ? found.is_session
-                : browser.purpose == BrowseFor::save_cloud ? is_cloud(entry->path())
-                                                           : found.is_session || is_cloud(entry->path());
+                : browser.purpose == BrowseFor::save_cloud || browser.purpose == BrowseFor::cloud_of_session
+                    ? is_cloud(entry->path())
+                    : found.is_session || is_cloud(entry->path());
             if (!entry->is_regular_file(ignored) || (!shown && !browser.every_file)) continue;
             found.bytes = entry->file_size(ignored);
         }

@@ -230,6 +230,7 @@ bool take_news(Loop& loop) {
         if (notice.kind == Notice::Kind::error) loop.state.after = {}; // what should have been saved was not
         add_toast(loop.state, std::move(notice));
     }
+    if (editor.without_cloud) loop.state.without_cloud = std::exchange(editor.without_cloud, std::nullopt);
     if (!editor.held_saves.empty() && !loop.state.overwriting) {
         ask_about(loop.work, editor.held_saves.front());
         editor.held_saves.erase(editor.held_saves.begin());
@@ -415,7 +416,7 @@ void run_editor(const EditorOptions& options) {
     loop.state.display.up = remembered.up;
     loop.state.choose_samples = remembered.choose_samples;
     loop.state.lost = find_lost_work(default_journal_folder());
-    if (!options.file.empty()) loop.wishes.emplace_back(WishOpen{options.file});
+    if (!options.file.empty()) loop.wishes.emplace_back(WishOpen{options.file, options.cloud});
     bool news = true;
     while (!loop.work.closing) {
         if (options.told_to_stop && options.told_to_stop()) return;

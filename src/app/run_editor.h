@@ -30,11 +30,12 @@ public:
 };
 
 struct EditorOptions {
-    std::filesystem::path file;         // a cloud or a session; empty: begins with nothing open
-    std::string device;                 // as make_upsampler() takes it
-    unsigned threads = 0;               // 0: one a core
-    int width = 1440, height = 900;     // of the window, on a display of scale 1
-    SettingsChange settings;            // of a cloud that is opened
+    std::filesystem::path file;                 // a cloud or a session; empty: begins with nothing open
+    std::optional<std::filesystem::path> cloud; // instead of the session's
+    std::string device;                         // as make_upsampler() takes it
+    unsigned threads = 0;                       // 0: one a core
+    int width = 1440, height = 900;             // of the window, on a display of scale 1
+    SettingsChange settings;                    // of a cloud that is opened
     std::function<bool()> told_to_stop; // by a signal: the window closes and keeps the journal; may be empty
     EditorObserver* observer = nullptr; // not owned
 };

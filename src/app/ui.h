@@ -28,6 +28,10 @@ namespace knead {
 
 struct WishOpen { // asks about unsaved work first
     std::filesystem::path file;
+    std::optional<std::filesystem::path> cloud = {}; // instead of the session's
+};
+struct WishUseCloud { // for the session that could not be opened without; asks like WishOpen
+    std::filesystem::path cloud;
 };
 struct WishRestore {
     LostWork work;
@@ -87,10 +91,10 @@ struct WishForgetRecent {};
 struct WishClose {}; // the window; asks about unsaved work first
 
 using Wish =
-    std::variant<WishOpen, WishRestore, WishDeleteLost, WishCancelOpening, WishBrowse, WishSaveSession,
-                 WishSaveTo, WishDiscard, WishDemonstration, WishPress, WishSelectTool, WishThrough,
-                 WishMovePivot, WishLocalAxes, WishOrbiting, WishUpAxis, WishChooseSamples, WishBrowseLabels,
-                 WishLabelHandles, WishTakeHandles, WishForgetRecent, WishClose>;
+    std::variant<WishOpen, WishUseCloud, WishRestore, WishDeleteLost, WishCancelOpening, WishBrowse,
+                 WishSaveSession, WishSaveTo, WishDiscard, WishDemonstration, WishPress, WishSelectTool,
+                 WishThrough, WishMovePivot, WishLocalAxes, WishOrbiting, WishUpAxis, WishChooseSamples,
+                 WishBrowseLabels, WishLabelHandles, WishTakeHandles, WishForgetRecent, WishClose>;
 
 // --- What the panels remember ---
 
@@ -123,7 +127,7 @@ struct Measured {
 
 // What to do once the user has said what becomes of the unsaved work.
 struct AfterSaving {
-    std::optional<Wish> then;      // WishOpen, WishRestore, WishDemonstration or WishClose
+    std::optional<Wish> then;      // what replaces the document
     bool waiting_for_save = false; // `then` comes when a save has succeeded
     bool save_was_posted = false;  // that save
 };
@@ -147,7 +151,8 @@ struct UiState {
     bool ask_unsaved = false;   // the dialog is to be opened
     bool choose_samples = true; // by themselves, of the next cloud; remembered
     AfterSaving after;
-    std::optional<WishSaveTo> overwriting; // the dialog asks whether to overwrite this
+    std::optional<WishSaveTo> overwriting;             // the dialog asks whether to overwrite this
+    std::optional<Editor::WithoutCloud> without_cloud; // which cloud it is to be opened with
 
     ChosenColors handle_colors;
     std::string recoloring; // the handle whose colours are to be shown; empty: none

@@ -7,6 +7,7 @@
 #include "io/cloud_file.h"
 
 #include <array>
+#include <utility>
 
 namespace knead {
 
@@ -47,6 +48,14 @@ std::optional<std::filesystem::path> data_file(const char* name) {
 void fulfil(Work& work, const WishOpen& wish) {
     OpenRequest request;
     request.file = wish.file;
+    request.cloud = wish.cloud;
+    begin_opening(work, std::move(request));
+}
+
+void fulfil(Work& work, const WishUseCloud& wish) {
+    if (!work.state.without_cloud) return;
+    OpenRequest request = std::move(std::exchange(work.state.without_cloud, std::nullopt)->request);
+    request.cloud = wish.cloud;
     begin_opening(work, std::move(request));
 }
 
@@ -71,12 +80,23 @@ void fulfil(Work& work, const WishCancelOpening&) {
     cancel_opening(work.editor);
 }
 
+// The nearest folder above that is there.
+std::filesystem::path folder_around(const std::filesystem::path& file) {
+    std::error_code ignored;
+    std::filesystem::path folder = std::filesystem::absolute(file, ignored).parent_path();
+    while (folder.has_relative_path() && !std::filesystem::is_directory(folder, ignored))
+        folder = folder.parent_path();
+    return folder;
+}
+
 void fulfil(Work& work, const WishBrowse& wish) {
     FileBrowser& browser = work.state.browser;
     browser.purpose = wish.purpose;
     browser.open_now = true;
     browser.typed.clear();
     const std::filesystem::path& opened = work.editor.opened.file;
+    if (wish.purpose == BrowseFor::cloud_of_session && work.state.without_cloud)
+        browser.folder = folder_around(work.state.without_cloud->request.file);
     if (browser.folder.empty()) {
         if (!opened.empty())
             browser.folder = std::filesystem::absolute(opened).parent_path();
@@ -194,8 +214,9 @@ void fulfil(Work& work, const WishDiscard&) {
 }
 
 bool replaces_document(const Wish& wish) {
-    return std::holds_alternative<WishOpen>(wish) || std::holds_alternative<WishRestore>(wish) ||
-           std::holds_alternative<WishDemonstration>(wish) || std::holds_alternative<WishClose>(wish);
+    return std::holds_alternative<WishOpen>(wish) || std::holds_alternative<WishUseCloud>(wish) ||
+           std::holds_alternative<WishRestore>(wish) || std::holds_alternative<WishDemonstration>(wish) ||
+           std::holds_alternative<WishClose>(wish);
 }
 
 } // namespace

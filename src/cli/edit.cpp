@@ -17,7 +17,7 @@ namespace knead {
 namespace {
 
 struct Arguments {
-    std::string file, device, size, samples;
+    std::string file, cloud, device, size, samples;
     std::vector<std::string> settings;
     unsigned threads = 0;
 };
@@ -31,7 +31,7 @@ void take_size(const std::string& text, EditorOptions& options) {
     if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 640 || height < 420 ||
         width > 16384 || height > 16384)
         throw Error(Trouble::usage, "--size",
-                    "must be a width and a height of at least 640x420, as 1440x900");
+                    "must be a width and a height of at least 640x420, as 1440x900, not \"" + text + "\"");
     options.width = width;
     options.height = height;
 }
@@ -39,6 +39,7 @@ void take_size(const std::string& text, EditorOptions& options) {
 int run_edit(const Arguments& arguments, const Terminal& terminal) {
     EditorOptions options;
     options.file = arguments.file;
+    if (!arguments.cloud.empty()) options.cloud = arguments.cloud;
     options.device = arguments.device;
     options.threads = arguments.threads;
     if (!arguments.size.empty()) take_size(arguments.size, options);
@@ -67,6 +68,8 @@ void add_edit(CLI::App& app, Job& job) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("edit", "Open the editor window; `knead FILE` does the same");
     command->add_option("FILE", arguments->file, "A cloud or a session; none: an empty window");
+    command->add_option("--cloud", arguments->cloud,
+                        "Another cloud than the session's; of as many points, if it says how many");
     command->add_option("--set", arguments->settings, "A setting of a cloud, key=value; may be repeated")
         ->allow_extra_args(false);
     command->add_option("--samples", arguments->samples, "Short for --set samples=N, or all");

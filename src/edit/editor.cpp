@@ -77,7 +77,12 @@ bool refresh_opening(Editor& editor) {
     if (!editor.opening) return false;
     const LiveDocument::Status status = editor.opening->status();
     if (status.stage == LiveDocument::Stage::opening) return false;
-    for (Notice& notice : editor.opening->take_notices()) editor.notices.push_back(std::move(notice));
+    std::vector<Notice> notices = editor.opening->take_notices();
+    if (status.wants_cloud && !notices.empty()) {
+        editor.without_cloud = {editor.opening_request, std::move(notices.back().words)};
+        notices.pop_back();
+    }
+    std::ranges::move(notices, std::back_inserter(editor.notices));
     if (status.stage == LiveDocument::Stage::open)
         take_over(editor);
     else

@@ -63,6 +63,12 @@ struct Editor {
     std::unique_ptr<LiveDocument> live;    // null: nothing
     std::unique_ptr<LiveDocument> opening; // takes the place of `live` once it is open
     OpenRequest opening_request;
+    // What could not be opened for want of its session's cloud, and why; the window takes it.
+    struct WithoutCloud {
+        OpenRequest request;
+        std::string why;
+    };
+    std::optional<WithoutCloud> without_cloud;
     OpenedCloud opened;
     std::shared_ptr<const DocumentView> document; // null: nothing is open
     PosedFrame frame;                             // the points as they are now

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/whole_file.h"
+#include "edit/journal_facts.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -58,16 +59,22 @@ std::filesystem::path fresh_name(const std::filesystem::path& folder, unsigned a
            (std::string(stamp) + "-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".knead");
 }
 
+void remove_journal(const std::filesystem::path& journal) {
+    ::unlink(journal.c_str());
+    ::unlink(journal_facts_file(journal).c_str());
+}
+
 // What a journal holds, if it is one, nobody has it open, and it can be read.
 std::optional<LostWork> look_at(const std::filesystem::path& file) {
     const Descriptor journal(::open(file.c_str(), O_RDWR | O_CLOEXEC));
     if (!journal || !lock(journal)) return std::nullopt;
     try {
         const Session session = parse_session(mended(read_all(journal, file), file).text, file);
-        if (!session.lines.empty())
-            return LostWork{file, session.resolve(session.cloud), session.lines.size(),
+        const JournalFacts facts = read_journal_facts(file);
+        if (const std::size_t lost = lost_lines(session.lines, facts.saved_lines); lost > 0)
+            return LostWork{file, session.resolve(session.cloud), facts.session, lost,
                             std::filesystem::last_write_time(file)};
-        ::unlink(file.c_str());
+        remove_journal(file);
     } catch (const std::exception&) {
         // Not a journal of this version: it stays where it is.
     }
@@ -129,7 +136,7 @@ void Journal::append(std::string_view line) {
 }
 
 void Journal::discard() {
-    ::unlink(file_.c_str());
+    remove_journal(file_);
 }
 
 MendedText mended(std::string text, const std::filesystem::path& file) {

@@ -29,7 +29,8 @@ public:
 
     // Appends a line and syncs it. Throws Error (output) when the disk is full or fails.
     void append(std::string_view line);
-    // Removes the file: what it holds is kept elsewhere, or not wanted.
+    // Removes the file and what stands beside it (edit/journal_facts.h): what it holds is kept elsewhere, or
+    // not wanted.
     void discard();
 
 private:
@@ -51,11 +52,12 @@ MendedText mended(std::string text, const std::filesystem::path& file);
 struct LostWork {
     std::filesystem::path journal;
     std::filesystem::path cloud;
-    std::size_t acts = 0;
+    std::filesystem::path session; // as which it was saved last, or opened; empty: never
+    std::size_t acts = 0;          // that are not in that file
     std::filesystem::file_time_type when;
 };
-// Journals of `folder` that hold an act and that no running knead has open, newest first. Empty ones are
-// removed on the way. Never throws.
+// Journals of `folder` that hold what is saved nowhere and that no running knead has open, newest first.
+// Those with nothing of the kind are removed on the way. Never throws.
 std::vector<LostWork> find_lost_work(const std::filesystem::path& folder);
 
 } // namespace knead

@@ -23,8 +23,11 @@ std::string real_name(const std::filesystem::path& file) {
 }
 
 void take_note(KnownFiles& known, const std::filesystem::path& file) {
-    if (const auto stamp = stamp_of(file))
-        known.stamps[real_name(file)] = known.stamps[plain_name(file)] = *stamp;
+    if (const auto stamp = stamp_of(file)) take_note(known, file, *stamp);
+}
+
+void take_note(KnownFiles& known, const std::filesystem::path& file, const FileStamp& stamp) {
+    known.stamps[real_name(file)] = known.stamps[plain_name(file)] = stamp;
 }
 
 bool was_changed(const KnownFiles& known, const std::filesystem::path& file) {

@@ -21,6 +21,9 @@ std::string real_name(const std::filesystem::path& file);
 // it was written.
 void take_note(KnownFiles& known, const std::filesystem::path& file);
 
+// The same of a file as it was earlier.
+void take_note(KnownFiles& known, const std::filesystem::path& file, const FileStamp& stamp);
+
 // Whether the file is there and is not as it was when it was noted last; not where it never was.
 bool was_changed(const KnownFiles& known, const std::filesystem::path& file);
 

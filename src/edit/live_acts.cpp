@@ -7,6 +7,7 @@
 #include "edit/measures.h"
 #include "edit/way_back.h"
 #include "io/cloud_file.h"
+#include "io/digest.h"
 
 #include <algorithm>
 #include <utility>
@@ -147,15 +148,31 @@ void LiveWork::carry_out(task::SaveSession& task) {
     finish_settling();
     if (!task.anyway && hold_back({task.target, std::nullopt})) return;
     look_for_others(task.target);
+    note_digest();
     recording_->save(task.target);
     take_note(known_files_, task.target);
     may_choose_ = false;   // or it would be unsaved again at once
     recording_->discard(); // the journal: a crash loses nothing of this any more
+    recording_->is_in(task.target);
     saved_.session_state = recording_->state();
     session_file_ = std::filesystem::absolute(task.target);
     tell_what_is_open();
     say(Notice::Kind::information, "Saved the session as " + task.target.string());
     publish_view();
+}
+
+// A session knows its cloud again, as it was when it was read.
+void LiveWork::note_digest() {
+    const std::filesystem::path& cloud = recording_->cloud();
+    const auto is_as_read = [&] { return cloud_stamp_ && stamp_of(cloud) == cloud_stamp_; };
+    if (!recording_->sha256() && is_as_read()) {
+        std::string digest = sha256_of_file(cloud);
+        if (is_as_read()) recording_->set_sha256(std::move(digest));
+    }
+    if (!is_as_read())
+        say(Notice::Kind::warning, cloud.string() + " is not the file any more that was opened. The session "
+                                                    "belongs to the points as they were: keep a copy of "
+                                                    "those, or it cannot be opened again.");
 }
 
 std::vector<float> LiveWork::in_file_order(std::span<const float> ordered, float left_out) {

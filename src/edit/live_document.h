@@ -110,7 +110,10 @@ struct OpenRequest {
     std::filesystem::path file;                   // a cloud or a session
     std::filesystem::path journal_folder;         // empty: no journal
     std::optional<std::filesystem::path> restore; // a journal to take over instead: `file` is not looked at
-    std::string device;                           // as make_upsampler() takes it
+    // Instead of the one that the session or the journal names, which is in another place now; its digest is
+    // not asked for. Refused with a plain cloud.
+    std::optional<std::filesystem::path> cloud;
+    std::string device; // as make_upsampler() takes it
     unsigned threads = 0;
     UpsamplerMaker make_upsampler = knead::make_upsampler; // another one, for tests of failing devices
     SettingsChange settings;
@@ -137,10 +140,11 @@ public:
     enum class Stage { opening, open, failed };
     struct Status {
         Stage stage = Stage::opening;
-        std::string doing;    // what a long stage does now; empty when nothing long goes on
-        double fraction = 0;  // of it
-        bool busy = false;    // whether the thread has anything to do, converging included
-        bool solving = false; // whether it is converging or following the hand
+        std::string doing;        // what a long stage does now; empty when nothing long goes on
+        double fraction = 0;      // of it
+        bool wants_cloud = false; // failed, as the session's cloud is not there, or is another one
+        bool busy = false;        // whether the thread has anything to do, converging included
+        bool solving = false;     // whether it is converging or following the hand
         // What play() shows at the moment.
         struct Playing {
             std::string handle;     // that was dragged; empty: a pose comes to rest, or nothing moves

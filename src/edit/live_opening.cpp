@@ -1,22 +1,45 @@
 #include "edit/live_opening.h"
 
+#include "base/error.h"
+#include "edit/session_cloud.h"
+
 namespace knead {
 
+namespace {
+
+Session restored_session(const std::filesystem::path& journal, std::string& remark) {
+    bool dropped = false;
+    Session session = recovered_session(journal, dropped);
+    if (dropped)
+        remark = "The recording breaks off in the middle of its last line, which is left out: what was being "
+                 "written when knead ended is lost, and everything before it is here.";
+    return session;
+}
+
+} // namespace
+
 Session session_to_open(const OpenRequest& request, Progress& progress, std::string& remark) {
-    if (request.restore) {
-        bool dropped = false;
-        Session session = recovered_session(*request.restore, dropped);
-        if (dropped)
-            remark =
-                "The recording breaks off in the middle of its last line, which is left out: what was being "
-                "written when knead ended is lost, and everything before it is here.";
-        return session;
-    }
+    if (request.restore) return restored_session(*request.restore, remark);
     if (is_session(request.file, progress)) return read_session(request.file);
+    if (request.cloud)
+        throw Error(Trouble::usage, "--cloud",
+                    "takes the place of a session's cloud, and " + request.file.string() + " is no session");
     Session session;
     session.cloud = std::filesystem::absolute(request.file);
     session.settings = changed({}, request.settings);
     return session;
+}
+
+PointCloud cloud_to_open(const OpenRequest& request, Session& session, Progress& progress) {
+    const bool is_plain = session.file.empty();
+    PointCloud cloud =
+        read_session_cloud(session, is_plain ? std::optional(request.file) : request.cloud, progress);
+    if (request.cloud) {
+        session.cloud = std::filesystem::absolute(*request.cloud);
+        session.sha256.reset();
+    }
+    session.points = cloud.size();
+    return cloud;
 }
 
 void carry_out_act(Document& document, const SessionAction& action, const std::string& place,

@@ -12,6 +12,10 @@ namespace knead {
 // own. `remark` becomes what the user should hear about a journal. Throws Error (input).
 Session session_to_open(const OpenRequest& request, Progress& progress, std::string& remark);
 
+// The cloud of that session, which learns what it is: where another was asked for, that one. Throws Error
+// (input).
+PointCloud cloud_to_open(const OpenRequest& request, Session& session, Progress& progress);
+
 // Any act but undo and redo; a check is none. Throws what the document throws.
 void carry_out_act(Document& document, const SessionAction& action, const std::string& place,
                    Progress& progress);

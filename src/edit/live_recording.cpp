@@ -55,6 +55,7 @@ LiveRecording::LiveRecording(const Session& session, const std::optional<std::fi
     header_.lines.clear();
     if (restored) {
         journal_ = Journal::take_over(*restored);
+        facts_ = read_journal_facts(*restored);
         written_ = session.lines.size();
     }
 }
@@ -64,6 +65,18 @@ void LiveRecording::discard() {
     if (journal_) folder_ = journal_->file().parent_path();
     journal_.reset();
     written_ = 0;
+}
+
+void LiveRecording::is_in(const std::filesystem::path& session) {
+    facts_.session = std::filesystem::absolute(session);
+    facts_.stamp = stamp_of(session);
+    facts_.saved_lines = lines_.size();
+    if (journal_) write_journal_facts(journal_->file(), facts_);
+}
+
+void LiveRecording::chooses_samples(bool by_itself) {
+    if (std::exchange(facts_.chooses_samples, by_itself) == by_itself) return;
+    if (journal_) write_journal_facts(journal_->file(), facts_);
 }
 
 void LiveRecording::add(const SessionAction& act, bool joins_step) {
@@ -114,7 +127,8 @@ std::size_t LiveRecording::redoable_steps() const {
     return count_steps(future_);
 }
 
-void LiveRecording::save(const std::filesystem::path& target) const {
+void LiveRecording::save(const std::filesystem::path& target) {
+    undo_what_was_looked_back();
     const std::filesystem::path folder = std::filesystem::absolute(target).lexically_normal().parent_path();
     Session header = header_;
     header.cloud = relative_to(cloud_, folder);
@@ -126,22 +140,27 @@ void LiveRecording::save(const std::filesystem::path& target) const {
                 relative_to(std::filesystem::absolute(check->positions).lexically_normal(), folder);
         file.write(to_text(line) + "\n");
     }
-    for (std::size_t i = 0; i < looked_back_; ++i) file.write(to_text(UndoLine{}) + "\n");
     file.commit();
+}
+
+void LiveRecording::undo_what_was_looked_back() {
+    for (; looked_back_ > 0; --looked_back_) lines_.emplace_back(UndoLine{});
 }
 
 // Lines that could not be written are made up for before the next one, so that none is ever missing in
 // between.
 void LiveRecording::write_down(const SessionAction& line) {
-    for (; looked_back_ > 0; --looked_back_) lines_.emplace_back(UndoLine{});
+    undo_what_was_looked_back();
     lines_.push_back(line);
     if (!journal_ && folder_.empty()) return;
-    if (!journal_) {
+    const bool begins = !journal_;
+    if (begins) {
         Session header = header_;
         header.cloud = cloud_;
         journal_ = Journal::create(folder_, header_text(header));
     }
     for (; written_ < lines_.size(); ++written_) journal_->append(to_text(lines_[written_]));
+    if (begins) write_journal_facts(journal_->file(), facts_);
 }
 
 } // namespace knead

@@ -4,6 +4,7 @@
 
 #include "base/progress.h"
 #include "edit/journal.h"
+#include "edit/journal_facts.h"
 #include "edit/session.h"
 
 #include <filesystem>
@@ -22,7 +23,8 @@ Session recovered_session(const std::filesystem::path& journal, bool& dropped);
 
 class LiveRecording {
 public:
-    // `session` gives the header; its lines are not taken. With `restored`, that journal is gone on with.
+    // `session` gives the header; its lines are not taken. With `restored`, that journal is gone on with, and
+    // what is known of it (facts()) is, too.
     LiveRecording(const Session& session, const std::optional<std::filesystem::path>& restored);
 
     // From the next act on there is a journal in that folder (none, if it is empty) that holds everything. So
@@ -31,6 +33,11 @@ public:
     void keep_journal(const std::filesystem::path& folder) { folder_ = folder; }
     // Removes the journal: what it holds is not wanted, or was saved. The next act begins another.
     void discard();
+
+    const JournalFacts& facts() const { return facts_; }
+    // All that was recorded so far is in that file.
+    void is_in(const std::filesystem::path& session);
+    void chooses_samples(bool by_itself);
 
     // An act that the document has carried out: of the step before it, or the first of a new one. What could
     // be redone is forgotten.
@@ -64,11 +71,16 @@ public:
     std::size_t acts() const { return lines_.size(); }
     const std::filesystem::path& cloud() const { return cloud_; } // absolute
 
-    // Writes all of it as a session file, with paths relative to it. Throws Error (output).
-    void save(const std::filesystem::path& target) const;
+    // Writes all of it as a session file, with paths relative to it. What was undone to look at it is undone
+    // for good. Throws Error (output).
+    void save(const std::filesystem::path& target);
+    // The digest by which a session knows its cloud again, which saved ones and journals to come carry.
+    const std::optional<std::string>& sha256() const { return header_.sha256; }
+    void set_sha256(std::string digest) { header_.sha256 = std::move(digest); }
 
 private:
     void write_down(const SessionAction& line);
+    void undo_what_was_looked_back();
 
     Session header_;
     std::filesystem::path cloud_;
@@ -84,6 +96,7 @@ private:
     std::uint64_t last_number_ = 0;
     std::filesystem::path folder_; // of the journal; empty: none is kept
     std::optional<Journal> journal_;
+    JournalFacts facts_;
     std::size_t written_ = 0; // lines that the journal has; a restored one has more than were replayed so far
 };
 

@@ -32,6 +32,7 @@ double median(std::vector<double> values) {
 
 void LiveWork::carry_out(task::ChooseSamples& task) {
     choosing_ = task.by_itself;
+    record([&] { recording_->chooses_samples(choosing_); });
     publish_view();
 }
 

@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "edit/live_opening.h"
-#include "edit/session_cloud.h"
 #include "view/framing.h"
 
 #include <exception>
@@ -42,25 +41,49 @@ void LiveWork::open() {
     Session session = session_to_open(request_, progress_, about_journal);
     if (!about_journal.empty()) say(Notice::Kind::warning, about_journal);
     const bool is_plain_cloud = session.file.empty();
-    take_note(known_files_, session.resolve(session.cloud));
-    PointCloud cloud =
-        read_session_cloud(session, is_plain_cloud ? std::optional(request_.file) : std::nullopt, progress_);
+    PointCloud cloud = read_cloud_of(session);
     for (const std::string& remark : cloud.remarks) say(Notice::Kind::warning, remark);
     UpsamplerChoice choice = request_.make_upsampler(request_.device, workers_, request_.threads);
     if (!choice.warning.empty()) say(Notice::Kind::warning, choice.warning);
     upsampler_ = std::move(choice.upsampler);
-    session.points = cloud.size();
     choosing_ = is_plain_cloud && !request_.restore && request_.choose_samples && !request_.settings.samples;
     if (choosing_) session.settings.samples = knead::choose_samples({cloud.size(), {}, {}}).samples;
     document_ = std::make_unique<Document>(std::move(cloud), session.settings, workers_, *upsampler_);
     recording_ = std::make_unique<LiveRecording>(session, request_.restore);
-    if (!request_.restore && !is_plain_cloud) session_file_ = std::filesystem::absolute(request_.file);
+    if (request_.restore)
+        belong_to_session_of(recording_->facts());
+    else if (!is_plain_cloud)
+        session_file_ = std::filesystem::absolute(request_.file);
     tell_what_is_open();
     document_->shape(progress_); // the order of the points
     replay_session(session, *document_, *recording_, progress_);
+    if (request_.restore && !session_file_.empty())
+        saved_.session_state = state_after(session.lines, recording_->facts().saved_lines);
     if (!request_.restore) saved_.session_state = recording_->state();
+    if (!request_.restore && !is_plain_cloud) recording_->is_in(session_file_);
+    recording_->chooses_samples(choosing_);
     publish_opened();
     if (!request_.restore) recording_->keep_journal(request_.journal_folder);
+}
+
+PointCloud LiveWork::read_cloud_of(Session& session) {
+    const std::filesystem::path file = request_.cloud ? *request_.cloud : session.resolve(session.cloud);
+    take_note(known_files_, file);
+    cloud_stamp_ = stamp_of(file);
+    try {
+        return cloud_to_open(request_, session, progress_);
+    } catch (const Error&) {
+        shared_.with([&](LiveShared& s) { s.status.wants_cloud = !session.file.empty(); });
+        throw;
+    }
+}
+
+// A restored one is saved where it was saved before, unless somebody else wrote there meanwhile, and goes on
+// choosing its samples if it did.
+void LiveWork::belong_to_session_of(const JournalFacts& facts) {
+    session_file_ = facts.session;
+    if (facts.stamp) take_note(known_files_, facts.session, *facts.stamp);
+    choosing_ = facts.chooses_samples;
 }
 
 void LiveWork::publish_opened() {

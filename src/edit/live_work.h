@@ -27,6 +27,8 @@ public:
 private:
     // --- The loop (live_work.cpp) ---
 
+    PointCloud read_cloud_of(Session& session);
+    void belong_to_session_of(const JournalFacts& facts);
     void publish_opened();
     void wait_for_next_frame();
     bool something_to_do() const;
@@ -47,6 +49,7 @@ private:
     void carry_out(task::SaveCloud& task);
     void carry_out(task::SaveSession& task);
     bool hold_back(HeldSave save);
+    void note_digest();
     template<typename Record>
     void record(Record&& write);
     void add_act(const SessionAction& action, bool joins);
@@ -129,6 +132,7 @@ private:
     bool told_of_journal_ = false;
     LiveDocument::Saved saved_;
     std::filesystem::path session_file_;
+    std::optional<FileStamp> cloud_stamp_; // before it was read
     KnownFiles known_files_;
 
     std::optional<OpenFiles> open_files_;

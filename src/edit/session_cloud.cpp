@@ -18,6 +18,11 @@ PointCloud read_named_cloud(const std::filesystem::path& path, const std::string
 PointCloud read_session_cloud(const Session& session, const std::optional<std::filesystem::path>& instead,
                               Progress& progress) {
     const std::filesystem::path path = instead ? *instead : session.resolve(session.cloud);
+    std::error_code ignored;
+    if (!instead && !std::filesystem::exists(path, ignored))
+        throw Error(Trouble::input, session.place(1),
+                    "\"cloud\": there is no file " + path.string() +
+                        "; if it is elsewhere now, give it with --cloud");
     PointCloud cloud = instead ? read_cloud(path, progress)
                                : read_named_cloud(path, session.place(1), "\"cloud\"", progress);
     if (session.points && *session.points != cloud.size())

@@ -3,8 +3,17 @@
 #include "edit/live_document.h"
 
 #include "edit/live_bar.h"
+#include "io/digest.h"
+
+#include <algorithm>
 
 namespace knead::test {
+
+std::vector<std::string> lines_in(const std::filesystem::path& session) {
+    std::vector<std::string> lines;
+    for (const SessionLine& line : read_session(session).lines) lines.push_back(to_text(line.action));
+    return lines;
+}
 
 TEST_F(LiveBar, WhatACrashLeavesIsRestored) {
     const std::filesystem::path state = folder_ / "state";
@@ -106,13 +115,116 @@ TEST_F(LiveBar, OnlyWhatIsNotSavedIsOfferedForRestoring) {
     }
     const std::vector<LostWork> lost = find_lost_work(state);
     ASSERT_EQ(lost.size(), 1U);
-    EXPECT_EQ(lost[0].acts, 4U) << "it holds everything from the beginning";
+    EXPECT_EQ(read_session(lost[0].journal).lines.size(), 4U) << "it holds everything from the beginning";
+    EXPECT_EQ(lost[0].acts, 1U) << "of which the last is not in the session";
+    EXPECT_EQ(lost[0].session, folder_ / "c.knead");
 }
 
-std::vector<std::string> lines_in(const std::filesystem::path& session) {
-    std::vector<std::string> lines;
-    for (const SessionLine& line : read_session(session).lines) lines.push_back(to_text(line.action));
-    return lines;
+TEST_F(LiveBar, GoingBackAndForthAfterASaveIsNoWorkToRestore) {
+    live_->save_session(folder_ / "a.knead");
+    settle_down();
+    const std::filesystem::path state = folder_ / "state";
+    OpenRequest request = request_for(folder_ / "a.knead");
+    request.journal_folder = state;
+    const auto die_after = [&](bool redo) {
+        LiveDocument live(request);
+        wait_until_open(live);
+        live.undo(0);
+        if (redo) live.redo(0);
+        wait_until_idle(live);
+    };
+    die_after(true);
+    EXPECT_TRUE(find_lost_work(state).empty());
+    for (const auto& left : std::filesystem::directory_iterator(state))
+        EXPECT_TRUE(left.is_directory()) << left.path();
+    die_after(false);
+    EXPECT_EQ(find_lost_work(state).size(), 1U) << "something was undone";
+}
+
+TEST_F(LiveBar, WhatIsRestoredIsSavedWhereItWasSavedBefore) {
+    const std::filesystem::path session = folder_ / "a.knead", state = folder_ / "state";
+    OpenRequest request = request_for(bar_file(folder_));
+    request.journal_folder = state;
+    request.choose_samples = true;
+    const auto die = [&](bool theirs) {
+        {
+            LiveDocument live(request);
+            wait_until_open(live);
+            for (const SessionAction& handle : bar_handles()) live.post(++step_, {handle});
+            live.save_session(session, true);
+            live.post(++step_, {RenameLine{"high", "top"}});
+            wait_until_idle(live);
+        }
+        if (theirs) write_text(session, "theirs");
+        const std::vector<LostWork> lost = find_lost_work(state);
+        ASSERT_EQ(lost.size(), 1U);
+        OpenRequest restore = request_for({});
+        restore.restore = lost[0].journal;
+        LiveDocument live(restore);
+        wait_until_open(live);
+        EXPECT_TRUE(live.view()->chooses_samples);
+        EXPECT_EQ(live.view()->session, session);
+        EXPECT_TRUE(live.saved().session_state);
+        EXPECT_NE(live.saved().session_state, live.view()->state);
+        live.save_session(session);
+        wait_until_idle(live);
+        EXPECT_EQ(live.take_held_saves().size(), theirs ? 1U : 0U);
+        if (!theirs) {
+            EXPECT_EQ(live.saved().session_state, live.view()->state);
+            EXPECT_EQ(lines_in(session).back(), to_text(RenameLine{"high", "top"}));
+        }
+        live.discard_journal();
+    };
+    die(false);
+    die(true);
+    EXPECT_EQ(read_text(session), "theirs");
+}
+
+TEST_F(LiveBar, ASavedSessionKnowsItsCloudAgain) {
+    const std::filesystem::path session = folder_ / "a.knead", elsewhere = folder_ / "elsewhere.ply";
+    live_->save_session(session);
+    settle_down();
+    EXPECT_EQ(read_session(session).sha256, sha256_of_file(folder_ / "bar.ply"));
+
+    // Another cloud of as many points comes to lie there.
+    std::filesystem::rename(folder_ / "bar.ply", elsewhere);
+    HandlePose pose;
+    pose.translate = {0, 0, 0.1};
+    live_->post(++step_, {DragLine{"high", {0, 0, 2}, {pose}}});
+    live_->save_cloud(folder_ / "bar.ply");
+    live_->take_notices();
+    live_->save_session(session);
+    settle_down();
+    const std::vector<Notice> notices = live_->take_notices();
+    EXPECT_TRUE(std::ranges::any_of(notices, [](const Notice& notice) {
+        return notice.words.find("is not the file any more") != std::string::npos;
+    }));
+    EXPECT_EQ(read_session(session).sha256, sha256_of_file(elsewhere)) << "as it was when it was opened";
+
+    OpenRequest request = request_for(session);
+    {
+        LiveDocument live(request);
+        wait_until_open(live);
+        EXPECT_EQ(live.status().stage, LiveDocument::Stage::failed);
+        EXPECT_TRUE(live.status().wants_cloud);
+    }
+    request.cloud = elsewhere;
+    LiveDocument live(request);
+    wait_until_open(live);
+    ASSERT_EQ(live.status().stage, LiveDocument::Stage::open);
+    EXPECT_EQ(live.opened().file, elsewhere);
+    live.save_session(folder_ / "b.knead");
+    wait_until_idle(live);
+    EXPECT_EQ(read_session(folder_ / "b.knead").cloud, "elsewhere.ply");
+}
+
+TEST_F(LiveBar, OnlyASessionTakesAnotherCloud) {
+    OpenRequest request = request_for(bar_file(folder_));
+    request.cloud = request.file;
+    LiveDocument live(request);
+    wait_until_open(live);
+    EXPECT_EQ(live.status().stage, LiveDocument::Stage::failed);
+    EXPECT_FALSE(live.status().wants_cloud);
 }
 
 TEST_F(LiveBar, LookingAtEarlierStepsIsNoWorkToRestore) {

@@ -86,7 +86,7 @@ TEST_F(Kills, OfSavesOfACloudAndASession) {
         for (std::size_t i = 0; i < acts; ++i) made.add(CommitLine{}, false);
         return made;
     };
-    const LiveRecording few = recording(10), many = recording(5000);
+    LiveRecording few = recording(10), many = recording(5000);
     const auto save = [&](bool second) {
         write_cloud(target, cloud, second ? PosedShape{moved, {}, {}} : PosedShape{}, silent);
         (second ? many : few).save(session);

@@ -242,6 +242,34 @@ TEST_F(WindowTest, ANameThatCannotBeSavedStaysToBeMended) {
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
 }
 
+TEST_F(WindowTest, ASessionWhoseCloudWasMovedAsksWhereItIs) {
+    const std::filesystem::path elsewhere = folder_ / "moved" / "elsewhere.ply";
+    write_text(folder_ / "work.knead", R"({"knead":1,"cloud":{"path":"cat.ply"}})"
+                                       "\n"
+                                       R"({"op":"handle","name":"all","role":"fixed","region":"all"})"
+                                       "\n");
+    std::filesystem::create_directory(elsewhere.parent_path());
+    std::filesystem::rename(folder_ / "cat.ply", elsewhere);
+    editor_ = desktop_->open_editor({(folder_ / "work.knead").string()});
+    ASSERT_TRUE(desktop_->wait_for_title("knead"));
+    pause(1);
+    desktop_->focus();
+    desktop_->keys({"Return"}); // Choose the cloud…
+    pause(1);
+    desktop_->keys({"Escape"}); // thinks better of it; the question is still there
+    pause(0.5);
+    desktop_->keys({"Return"});
+    pause(1);
+    desktop_->type(elsewhere.string());
+    desktop_->keys({"Return"});
+    ASSERT_TRUE(desktop_->wait_for_title("elsewhere.ply")) << read_text(folder_ / "editor.log");
+    desktop_->keys({"ctrl+s"});
+    ASSERT_TRUE(
+        wait_until([&] { return read_session(folder_ / "work.knead").cloud == "moved/elsewhere.ply"; }));
+    desktop_->keys({"ctrl+q"});
+    EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+}
+
 TEST_F(WindowTest, SaysWhyAFileCannotBeOpenedAndStaysUsable) {
     editor_ = desktop_->open_editor({(folder_ / "nothing.ply").string()});
     ASSERT_TRUE(desktop_->wait_for_title("knead"));

@@ -1,0 +1,88 @@
+#include "edit/journal_facts.h"
+
+#include "edit/json_text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace knead {
+
+namespace {
+
+bool is_act(const SessionLine& line) {
+    return !std::holds_alternative<UndoLine>(line.action) && !std::holds_alternative<RedoLine>(line.action) &&
+           !std::holds_alternative<CheckLine>(line.action);
+}
+
+} // namespace
+
+std::filesystem::path journal_facts_file(const std::filesystem::path& journal) {
+    std::filesystem::path file = journal;
+    return file.replace_extension(".json");
+}
+
+void write_journal_facts(const std::filesystem::path& journal, const JournalFacts& facts) {
+    nlohmann::ordered_json json;
+    // A name that is no UTF-8 cannot be kept in JSON: then the file is asked for again.
+    const bool named = utf8_of(facts.session.string()) == facts.session.string();
+    json["session"] = named ? facts.session.string() : "";
+    json["saved_lines"] = facts.saved_lines;
+    json["chooses_samples"] = facts.chooses_samples;
+    if (facts.stamp)
+        json["stamp"] = {facts.stamp->device, facts.stamp->inode, facts.stamp->size, facts.stamp->seconds,
+                         facts.stamp->nanoseconds};
+    FileInTheMaking file(journal_facts_file(journal));
+    file.write(json_text(json) + "\n");
+    file.commit();
+}
+
+JournalFacts read_journal_facts(const std::filesystem::path& journal) {
+    try {
+        SilentProgress silent;
+        const std::vector<std::byte> bytes = read_whole_file(journal_facts_file(journal), silent);
+        const auto* text = reinterpret_cast<const char*>(bytes.data());
+        const auto json = nlohmann::json::parse(text, text + bytes.size());
+        JournalFacts facts;
+        facts.session = json.at("session").get<std::string>();
+        facts.saved_lines = json.at("saved_lines").get<std::size_t>();
+        facts.chooses_samples = json.at("chooses_samples").get<bool>();
+        if (const auto stamp = json.find("stamp"); stamp != json.end())
+            facts.stamp =
+                FileStamp{stamp->at(0).get<dev_t>(), stamp->at(1).get<ino_t>(), stamp->at(2).get<off_t>(),
+                          stamp->at(3).get<time_t>(), stamp->at(4).get<long>()};
+        return facts;
+    } catch (const std::exception&) {
+        return {};
+    }
+}
+
+std::uint64_t state_after(std::span<const SessionLine> lines, std::size_t count) {
+    std::vector<std::uint64_t> done, undone;
+    std::uint64_t acts = 0;
+    const auto move_last = [](std::vector<std::uint64_t>& from, std::vector<std::uint64_t>& to) {
+        if (from.empty()) return;
+        to.push_back(from.back());
+        from.pop_back();
+    };
+    for (const SessionLine& line : lines.first(std::min(count, lines.size()))) {
+        if (std::holds_alternative<UndoLine>(line.action)) move_last(done, undone);
+        if (std::holds_alternative<RedoLine>(line.action)) move_last(undone, done);
+        if (!is_act(line)) continue;
+        done.push_back(++acts);
+        undone.clear();
+    }
+    return done.empty() ? 0 : done.back();
+}
+
+std::size_t lost_lines(std::span<const SessionLine> lines, std::size_t saved_lines) {
+    const std::span<const SessionLine> unsaved = lines.subspan(std::min(saved_lines, lines.size()));
+    const bool came_back = std::ranges::none_of(unsaved, is_act) &&
+                           state_after(lines, saved_lines) == state_after(lines, lines.size());
+    return came_back ? 0 : unsaved.size();
+}
+
+} // namespace knead

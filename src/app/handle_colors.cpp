@@ -2,7 +2,9 @@
 
 #include "app/theme.h"
 
+#include <algorithm>
 #include <array>
+#include <set>
 
 namespace knead {
 
@@ -17,11 +19,45 @@ constexpr std::array moving{rgb(0x4aa8ff), rgb(0x4fd6a5), rgb(0xd08bff),
 constexpr std::array fixed{rgb(0x8091b5), rgb(0x9aa5b1), rgb(0x7f8fa0), rgb(0x9c93b8)};
 constexpr std::array region{rgb(0xa9bf63), rgb(0x7fb28a)};
 
+// A renamed handle is a new name for the same points.
+void take_over_place(HandleColors& colors, const Handle& handle) {
+    const auto has_its_points = [&](const auto& entry) {
+        return entry.second.points.lock() == handle.points;
+    };
+    const auto old = std::ranges::find_if(colors.places, has_its_points);
+    if (old == colors.places.end()) return;
+    if (auto chosen = colors.chosen.extract(old->first)) colors.chosen[handle.name] = chosen.mapped();
+    colors.places[handle.name] = old->second;
+    colors.places.erase(old);
+}
+
+std::size_t first_free(const HandleColors& colors, std::span<const Handle> handles) {
+    std::set<std::size_t> taken;
+    for (const Handle& handle : handles)
+        if (const auto place = colors.places.find(handle.name); place != colors.places.end())
+            taken.insert(place->second.number);
+    std::size_t number = 0;
+    while (taken.contains(number)) ++number;
+    return number;
+}
+
 } // namespace
 
-ImU32 handle_color(const ChosenColors& chosen, const std::string& name, std::size_t number, HandleRole role) {
-    if (const auto found = chosen.find(name); found != chosen.end()) return found->second;
-    switch (role) {
+void place_colors(HandleColors& colors, std::span<const Handle> handles) {
+    for (const Handle& handle : handles) {
+        if (!colors.places.contains(handle.name)) take_over_place(colors, handle);
+        if (!colors.places.contains(handle.name))
+            colors.places[handle.name].number = first_free(colors, handles);
+        colors.places[handle.name].points = handle.points;
+    }
+}
+
+ImU32 handle_color(const HandleColors& colors, const Handle& handle) {
+    if (const auto found = colors.chosen.find(handle.name); found != colors.chosen.end())
+        return found->second;
+    const auto place = colors.places.find(handle.name);
+    const std::size_t number = place == colors.places.end() ? 0 : place->second.number;
+    switch (handle.role) {
     case HandleRole::moving:
         return moving[number % moving.size()];
     case HandleRole::fixed:

@@ -2,18 +2,33 @@
 // How handles look, in the list as in the view: a colour each, a pattern and an icon by role.
 
 #include "app/icons.h"
-#include "edit/session.h"
+#include "edit/handles.h"
 
 #include <map>
+#include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace knead {
 
-// Colours that the user chose, by the handle's name.
-using ChosenColors = std::map<std::string, ImU32>;
+// By the handles' names. A handle keeps its colour when others come and go, when it is renamed, and when it
+// comes back by undo.
+struct HandleColors {
+    std::map<std::string, ImU32> chosen; // by the user
+    struct Place {
+        std::size_t number = 0; // in the row of usual colours
+        std::weak_ptr<const std::vector<Index>> points;
+    };
+    std::map<std::string, Place> places; // of handles that are there or were
+};
 
-// The handle's colour: the one chosen, or one by role and number.
-ImU32 handle_color(const ChosenColors& chosen, const std::string& name, std::size_t number, HandleRole role);
+// Gives the new ones of these handles the first places that none of the others has, and those that were
+// renamed what they had.
+void place_colors(HandleColors& colors, std::span<const Handle> handles);
+
+// The handle's colour: the one chosen, or one by its role and place.
+ImU32 handle_color(const HandleColors& colors, const Handle& handle);
 Icon icon_of(HandleRole role);
 const char* words_for(HandleRole role); // "moving"
 

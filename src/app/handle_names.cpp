@@ -69,7 +69,9 @@ std::vector<LabelBox> in_the_way(const Ui& ui) {
     if (ui.state.legend.range) boxes.push_back(as_box(ui.state.legend_place));
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
         const bool shown = window->WasActive && !window->Hidden && !window->IsFallbackWindow;
-        if (!shown || (window->Flags & (ImGuiWindowFlags_Tooltip | ImGuiWindowFlags_ChildWindow))) continue;
+        // Dialogs dim all behind them, names too.
+        constexpr int over = ImGuiWindowFlags_Tooltip | ImGuiWindowFlags_ChildWindow | ImGuiWindowFlags_Modal;
+        if (!shown || (window->Flags & over)) continue;
         const ImRect rect = window->Rect();
         boxes.push_back(as_box({rect.Min.x, rect.Min.y, rect.GetWidth(), rect.GetHeight()}));
     }
@@ -82,7 +84,7 @@ void draw_name(const Ui& ui, ImDrawList& list, const Name& name, const PlacedLab
     const auto point = [](glm::dvec2 p) { return ImVec2(static_cast<float>(p.x), static_cast<float>(p.y)); };
     const ImVec2 corner = point(placed.box.lowest), opposite = point(placed.box.highest);
     const float height = opposite.y - corner.y, icon = icon_size(ui), across = ui.scaled(7);
-    const ImU32 color = handle_color(ui.state.handle_colors, handle.name, name.handle, handle.role);
+    const ImU32 color = handle_color(ui.state.handle_colors, handle);
     if (placed.is_led && name.label.rise == 0) {
         const ImVec2 from = point(placed.foot), to = point(name.label.anchor);
         list.AddLine(from, to, palette::rgb(0x101114, 140), ui.scaled(2.6f));

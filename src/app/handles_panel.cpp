@@ -151,8 +151,8 @@ bool row_button(const Ui& ui, const Handle& handle, ImVec2 size, bool renaming) 
 }
 
 // The square in the handle's colour; a click changes it.
-void color_swatch(const Ui& ui, const Handle& handle, std::size_t number, ImVec2 middle) {
-    const ImU32 color = handle_color(ui.state.handle_colors, handle.name, number, handle.role);
+void color_swatch(const Ui& ui, const Handle& handle, ImVec2 middle) {
+    const ImU32 color = handle_color(ui.state.handle_colors, handle);
     const float half = ui.scaled(6);
     ImGui::GetWindowDrawList()->AddRectFilled({middle.x - half, middle.y - half},
                                               {middle.x + half, middle.y + half}, color, ui.scaled(3));
@@ -160,8 +160,8 @@ void color_swatch(const Ui& ui, const Handle& handle, std::size_t number, ImVec2
     ImVec4 mixed = as_vector(color);
     if (ImGui::ColorPicker3("##picker", &mixed.x,
                             ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs))
-        ui.state.handle_colors[handle.name] = ImGui::ColorConvertFloat4ToU32(mixed);
-    if (ImGui::Button("Usual colour", {-1, 0})) ui.state.handle_colors.erase(handle.name);
+        ui.state.handle_colors.chosen[handle.name] = ImGui::ColorConvertFloat4ToU32(mixed);
+    if (ImGui::Button("Usual colour", {-1, 0})) ui.state.handle_colors.chosen.erase(handle.name);
     ImGui::EndPopup();
 }
 
@@ -180,7 +180,7 @@ void handle_row(const Ui& ui, const Handle& handle, std::size_t number) {
         list.AddRectFilled(corner, {corner.x + ui.scaled(3), corner.y + height}, palette::accent,
                            ui.scaled(2));
     const float middle = corner.y + height / 2;
-    color_swatch(ui, handle, number, {corner.x + ui.scaled(18), middle});
+    color_swatch(ui, handle, {corner.x + ui.scaled(18), middle});
     draw_icon(list, icon_of(handle.role), {corner.x + ui.scaled(40), middle}, ui.scaled(13), palette::text);
     const float text = ui.scaled(56);
     if (renaming) {

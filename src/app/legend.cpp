@@ -60,6 +60,7 @@ void draw_legend(const Ui& ui) {
                                      scale_color(below), scale_color(below));
     }
     for (int i = 0; i <= marks; ++i) {
+        if (low == high && i != marks / 2) continue; // one value, one mark
         const float y = top + height * (1 - static_cast<float>(i) / marks);
         list.AddLine({left + width, y}, {left + width + ui.scaled(4), y}, palette::faint);
         list.AddText({left + width + ui.scaled(8), y - line / 2}, palette::text,

@@ -214,7 +214,7 @@ bool take_news(Loop& loop) {
     if (was_opening && !editor.opening && editor.live.get() != before) {
         const OpenRequest& request = editor.opening_request;
         if (!request.restore) remember_file(loop.state.recent, request.file);
-        loop.state.handle_colors.clear();
+        loop.state.handle_colors = {};
         loop.state.overwriting.reset(); // which asked about the document before, as these would
         editor.held_saves.clear();
         loop.state.playback.playing = false;
@@ -226,6 +226,7 @@ bool take_news(Loop& loop) {
         apply(editor, FrameView{FrameWhat::everything});
         loop.frames_to_draw = 3;
     }
+    if (changed && editor.document) place_colors(loop.state.handle_colors, editor.document->handles);
     for (Notice& notice : std::exchange(editor.notices, {})) {
         if (notice.kind == Notice::Kind::error) loop.state.after = {}; // what should have been saved was not
         add_toast(loop.state, std::move(notice));

@@ -67,11 +67,9 @@ HandleLook::Pattern pattern_of(HandleRole role) {
 
 std::vector<HandleLook> looks_of(const Editor& editor, const UiState& state) {
     std::vector<HandleLook> looks;
-    const std::vector<Handle>& handles = editor.document->handles;
-    for (std::size_t i = 0; i < handles.size(); ++i) {
-        const ImVec4 color =
-            as_vector(handle_color(state.handle_colors, handles[i].name, i, handles[i].role));
-        looks.push_back({{color.x, color.y, color.z}, pattern_of(handles[i].role)});
+    for (const Handle& handle : editor.document->handles) {
+        const ImVec4 color = as_vector(handle_color(state.handle_colors, handle));
+        looks.push_back({{color.x, color.y, color.z}, pattern_of(handle.role)});
     }
     return looks;
 }

@@ -204,10 +204,13 @@ void strays_choice(const Ui& ui, const Settings& settings) {
     ImGui::EndCombo();
 }
 
-void what_there_is(const DocumentView& document) {
+void what_there_is(const Ui& ui) {
+    const DocumentView& document = *ui.editor.document;
     std::string words;
     const auto& asked = document.settings.samples;
-    if (document.samples > 0) words = counted(document.samples, "sample");
+    // sample_choice() has said the other.
+    const bool is_said = ui.editor.chooses_samples && document.samples == document.suited.samples;
+    if (document.samples > 0 && !is_said) words = counted(document.samples, "sample");
     if (asked && document.samples > *asked)
         words = counted(*asked, "sample") + " asked, " + grouped(document.samples) + " used";
     const std::size_t parts = document.components ? document.components->size.size() : 0;
@@ -235,7 +238,7 @@ void shape_panel(const Ui& ui) {
     iterations_slider(ui, settings);
     weights_choice(ui, settings);
     strays_choice(ui, settings);
-    what_there_is(document);
+    what_there_is(ui);
     send_rested(ui);
 }
 

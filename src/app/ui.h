@@ -154,7 +154,7 @@ struct UiState {
     std::optional<WishSaveTo> overwriting;             // the dialog asks whether to overwrite this
     std::optional<Editor::WithoutCloud> without_cloud; // which cloud it is to be opened with
 
-    ChosenColors handle_colors;
+    HandleColors handle_colors;
     std::string recoloring; // the handle whose colours are to be shown; empty: none
     std::string renaming;   // the handle that is being renamed in the list; empty: none
     std::string name_text;  // what was typed so far

@@ -59,7 +59,11 @@ bool is_missing(const std::string& word) {
     std::error_code ignored;
     if (word.starts_with('-') || std::filesystem::exists(word, ignored)) return false;
     knead::Terminal terminal;
-    terminal.say("knead: \"" + word + "\" is no file, and no subcommand either; knead --help names these");
+    const bool looks_like_file = word.find_first_of("./") != std::string::npos;
+    terminal.say("knead: " + (looks_like_file ? "there is no file \"" + word + "\""
+                                              : "\"" + word +
+                                                    "\" is no file, and no subcommand either; "
+                                                    "knead --help names these"));
     return true;
 }
 

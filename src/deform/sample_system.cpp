@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace knead {
 
@@ -103,6 +104,7 @@ SparseMatrix laplacian(const SampleSystem& system, std::size_t rows) {
         }
         matrix.first.push_back(static_cast<int>(matrix.row.size()));
     }
+    require(matrix.row.size() <= std::numeric_limits<int>::max(), "a matrix is counted by int");
     return matrix;
 }
 

@@ -47,7 +47,8 @@ bool needs_commit(const SessionAction& act) {
 Document::Document(PointCloud cloud, const Settings& settings, Workers& workers, Upsampler& upsampler,
                    Mode mode)
     : mode_(mode), cloud_(std::move(cloud)), bounds_(bounds_of(cloud_)),
-      holds_splats_(find_splats(cloud_).has_value()), pipeline_(cloud_, workers, upsampler) {
+      holds_splats_(find_splats(cloud_).has_value()), workers_(workers),
+      pipeline_(cloud_, workers, upsampler) {
     history_.emplace_back().settings = settings;
 }
 
@@ -245,9 +246,7 @@ std::vector<float> Document::positions(Progress& progress) {
     std::vector<float> result = cloud_.positions;
     if (mode_ == Mode::rehearsal || (!now().rest && !is_posed())) return result;
     const RestShape& now = shape(progress);
-    const PointOrder& order = pipeline_.order();
-    for (std::size_t i = 0; i < order.points(); ++i)
-        std::copy_n(now.positions.data() + 3 * i, 3, result.data() + 3 * std::size_t{order.file_index[i]});
+    scatter(pipeline_.order(), now.positions, 3, result, workers_);
     return result;
 }
 
@@ -255,9 +254,7 @@ std::vector<float> Document::normals(Progress& progress) {
     std::vector<float> result = read_normals(cloud_);
     if (mode_ == Mode::rehearsal || result.empty() || (!now().rest && !is_posed())) return result;
     const RestShape& now = shape(progress);
-    const PointOrder& order = pipeline_.order();
-    for (std::size_t i = 0; i < order.points(); ++i)
-        std::copy_n(now.normals.data() + 3 * i, 3, result.data() + 3 * std::size_t{order.file_index[i]});
+    scatter(pipeline_.order(), now.normals, 3, result, workers_);
     return result;
 }
 
@@ -273,11 +270,9 @@ std::vector<float> Document::rotations(Progress& progress) {
         rest = rest_of(now(), progress);
     }
     const std::vector<float>& ordered = rest ? rest->rotations : posed;
-    const PointOrder& order = pipeline_.order();
     std::vector<float> result(4 * cloud_.size(), 0.0F);
     for (std::size_t i = 0; i < cloud_.size(); ++i) result[4 * i] = 1;
-    for (std::size_t i = 0; i < order.points(); ++i)
-        std::copy_n(ordered.data() + 4 * i, 4, result.data() + 4 * std::size_t{order.file_index[i]});
+    scatter(pipeline_.order(), ordered, 4, result, workers_);
     return result;
 }
 

@@ -207,6 +207,7 @@ private:
     PointCloud cloud_;
     Bounds bounds_;
     bool holds_splats_;
+    Workers& workers_;
     Pipeline pipeline_;
     std::vector<State> history_;        // from the cloud as it was opened to what can be redone
     std::size_t at_ = 0;                // the present one

@@ -290,7 +290,7 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     } else if (handle.role == HandleRole::moving) {
         say(editor, Notice::Kind::information,
             "Only the handle was mirrored: \"" + handle.name +
-                "\" has no pose to mirror. What was posed before a commit belongs to the shape.");
+                "\" is where it was at rest, so there is no pose to mirror.");
     }
     editor.posted_names.emplace_back(post_step(editor, std::move(lines)), name);
     choose_with_step(editor, name);

@@ -41,14 +41,19 @@ void post_handles(Editor& editor, std::vector<SessionAction> lines) {
     say(editor, Notice::Kind::information, "Made " + counted(count, "handle") + ".");
 }
 
-// The handles that stand at the end of a session, in the order of their last lines.
-using HandleLines = std::vector<std::pair<std::size_t, HandleLine>>; // with the line's number
+// Handles of a session, in the order of their last lines, under the names that they have by now. Points are
+// many, so the lines stay where they are.
+struct NamedLine {
+    std::string name;
+    const SessionLine* line = nullptr; // of a HandleLine
+};
+using HandleLines = std::vector<NamedLine>;
 
-void put(HandleLines& handles, std::size_t number, const HandleLine& line) {
-    std::erase_if(handles, [&](const auto& handle) { return handle.second.name == line.name; });
-    handles.emplace_back(number, line);
+void remove(HandleLines& handles, const std::string& name) {
+    std::erase_if(handles, [&](const NamedLine& handle) { return handle.name == name; });
 }
 
+// Those that stand at the end.
 HandleLines handles_at_end(const Session& session) {
     std::vector<HandleLines> past{{}}, future; // after each act
     for (const SessionLine& line : session.lines) {
@@ -63,12 +68,14 @@ HandleLines handles_at_end(const Session& session) {
             continue;
         }
         HandleLines now = past.back();
-        if (const auto* made = std::get_if<HandleLine>(&action)) put(now, line.number, *made);
-        if (const auto* gone = std::get_if<DeleteLine>(&action))
-            std::erase_if(now, [&](const auto& handle) { return handle.second.name == gone->handle; });
+        if (const auto* made = std::get_if<HandleLine>(&action)) {
+            remove(now, made->name);
+            now.push_back({made->name, &line});
+        }
+        if (const auto* gone = std::get_if<DeleteLine>(&action)) remove(now, gone->handle);
         if (const auto* named = std::get_if<RenameLine>(&action))
-            for (auto& handle : now)
-                if (handle.second.name == named->handle) handle.second.name = named->to;
+            for (NamedLine& handle : now)
+                if (handle.name == named->handle) handle.name = named->to;
         past.push_back(std::move(now));
         future.clear();
     }
@@ -76,7 +83,8 @@ HandleLines handles_at_end(const Session& session) {
 }
 
 // The lines with points instead of regions, as a recording has them. Throws Error (input).
-std::vector<SessionAction> with_points(const Editor& editor, const Session& session, HandleLines handles) {
+std::vector<SessionAction> with_points(const Editor& editor, const Session& session,
+                                       const HandleLines& handles) {
     const PointCloud& cloud = *editor.opened.cloud;
     const auto place_of = [&](std::size_t i) -> Vec3d {
         const Index at = editor.ordered[i];
@@ -85,11 +93,13 @@ std::vector<SessionAction> with_points(const Editor& editor, const Session& sess
         return cloud.origin + Vec3f(p[0], p[1], p[2]).cast<double>();
     };
     std::vector<SessionAction> lines;
-    for (auto& [number, line] : handles) {
+    for (const auto& [name, from] : handles) {
+        HandleLine line = std::get<HandleLine>(from->action);
         std::vector<IndexRange> ranges;
-        for (const Index i : resolve_points(line, cloud, place_of, session.place(number)))
+        for (const Index i : resolve_points(line, cloud, place_of, session.place(from->number)))
             append_point(ranges, i);
         line.points = std::move(ranges);
+        line.name = name;
         lines.emplace_back(std::move(line));
     }
     return lines;
@@ -146,11 +156,11 @@ void handles_from_session(Editor& editor, const std::filesystem::path& session) 
     if (!needs_document(editor)) return;
     try {
         const Session read = read_session(session);
-        HandleLines handles = handles_at_end(read);
+        const HandleLines handles = handles_at_end(read);
         if (handles.empty())
             return say(editor, Notice::Kind::information,
                        session.filename().string() + " has no handles at its end.");
-        post_handles(editor, with_points(editor, read, std::move(handles)));
+        post_handles(editor, with_points(editor, read, handles));
     } catch (const Error& error) {
         say(editor, Notice::Kind::error, std::string("No handles were made. ") + error.what());
     }

@@ -162,8 +162,9 @@ public:
     // --- Acts; all return at once, and are carried out in the order in which they were posted ---
 
     // Carries out session lines as one step of undo. Where a line may not stand while handles are posed, a
-    // commit is put before it. A refused step is told by take_refused(), and leaves no trace.
-    // `joins_last`: it is undone together with the step before it (a slider that goes on being moved).
+    // commit is put before it. A refused step is told by take_refused(), and changes nothing; lines of it
+    // that were carried out before the one that was refused stand in the recording, undone. `joins_last`: it
+    // is undone together with the step before it (a slider that goes on being moved).
     void post(StepNumber step, std::vector<SessionAction> lines, bool joins_last = false);
 
     // Whether the number of samples is chosen by itself from here on. That happens after an act that leaves

@@ -1,6 +1,7 @@
 // How the document's thread chooses the number of samples by itself.
 
 #include "edit/live_work.h"
+#include "edit/median.h"
 
 #include <algorithm>
 
@@ -21,12 +22,6 @@ constexpr std::size_t telling_frames = 3;
 
 // From so many samples on, how far apart the handles are is not asked.
 constexpr std::size_t most_looked_at = 100'000;
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 } // namespace
 

@@ -1,6 +1,7 @@
 #include "edit/live_work.h"
 
 #include "base/error.h"
+#include "base/require.h"
 #include "edit/live_opening.h"
 #include "view/framing.h"
 
@@ -116,6 +117,10 @@ void LiveWork::guarded(Do&& work) {
         // The window is closing; turn() sees it.
     } catch (const std::bad_alloc&) {
         say(Notice::Kind::error, "There is not enough memory for this.");
+    } catch (const BrokenInvariant& bug) {
+        say(Notice::Kind::error, std::string("This is a mistake in knead, and what is shown may be wrong: ") +
+                                     bug.what() +
+                                     ". Save the session under another name, and open that one again.");
     } catch (const std::exception& error) {
         say(Notice::Kind::error, error.what());
     }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
+#include "edit/median.h"
 #include "edit/session_cloud.h"
 #include "io/cloud_file.h"
 #include "io/compare.h"
@@ -18,13 +19,6 @@ std::string short_number(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", value);
     return text;
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
 }
 
 // What a `set` line changes where these overrides win. A key that the line does not have stays away: a line

@@ -1,0 +1,57 @@
+#include "app/handle_colors.h"
+
+#include <gtest/gtest.h>
+
+namespace knead::test {
+
+namespace {
+
+Handle handle(const std::string& name, HandleRole role = HandleRole::moving) {
+    Handle made;
+    made.name = name;
+    made.role = role;
+    made.points = std::make_shared<const std::vector<Index>>(1, Index{0});
+    return made;
+}
+
+std::vector<ImU32> colors_of(const HandleColors& colors, const std::vector<Handle>& handles) {
+    std::vector<ImU32> result;
+    for (const Handle& one : handles) result.push_back(handle_color(colors, one));
+    return result;
+}
+
+} // namespace
+
+TEST(HandleColors, StayWhileOthersComeAndGo) {
+    const Handle a = handle("a"), b = handle("b"), c = handle("c"), d = handle("d");
+    HandleColors colors;
+    place_colors(colors, std::vector{a, b, c});
+    const std::vector<ImU32> three = colors_of(colors, {a, b, c});
+    EXPECT_NE(three[0], three[1]);
+    EXPECT_NE(three[1], three[2]);
+    EXPECT_NE(three[0], three[2]);
+
+    place_colors(colors, std::vector{b, c});
+    EXPECT_EQ(colors_of(colors, {b, c}), (std::vector{three[1], three[2]}));
+    place_colors(colors, std::vector{b, c, d});
+    EXPECT_EQ(handle_color(colors, d), three[0]) << "the first that is free";
+    place_colors(colors, std::vector{a, b, c});
+    EXPECT_EQ(colors_of(colors, {a, b, c}), three) << "as before the deletion was undone";
+}
+
+TEST(HandleColors, FollowANewName) {
+    Handle a = handle("a"), b = handle("b");
+    HandleColors colors;
+    place_colors(colors, std::vector{a, b});
+    const ImU32 usual = handle_color(colors, b);
+    a.name = "first";
+    b.name = "second";
+    place_colors(colors, std::vector{a, b});
+    EXPECT_EQ(handle_color(colors, b), usual);
+    colors.chosen["first"] = 0xff123456;
+    a.name = "again";
+    place_colors(colors, std::vector{a, b});
+    EXPECT_EQ(handle_color(colors, a), 0xff123456);
+}
+
+} // namespace knead::test

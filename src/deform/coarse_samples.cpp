@@ -3,6 +3,7 @@
 #include "base/progress.h"
 #include "base/require.h"
 #include "graph/flood.h"
+#include "graph/link_lengths.h"
 #include "graph/point_order.h"
 #include "graph/relaxing.h"
 

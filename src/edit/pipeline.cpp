@@ -8,6 +8,7 @@
 #include "cloud/extent.h"
 #include "graph/bridges.h"
 #include "graph/edge_weights.h"
+#include "graph/link_lengths.h"
 #include "graph/octree.h"
 #include "graph/relaxing.h"
 #include "graph/row_ends.h"

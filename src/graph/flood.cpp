@@ -4,13 +4,13 @@
 #include "base/locked.h"
 #include "base/prefetch.h"
 #include "base/require.h"
+#include "graph/link_lengths.h"
 #include "graph/scrambled.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
-#include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -20,11 +20,9 @@ namespace knead {
 namespace {
 
 using Level = std::uint64_t;                  // no sum of two distances overflows
-constexpr std::uint32_t longest_link = 63;    // levels
 constexpr std::uint32_t levels_a_round = 128; // fewer are more rounds, more are more ways round
 constexpr std::uint32_t ring = 256;           // levels that can wait at a time: those of a round and a link
 static_assert(ring > levels_a_round + longest_link);
-constexpr double levels_a_median_link = 4;
 // Of vertices a tile. Larger ones send less to each other, and smaller ones leave something for every core.
 constexpr std::size_t largest_tile = 1 << 14, smallest_tile = 1 << 10, fewest_tiles = 8;
 
@@ -406,36 +404,7 @@ void reverted(NearestRows<places>& nearest, const RowPatch<places>& patch) {
         nearest.rows, patch.blocks);
 }
 
-double length_of(const Graph& graph, std::span<const float> positions, std::size_t v, std::size_t link) {
-    return (point_at(positions, v) - point_at(positions, graph.neighbor[link])).norm();
-}
-
-// The median length of a link, over at most some ten thousand of them, evenly chosen.
-double median_length(const Graph& graph, std::span<const float> positions) {
-    std::vector<double> lengths;
-    const std::size_t stride = graph.size() / 4096 + 1;
-    for (std::size_t v = 0; v < graph.size(); v += stride)
-        for (std::size_t link = graph.first[v]; link < graph.first[v + 1]; ++link)
-            lengths.push_back(length_of(graph, positions, v, link));
-    if (lengths.empty()) return 1;
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::ranges::nth_element(lengths, middle);
-    return *middle;
-}
-
 } // namespace
-
-std::vector<std::uint8_t> link_lengths(const Graph& graph, std::span<const float> positions,
-                                       Workers& workers) {
-    const double level = median_length(graph, positions) / levels_a_median_link;
-    std::vector<std::uint8_t> lengths(graph.neighbor.size());
-    workers.for_each(graph.size(), 4096, [&](std::size_t v) {
-        for (std::size_t link = graph.first[v]; link < graph.first[v + 1]; ++link)
-            lengths[link] = static_cast<std::uint8_t>(std::clamp(
-                std::round(length_of(graph, positions, v, link) / level), 1.0, double{longest_link}));
-    });
-    return lengths;
-}
 
 std::vector<Index> shuffled(std::vector<Index> vertices) {
     std::ranges::sort(vertices, {}, scrambled);

@@ -27,11 +27,6 @@
 
 namespace knead {
 
-// How long each link is, in levels: its length over a quarter of the median, rounded, 1 … 63; one entry for
-// every entry of graph.neighbor. `positions`: 3 floats a vertex.
-std::vector<std::uint8_t> link_lengths(const Graph& graph, std::span<const float> positions,
-                                       Workers& workers);
-
 // The same vertices in an order that depends on nothing but their numbers and follows no direction.
 std::vector<Index> shuffled(std::vector<Index> vertices);
 

@@ -2,6 +2,7 @@
 // Small clouds and their graphs, for the tests of graph and deform.
 
 #include "graph/flood.h"
+#include "graph/link_lengths.h"
 #include "graph/neighbors.h"
 #include "graph/octree.h"
 #include "graph/point_order.h"

@@ -3,6 +3,7 @@
 // link_lengths().
 
 #include "graph/algorithm1.h"
+#include "graph/link_lengths.h"
 
 #include <queue>
 #include <span>

@@ -88,7 +88,10 @@ void measure_set_up(const PointCloud& cloud, const PipelineInput& input, std::si
     for (std::size_t r = 0; r <= repeats; ++r) {
         pipeline.reset();
         const bool warms_up = r == 0;
-        if (r == 1) memory.emplace(); // the device is open by now
+        if (r == 1) { // the device is open by now; what it holds of points is counted, too
+            probe.prepare({}, 0);
+            memory.emplace();
+        }
         pipeline = std::make_unique<Pipeline>(cloud, workers, probe);
         pipeline->prepare(input, progress);
         if (warms_up) continue;
@@ -97,7 +100,8 @@ void measure_set_up(const PointCloud& cloud, const PipelineInput& input, std::si
         neighbors.push_back(seconds.neighbors);
         sampling.push_back(seconds.sampling);
         geodesic.push_back(seconds.geodesic);
-        set_up.push_back(seconds.order + seconds.neighbors + seconds.sampling + seconds.geodesic);
+        set_up.push_back(seconds.order + seconds.neighbors + seconds.sampling + seconds.geodesic +
+                         seconds.device);
         factorize.push_back(seconds.factorize);
     }
     figures.order = summarize(order);
@@ -165,7 +169,7 @@ UpsampleFigures compare_upsamplers(UpsamplerProbe& probe, Workers& workers, Prog
     figures.reference = summarize(seconds[1]);
     figures.largest_difference =
         std::max(largest_difference(moved[0], moved[1]), largest_difference(turned[0], turned[1]));
-    figures.bytes = bytes_a_frame(input);
+    figures.bytes = bytes_a_frame(probe);
     figures.copy = copy_seconds(figures.bytes, frames, workers);
     figures.with_normals = !input.normals.empty();
     return figures;

@@ -62,7 +62,7 @@ struct RowFigures {
     std::size_t vertices = 0; // distinct positions
     std::size_t samples = 0;  // actual, the handles' included
     Summary order, neighbors, sampling, geodesic;
-    Summary set_up; // the four together
+    Summary set_up; // the four together, and what frames read of them made ready
     Summary factorize;
     Summary solve;    // an iteration: local step, assembly, both solves
     Summary upsample; // a frame: the samples' motions made and all points moved

@@ -14,10 +14,10 @@ std::span<const Index> UpsamplerProbe::run(std::span<const Motion> motions, std:
     return inner_->run(motions, positions, normals, Held::nothing);
 }
 
-std::size_t bytes_a_frame(const UpsampleInput& input) {
+std::size_t bytes_a_frame(const UpsamplerProbe& probe) {
+    const UpsampleInput& input = probe.input();
     const std::size_t floats = 2 * (input.positions.size() + input.normals.size());
-    const std::size_t row_bytes = input.rows->are_wide() ? sizeof(WideRow) : sizeof(NarrowRow);
-    return floats * sizeof(float) + input.mover.size_bytes() + input.rows->size() * row_bytes;
+    return floats * sizeof(float) + probe.influence_bytes();
 }
 
 } // namespace knead

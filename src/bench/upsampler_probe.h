@@ -17,6 +17,7 @@ public:
     void prepare(const UpsampleInput& input, std::size_t motions) override;
     std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
                                std::span<float> normals, Held held) override;
+    std::size_t influence_bytes() const override { return inner_->influence_bytes(); }
     std::string take_warning() override { return inner_->take_warning(); }
 
     // What it was prepared with last, good as long as the pipeline that did so.
@@ -33,9 +34,8 @@ private:
     std::vector<Motion> motions_;
 };
 
-// The fewest bytes that a frame moves: each point's rest position and the number of what moves it in, its
-// position out, normals in and out where there are any, and the row of each distinct vertex in, a sample and
-// a distance for each of its influences. The motions stay in cache.
-std::size_t bytes_a_frame(const UpsampleInput& input);
+// What a frame of it moves: each point's rest position in, its position out, normals in and out where there
+// are any, and what moves which of them in. The motions stay in cache.
+std::size_t bytes_a_frame(const UpsamplerProbe& probe);
 
 } // namespace knead

@@ -162,7 +162,7 @@ void Pipeline::prepare_samples(Progress& progress) {
     if (!every_point_) {
         if (!hanging_.empty()) std::erase_if(samples_, [&](Index v) { return hanging_[v] != 0; });
         const auto chosen =
-            octree_samples(order_.code, vertex_positions(), samples_, *input_.settings.samples);
+            octree_samples(order_.cube, vertex_positions(), samples_, *input_.settings.samples);
         samples_ = relaxed(shuffled(chosen), *graph_, link_lengths_, vertex_positions(), hanging_,
                            relaxing_rounds, workers_, progress);
     }
@@ -231,11 +231,14 @@ void Pipeline::prepare_upsampler() {
     posed_.normals.resize(rest.normals.size());
     written_.resize(blocks_of(order_.points()), 0);
     find_row_ends(nearest_, changed_rows_, row_ends_, workers_);
+    for (std::size_t block = 0; block < changed_rows_.size(); ++block)
+        if (changed_rows_[block]) note_changed_points(block);
     std::ranges::fill(changed_rows_, std::uint8_t{0});
     const Index end = row_ends_.empty() ? 0 : std::ranges::max(row_ends_);
-    upsampler_.prepare(
-        {rest.positions, rest.normals, mover_of_point_, &nearest_, input_.settings.weights, end},
-        motions_.size());
+    upsampler_.prepare({rest.positions, rest.normals, mover_of_point_, &nearest_, input_.settings.weights,
+                        end, changed_points_},
+                       motions_.size());
+    std::ranges::fill(changed_points_, std::uint8_t{0});
     seconds_.device += clock.lap();
 }
 

@@ -171,6 +171,7 @@ private:
     void label_hanging();
     void count_strays();
     bool note_mover_numbers(std::size_t first_handle);
+    void note_changed_points(std::size_t block);
     void prepare_influences();
     void prepare_carried(std::span<const Index> mover_of_label);
     void prepare_systems();
@@ -229,7 +230,8 @@ private:
         std::size_t first_handle = 0; // where every part holds one; 0: else, or there are no movers
         std::vector<bool> turning;    // of each handle, whether it leaves rotation free
     };
-    MoverNumbers mover_numbers_; // that they were made with
+    MoverNumbers mover_numbers_;               // that they were made with
+    std::vector<std::uint8_t> changed_points_; // blocks of them, as UpsampleInput has it
     Contacts contacts_;
     CarriedParts carried_;
 

@@ -41,7 +41,7 @@ void Pipeline::prepare_handles(Progress& progress) {
         seconds_.geodesic += clock.lap();
         return;
     }
-    const VertexShape shape{order_.code, vertex_positions(), *graph_, *components_};
+    const VertexShape shape{order_.cube, vertex_positions(), *graph_, *components_};
     const HandleSamples needed = handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_,
                                                 territories_, handle_budget(base_samples_), workers_);
     samples_.insert(samples_.end(), needed.added.begin(), needed.added.end());
@@ -180,6 +180,14 @@ bool Pipeline::note_mover_numbers(std::size_t first_handle) {
     return same;
 }
 
+// What moves the points of a block of vertices is another.
+void Pipeline::note_changed_points(std::size_t block) {
+    const std::size_t end = std::min((block + 1) * rows_in_block, order_.vertices());
+    const Index first = order_.first_point[block * rows_in_block], last = order_.first_point[end] - 1;
+    for (std::size_t of_points = first / points_in_block; of_points <= last / points_in_block; ++of_points)
+        changed_points_[of_points] = 1;
+}
+
 void Pipeline::prepare_influences() {
     Stopwatch clock;
     // A held point is moved by its handle alone, whatever samples are near, and a point of a stray part by
@@ -200,6 +208,9 @@ void Pipeline::prepare_influences() {
     };
     const bool only_changed = note_mover_numbers(first_handle);
     mover_of_point_.resize(order_.points());
+    changed_points_.resize(blocks_of(order_.points()), 1);
+    for (std::size_t block = 0; block < labels_.changed.size(); ++block)
+        if (!only_changed || labels_.changed[block]) note_changed_points(block);
     workers_.for_each(labels_.changed.size(), grain / rows_in_block, [&](std::size_t block) {
         if (only_changed && !labels_.changed[block]) return;
         labels_.changed[block] = 0;

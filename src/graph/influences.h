@@ -1,9 +1,8 @@
 #pragma once
 // Which samples and handles move a point, and how much each: the w_s of Equations (4) and (5).
 //
-// What is kept are the nearest of every vertex and how far they are along the surface. The weights
-// are computed from that where they are used: fetching them from memory would take longer, and neither is the
-// kind of weights anything that a row would have to be made again for.
+// What is kept are the nearest of every vertex and how far they are along the surface. The weights are
+// computed from that where they are used: their kind is nothing that a row would be made again for.
 
 #include "base/types.h"
 
@@ -124,9 +123,8 @@ float growth_of_handle(Number distance, Number farthest) {
 
 // The weight of each place of a row, times the same for all: they are to be divided by their sum, which is 0
 // only for an empty row. Empty places have 0. A sample at d = 0 is taken alone, and a full row of equal
-// distances shares evenly. kernels/upsample.cl does the same operations, so that both have the same bits:
-// smooth is (d_max - d)², distances being whole numbers, and exact where that is below 2^24. `first_handle`:
-// of InfluenceRows.
+// distances shares evenly. Smooth is (d_max - d)², distances being whole numbers, and exact where that is
+// below 2^24. `first_handle`: of InfluenceRows.
 template<typename Number>
 std::array<float, influences_per_row> weights_of(const SampleRow<Number>& row, Index first_handle,
                                                  InfluenceWeights weights) {

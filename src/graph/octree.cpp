@@ -21,16 +21,18 @@ struct Cell {
     }
 };
 
-// Where a cell of at least two vertices is halved: at the first bit in which the codes of its vertices
+// Where a cell of at least two vertices is halved: at the first bit in which the Morton codes of its vertices
 // differ. Vertices of one code cannot be told apart on the curve, and are halved by number.
-std::size_t middle_of(const Cell& cell, std::span<const std::uint64_t> code, std::span<const Index> among) {
-    const std::uint64_t differing = code[among[cell.begin]] ^ code[among[cell.end - 1]];
+std::size_t middle_of(const Cell& cell, const MortonCube& cube, std::span<const float> positions,
+                      std::span<const Index> among) {
+    const auto code = [&](Index v) { return morton_code(point_at(positions, v), cube); };
+    const std::uint64_t differing = code(among[cell.begin]) ^ code(among[cell.end - 1]);
     if (differing == 0) return (cell.begin + cell.end) / 2;
     const std::uint64_t bit = std::bit_floor(differing);
     const auto lower = among.begin() + static_cast<std::ptrdiff_t>(cell.begin);
     const auto upper = among.begin() + static_cast<std::ptrdiff_t>(cell.end);
     return static_cast<std::size_t>(
-        std::partition_point(lower, upper, [&](Index v) { return !(code[v] & bit); }) - among.begin());
+        std::partition_point(lower, upper, [&](Index v) { return !(code(v) & bit); }) - among.begin());
 }
 
 Index nearest_to_mean(const Cell& cell, std::span<const float> positions, std::span<const Index> among) {
@@ -51,7 +53,7 @@ Index nearest_to_mean(const Cell& cell, std::span<const float> positions, std::s
 
 } // namespace
 
-std::vector<Index> octree_samples(std::span<const std::uint64_t> code, std::span<const float> positions,
+std::vector<Index> octree_samples(const MortonCube& cube, std::span<const float> positions,
                                   std::span<const Index> among, std::size_t count) {
     if (among.size() <= count) return {among.begin(), among.end()};
     if (count == 0) return {};
@@ -60,7 +62,7 @@ std::vector<Index> octree_samples(std::span<const std::uint64_t> code, std::span
     while (cells.size() < count) {
         const Cell cell = cells.top();
         cells.pop();
-        const std::size_t middle = middle_of(cell, code, among);
+        const std::size_t middle = middle_of(cell, cube, positions, among);
         cells.push({cell.begin, middle});
         cells.push({middle, cell.end});
     }

@@ -2,6 +2,7 @@
 // Samples by an octree over the point set.
 
 #include "base/types.h"
+#include "graph/point_order.h"
 
 #include <span>
 #include <vector>
@@ -13,9 +14,9 @@ namespace knead {
 // until there are `count` of them; each gives the vertex nearest to the mean position of its own. Denser
 // regions get more samples.
 //
-// `code`: all vertices' Morton codes, ascending; `positions`: 3 floats a vertex; `among`: the vertices to
-// choose from, ascending. Returns vertices, ascending; all of `among` if there are no more than `count`.
-std::vector<Index> octree_samples(std::span<const std::uint64_t> code, std::span<const float> positions,
+// `positions`: 3 floats a vertex, along the curve through `cube`; `among`: the vertices to choose from,
+// ascending. Returns vertices, ascending; all of `among` if there are no more than `count`.
+std::vector<Index> octree_samples(const MortonCube& cube, std::span<const float> positions,
                                   std::span<const Index> among, std::size_t count);
 
 } // namespace knead

@@ -102,9 +102,7 @@ PointOrder numbered(std::span<const Keyed> items, std::span<const float> positio
     PointOrder order;
     order.file_index.resize(items.size());
     std::ranges::transform(items, order.file_index.begin(), &Keyed::point);
-    order.code.reserve(vertices);
     if (vertices == items.size()) {
-        for (const Keyed& item : items) order.code.push_back(item.code);
         order.vertex = Numbering::as_they_stand(vertices);
         order.first_point = Numbering::as_they_stand(vertices + 1);
         return order;
@@ -112,11 +110,8 @@ PointOrder numbered(std::span<const Keyed> items, std::span<const float> positio
     std::vector<Index> vertex(items.size()), first_point;
     first_point.reserve(vertices + 1);
     for (std::size_t i = 0; i < items.size(); ++i) {
-        if (begins_vertex(i)) {
-            first_point.push_back(static_cast<Index>(i));
-            order.code.push_back(items[i].code);
-        }
-        vertex[i] = static_cast<Index>(order.code.size() - 1);
+        if (begins_vertex(i)) first_point.push_back(static_cast<Index>(i));
+        vertex[i] = static_cast<Index>(first_point.size() - 1);
     }
     first_point.push_back(static_cast<Index>(items.size()));
     order.vertex = Numbering(std::move(vertex));
@@ -168,6 +163,7 @@ PointOrder order_points(std::span<const float> positions, Workers& workers, Prog
     sort_within_cells(items, positions);
 
     PointOrder order = numbered(items, positions);
+    order.cube = cube;
     progress.report("ordering the points", 1);
     return order;
 }

@@ -37,26 +37,28 @@ private:
     std::size_t size_ = 0;
 };
 
+// The cube that the curve runs through: around all finite points.
+struct MortonCube {
+    Vec3d lowest = Vec3d::Zero();
+    double edge = 1;
+};
+
 struct PointOrder {
     std::vector<Index>
         file_index;   // of each ordered point; points with a coordinate that is not finite are left out
     Numbering vertex; // of each ordered point, ascending
     Numbering
         first_point; // of each vertex: its first ordered point, that of the lowest file index; and the end
-    std::vector<std::uint64_t> code; // of each vertex: its Morton code, 21 bits an axis, ascending
+    MortonCube cube; // along whose curve they come
 
     std::size_t points() const { return file_index.size(); }
-    std::size_t vertices() const { return code.size(); }
+    std::size_t vertices() const { return first_point.size() > 0 ? first_point.size() - 1 : 0; }
 };
 
-// The cube that the curve runs through: around all finite points. `positions`: 3 floats a point.
-struct MortonCube {
-    Vec3d lowest = Vec3d::Zero();
-    double edge = 1;
-};
+// `positions`: 3 floats a point.
 MortonCube morton_cube(std::span<const float> positions);
 
-// Where a position in the cube, or the nearest one in it, stands on the curve.
+// Where a position in the cube, or the nearest one in it, stands on the curve: 21 bits an axis.
 std::uint64_t morton_code(const Vec3d& position, const MortonCube& cube);
 
 // `positions`: 3n floats in the order of the file. The order depends on the positions alone; ties go by

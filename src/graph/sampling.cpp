@@ -103,7 +103,7 @@ std::vector<Index> one_of_each(const std::set<HeldPart>& parts, const VertexShap
     std::vector<Index> chosen;
     chosen.reserve(vertices.size());
     for (const auto& [part, among] : vertices)
-        chosen.push_back(octree_samples(shape.code, shape.positions, among, 1).front());
+        chosen.push_back(octree_samples(shape.cube, shape.positions, among, 1).front());
     return chosen;
 }
 
@@ -168,7 +168,7 @@ HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& label
     const std::map<Index, std::size_t> share = shares(open, budget);
     std::vector<Index> added;
     for (const auto& [label, border] : open)
-        for (const Index v : octree_samples(shape.code, shape.positions, border.vertices, share.at(label))) {
+        for (const Index v : octree_samples(shape.cube, shape.positions, border.vertices, share.at(label))) {
             added.push_back(v);
             parts.erase(part_of(v));
         }

@@ -5,6 +5,7 @@
 #include "graph/flood.h"
 #include "graph/held_blocks.h"
 #include "graph/neighbors.h"
+#include "graph/point_order.h"
 
 #include <span>
 #include <utility>
@@ -14,8 +15,8 @@ namespace knead {
 
 // What handle_samples() needs to know of the cloud, all a vertex.
 struct VertexShape {
-    std::span<const std::uint64_t> code; // Morton codes, ascending
-    std::span<const float> positions;    // 3 floats a vertex
+    const MortonCube& cube;           // along whose curve they come
+    std::span<const float> positions; // 3 floats a vertex
     const Graph& graph;
     const Components& components;
 };

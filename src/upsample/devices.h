@@ -53,8 +53,8 @@ enum class DeviceMemory { as_the_device_has_it, own };
 
 // One device by its number in list_devices(), with nothing to fall back on: prepare() and run() may throw
 // DeviceFailure. Opens nothing before the first prepare(); throws DeviceFailure if there is no such device
-// any more. `workers` prepare, and must outlive the result. For tests: `own` copies on a CPU too, and `kernel`
-// is built instead of kernels/upsample.cl; it must outlive the result, too.
+// any more. `workers` prepare, and must outlive the result. For tests: `own` copies on a CPU too, and
+// `kernel` is built instead of kernels/upsample.cl; it must outlive the result, too.
 std::unique_ptr<Upsampler> make_opencl_upsampler(std::size_t device, Workers& workers, unsigned threads,
                                                  DeviceMemory memory = DeviceMemory::as_the_device_has_it,
                                                  const char* kernel = nullptr);

@@ -35,6 +35,8 @@ public:
         }
     }
 
+    std::size_t influence_bytes() const override { return current_->influence_bytes(); }
+
     std::string take_warning() override { return std::exchange(warning_, {}); }
 
 private:

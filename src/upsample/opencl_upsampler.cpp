@@ -3,12 +3,12 @@
 #include "base/require.h"
 #include "upsample/changed_blocks.h"
 #include "upsample/checked_input.h"
+#include "upsample/influence_groups.h"
 #include "upsample/opencl_devices.h"
 #include "upsample/point_blocks.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <numeric>
 #include <utility>
 
@@ -27,15 +27,7 @@ struct OpenedDevice {
     QueueHandle queue;
 };
 
-// Which of its kernels kernels/upsample.cl is built to.
-struct KernelKind {
-    bool wide = false;    // rows of influences
-    bool sixteen = false; // points at once, as suits a CPU
-    bool operator==(const KernelKind&) const = default;
-};
-
 struct BuiltKernel {
-    KernelKind kind;
     ProgramHandle program; // null: not built yet
     KernelHandle move_positions;
     KernelHandle move_both;
@@ -53,20 +45,11 @@ std::string build_log(cl_program program, cl_device_id device) {
     return log;
 }
 
-// As a number of OpenCL C, in hexadecimal digits: with all its bits.
-std::string exactly(float value) {
-    std::array<char, 32> digits{};
-    const auto end =
-        std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::hex);
-    return "0x" + std::string(digits.data(), end.ptr) + "f";
-}
-
 // Root and quotient are rounded correctly where the device can do so: then it agrees with C++ to the bit.
-std::string build_options(cl_device_id device, KernelKind kind) {
-    std::string options =
-        "-D POINTS_IN_BLOCK=" + std::to_string(points_in_block) + " -D HANDLE_REACH=" + exactly(handle_reach);
-    if (kind.wide) options += " -D WIDE";
-    if (kind.sixteen) options += " -D SIXTEEN";
+std::string build_options(cl_device_id device, bool sixteen_at_once) {
+    std::string options = "-D POINTS_IN_BLOCK=" + std::to_string(points_in_block) +
+                          " -D POINTS_IN_GROUP=" + std::to_string(points_in_group);
+    if (sixteen_at_once) options += " -D SIXTEEN";
     cl_device_fp_config floats = 0;
     if (clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof floats, &floats, nullptr) == CL_SUCCESS &&
         (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0)
@@ -74,11 +57,11 @@ std::string build_options(cl_device_id device, KernelKind kind) {
     return options;
 }
 
-ProgramHandle build_program(cl_context context, cl_device_id device, const char* text, KernelKind kind) {
+ProgramHandle build_program(cl_context context, cl_device_id device, const char* text, bool sixteen_at_once) {
     cl_int code = CL_SUCCESS;
     ProgramHandle program(clCreateProgramWithSource(context, 1, &text, nullptr, &code));
     check_opencl(code, "reading the kernel");
-    const std::string options = build_options(device, kind);
+    const std::string options = build_options(device, sixteen_at_once);
     code = clBuildProgram(program.get(), 1, &device, options.c_str(), nullptr, nullptr);
     if (code == CL_BUILD_PROGRAM_FAILURE)
         throw DeviceFailure("the kernel does not compile: " + build_log(program.get(), device));
@@ -105,10 +88,9 @@ OpenedDevice open_device(const OpenClDevice& device, unsigned threads) {
     return opened;
 }
 
-BuiltKernel build_kernel(cl_context context, cl_device_id device, const char* text, KernelKind kind) {
+BuiltKernel build_kernel(cl_context context, cl_device_id device, const char* text, bool sixteen_at_once) {
     BuiltKernel built;
-    built.kind = kind;
-    built.program = build_program(context, device, text, kind);
+    built.program = build_program(context, device, text, sixteen_at_once);
     built.move_positions = kernel_named(built.program.get(), "upsample_positions");
     built.move_both = kernel_named(built.program.get(), "upsample_positions_and_normals");
     return built;
@@ -162,24 +144,25 @@ public:
     OpenClUpsampler& operator=(const OpenClUpsampler&) = delete;
 
     std::string device() const override { return device_.description.name; }
+    std::size_t influence_bytes() const override { return influences_.bytes(); }
 
     void prepare(const UpsampleInput& input, std::size_t motions) override {
         require_valid_input(input, motions, workers_);
         input_ = {};
         motion_count_ = motions;
+        if (input.mover.empty()) influences_ = {};
         moved_positions_ = {};
         moved_normals_ = {};
         if (!opened_.queue) opened_ = open_device(device_, threads_);
         if (!input.mover.empty()) {
-            build_for(*input.rows);
+            build();
             positions_ = hand_over(input.positions);
             normals_ = hand_over(input.normals);
-            mover_ = hand_over(input.mover);
-            rows_ =
-                std::visit([&](const auto& rows) { return hand_over(std::span(rows)); }, input.rows->rows);
-            row_count_ = input.rows->size();
-            first_handle_ = input.rows->first_handle;
-            paper_ = input.weights == InfluenceWeights::paper ? 1 : 0;
+            influences_.prepare(input, workers_);
+            groups_ = hand_over(influences_.groups());
+            numbers_ = hand_over(influences_.number());
+            roots_ = hand_over(influences_.root());
+            first_handle_ = first_without_place(input);
             make_motions();
             make_blocks(blocks_of(input.mover.size()));
             changes_.prepare(input, motions, workers_);
@@ -193,20 +176,19 @@ public:
                                std::span<float> normals, Held held) override {
         require_valid_frame(input_, motion_count_, motions, positions, normals);
         if (positions.empty()) return {};
-        pack_motions(motions, input_.weights, packed_);
-        const std::span<const Index> blocks = changes_.of_frame(packed_, positions, normals, held);
+        pack_motions(motions, input_.weights, std::span(packed_).subspan(1));
+        const std::span<const Index> blocks =
+            changes_.of_frame(std::span(packed_).subspan(1), positions, normals, held);
         if (!blocks.empty()) move(blocks, positions, normals);
         changes_.note_written();
         return blocks;
     }
 
 private:
-    void build_for(const InfluenceRows& rows) {
-        const KernelKind kind{rows.are_wide(), shares_memory_};
-        if (built_.program && built_.kind == kind) return;
-        built_ = {};
+    void build() {
+        if (built_.program) return;
         cl_device_id id = opened_.part ? opened_.part.get() : device_.id;
-        built_ = build_kernel(opened_.context.get(), id, kernel_, kind);
+        built_ = build_kernel(opened_.context.get(), id, kernel_, shares_memory_);
     }
 
     // Null for no values: OpenCL knows no empty buffer.
@@ -220,7 +202,8 @@ private:
     }
 
     void make_motions() {
-        packed_.assign(motion_count_, {});
+        packed_.assign(motion_count_ + 1, {});
+        pack_motions(std::vector<Motion>(packed_.size()), input_.weights, packed_); // and the first one stays
         const cl_mem_flags where = shares_memory_ ? CL_MEM_USE_HOST_PTR : 0;
         motions_ =
             make_buffer(opened_.context.get(), CL_MEM_READ_ONLY | where,
@@ -250,7 +233,7 @@ private:
     // those of the largest frame and of the smallest, as PoCL compiles small and large grids differently; all
     // but the first block have no point to move.
     void launch_once(const UpsampleInput& input) {
-        pack_motions(std::vector<Motion>(motion_count_), input.weights, packed_);
+        pack_motions(std::vector<Motion>(motion_count_ + 1), input.weights, packed_);
         const EventHandle written = write_motions();
         const std::size_t points = std::min(input.mover.size(), points_in_block);
         const std::size_t bytes = 3 * points * sizeof(float);
@@ -312,18 +295,19 @@ private:
                        const After& after) {
         cl_mem const listed = blocks_.get();
         cl_mem const positions = positions_.get();
-        cl_mem const mover = mover_.get();
-        cl_mem const rows = rows_.get();
+        cl_mem const groups = groups_.get();
+        cl_mem const numbers = numbers_.get();
+        cl_mem const roots = roots_.get();
         cl_mem const motions = motions_.get();
         cl_mem const normals = normals_.get();
         cl_kernel kernel = normals ? built_.move_both.get() : built_.move_positions.get();
         if (normals)
-            set_arguments(kernel, points, listed, positions, mover, row_count_, rows, first_handle_, paper_,
-                          motions, moved_positions, normals, moved_normals);
+            set_arguments(kernel, points, listed, positions, groups, numbers, roots, first_handle_, motions,
+                          moved_positions, normals, moved_normals);
         else
-            set_arguments(kernel, points, listed, positions, mover, row_count_, rows, first_handle_, paper_,
-                          motions, moved_positions);
-        const std::size_t items_per_group = built_.kind.sixteen ? 1 : points_in_block;
+            set_arguments(kernel, points, listed, positions, groups, numbers, roots, first_handle_, motions,
+                          moved_positions);
+        const std::size_t items_per_group = shares_memory_ ? 1 : points_in_block;
         const std::size_t items = blocks * items_per_group;
         cl_event moved = nullptr;
         check_opencl(clEnqueueNDRangeKernel(opened_.queue.get(), kernel, 1, nullptr, &items, &items_per_group,
@@ -366,15 +350,14 @@ private:
 
     UpsampleInput input_;
     std::size_t motion_count_ = 0;
-    std::vector<PackedMotion> packed_; // the motions as the device reads them
-    cl_ulong row_count_ = 0;
+    std::vector<PackedMotion> packed_; // one that moves nothing, and the motions, as the device reads them
+    InfluenceGroups influences_;
     cl_uint first_handle_ = 0;
-    cl_uint paper_ = 0; // whether the weights are those of the paper
     ChangedBlocks changes_;
     std::vector<Index> listed_; // the blocks of the last frame, and room for all of them
     std::size_t listed_count_ = 0;
     std::vector<PointRange> ranges_; // of them, that are read
-    BufferHandle positions_, normals_, mover_, rows_, motions_, blocks_;
+    BufferHandle positions_, normals_, groups_, numbers_, roots_, motions_, blocks_;
     Result moved_positions_, moved_normals_;
 };
 

@@ -3,13 +3,13 @@
 #include "base/workers.h"
 #include "upsample/changed_blocks.h"
 #include "upsample/checked_input.h"
+#include "upsample/influence_groups.h"
 #include "upsample/point_blocks.h"
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <cstring>
-#include <type_traits>
 #include <vector>
 
 namespace knead {
@@ -43,9 +43,6 @@ Vector cross(Vector a, Vector b) {
 // Four floats that the compiler keeps in one vector register (GCC and Clang, any processor). Left to itself
 // it does not find them in the loops below, which are most of the work.
 using Four = float __attribute__((vector_size(16)));
-using Eight = float __attribute__((vector_size(32)));
-using EightNarrow = std::uint16_t __attribute__((vector_size(16)));
-using EightWide = std::uint32_t __attribute__((vector_size(32)));
 
 Four load_four(const float* from) {
     Four four;
@@ -71,78 +68,25 @@ void add(float weight, const PackedMotion& motion, Blend& sum) {
     sum.b += weight * one.b;
 }
 
-// What the rows are read by.
-struct Reading {
-    Index first_handle; // numbers from here on are handles
-    bool paper;         // whether the weights are the paper's
-    const PackedMotion* motions;
-};
-
-template<typename Number>
-bool has_handle(const SampleRow<Number>& row, Index first_handle) {
-    return std::ranges::any_of(row.sample, [&](Number number) { return number >= first_handle; });
-}
-
-void add(const Blend& one, Blend& sum) {
-    sum.a0 += one.a0;
-    sum.a1 += one.a1;
-    sum.a2 += one.a2;
-    sum.b += one.b;
-}
-
-// What the handles of a row add to a blend for having no place: theirs is the point p itself.
-template<typename Number, typename Weights>
-Blend places_of_handles(const SampleRow<Number>& row, const Reading& how, const Weights& weight, Vector p) {
+// Σ_s w_s [A_s | d_s] of one point of a group, in a0[3] the sum of the weights, by which it is to be divided,
+// and Σ_s w_s c_s. What has no place, a handle, has the point for its place.
+Blend blended(const InfluenceGroups& influences, const InfluenceGroup& group, std::size_t lane,
+              Index first_handle, std::span<const PackedMotion> motions, Vector p) {
     const Vector half = {0.5F * p.x, 0.5F * p.y, 0.5F * p.z};
     Blend sum = {};
-    for (std::size_t k = 0; k < influences_per_row && row.sample[k] != row.none; ++k) {
-        if (row.sample[k] < how.first_handle) continue;
-        const Blend handle = one_motion(how.motions[row.sample[k]]);
+    for (std::size_t entry = group.first; entry < group.first + group.count; ++entry) {
+        const auto root = static_cast<float>(influences.root()[points_in_group * entry + lane]);
+        const float weight = root * root;
+        const Index number = influences.number()[entry];
+        add(weight, motions[number], sum);
+        if (number < first_handle) continue;
+        const Blend handle = one_motion(motions[number]);
         Four turned = handle.a0 * half.x + handle.a1 * half.y + handle.a2 * half.z;
         turned[3] = half.z;
-        sum.a1[3] += weight[k] * half.x;
-        sum.a2[3] += weight[k] * half.y;
-        sum.b += weight[k] * turned;
+        sum.a1[3] += weight * half.x;
+        sum.a2[3] += weight * half.y;
+        sum.b += weight * turned;
     }
-    return sum;
-}
-
-// blended() for a row with empty places, equal distances, or a sample right at the point.
-template<typename Number>
-Blend rarely_blended(const SampleRow<Number>& row, const Reading& how, Vector p) {
-    if (row.sample[0] == row.none) return {Four{0, 0, 0, 1}, Four{}, Four{}, Four{}};
-    if (row.distance[0] == 0) return one_motion(how.motions[row.sample[0]]);
-    const auto weight =
-        weights_of(row, how.first_handle, how.paper ? InfluenceWeights::paper : InfluenceWeights::smooth);
-    Blend sum = {};
-    for (std::size_t k = 0; k < row.count(); ++k) add(weight[k], how.motions[row.sample[k]], sum);
-    if (!how.paper) add(places_of_handles(row, how, weight, p), sum);
-    return sum;
-}
-
-// Σ_s w_s [A_s | d_s] of one row at the point p, in a0[3] the sum of the weights, by which it is to be
-// divided, and Σ_s w_s c_s.
-template<typename Number>
-Blend blended(const SampleRow<Number>& row, const Reading& how, Vector p) {
-    const Number nearest = row.distance.front(), farthest = row.distance.back();
-    if (row.sample.back() == row.none || nearest == 0 || nearest == farthest)
-        return rarely_blended(row, how, p);
-    // weights_of() a row without exceptions, all places at once.
-    using Numbers = std::conditional_t<sizeof(Number) == 2, EightNarrow, EightWide>;
-    Numbers distance;
-    std::memcpy(&distance, row.distance.data(), sizeof distance);
-    Eight weight = __builtin_convertvector(how.paper ? distance : farthest - distance, Eight);
-    weight *= weight;
-    if (how.paper) weight = 1.0F / weight;
-    const bool near_handle = !how.paper && has_handle(row, how.first_handle);
-    if (near_handle)
-        for (std::size_t k = 0; k < influences_per_row; ++k)
-            if (row.sample[k] >= how.first_handle) weight[k] *= growth_of_handle(row.distance[k], farthest);
-    const Blend first = one_motion(how.motions[row.sample[0]]);
-    Blend sum = {weight[0] * first.a0, weight[0] * first.a1, weight[0] * first.a2, weight[0] * first.b};
-    for (std::size_t k = 1; k < influences_per_row - 1; ++k) add(weight[k], how.motions[row.sample[k]], sum);
-    if (how.paper) add(weight[7], how.motions[row.sample.back()], sum);
-    if (near_handle) add(places_of_handles(row, how, weight, p), sum);
     return sum;
 }
 
@@ -187,38 +131,38 @@ public:
     explicit ReferenceUpsampler(Workers& workers) : workers_(workers) {}
 
     std::string device() const override { return "reference"; }
+    std::size_t influence_bytes() const override { return influences_.bytes(); }
 
     void prepare(const UpsampleInput& input, std::size_t motions) override {
         require_valid_input(input, motions, workers_);
         input_ = input;
-        packed_.assign(motions, {});
+        packed_.assign(motions + 1, {});
+        pack_motions(std::vector<Motion>(packed_.size()), input.weights, packed_); // and the first one stays
+        if (!input.mover.empty()) influences_.prepare(input, workers_);
         changes_.prepare(input, motions, workers_);
     }
 
     std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
                                std::span<float> normals, Held held) override {
-        require_valid_frame(input_, packed_.size(), motions, positions, normals);
-        pack_motions(motions, input_.weights, packed_);
-        const std::span<const Index> blocks = changes_.of_frame(packed_, positions, normals, held);
-        if (input_.rows)
-            std::visit([&](const auto& rows) { move(blocks, rows, positions, normals); }, input_.rows->rows);
+        require_valid_frame(input_, packed_.size() - 1, motions, positions, normals);
+        pack_motions(motions, input_.weights, std::span(packed_).subspan(1));
+        const std::span<const Index> blocks =
+            changes_.of_frame(std::span(packed_).subspan(1), positions, normals, held);
+        move(blocks, positions, normals);
         changes_.note_written();
         return blocks;
     }
 
 private:
-    template<typename Number>
-    void move(std::span<const Index> blocks, const std::vector<SampleRow<Number>>& rows,
-              std::span<float> positions, std::span<float> normals) {
-        const Reading how{input_.rows->first_handle, input_.weights == InfluenceWeights::paper,
-                          packed_.data()};
+    void move(std::span<const Index> blocks, std::span<float> positions, std::span<float> normals) {
+        if (blocks.empty()) return;
+        const Index first_handle = first_without_place(input_);
         workers_.for_each(blocks.size(), blocks_per_chunk, [&](std::size_t at) {
             const PointRange own = points_of(blocks[at], input_.mover.size());
             for (std::size_t i = own.first; i < own.end; ++i) {
-                const std::size_t mover = input_.mover[i];
                 const Vector p = load(&input_.positions[3 * i]);
-                const Blend blend = mover < rows.size() ? blended(rows[mover], how, p)
-                                                        : one_motion(how.motions[mover - rows.size()]);
+                const Blend blend = blended(influences_, influences_.groups()[i / points_in_group],
+                                            i % points_in_group, first_handle, packed_, p);
                 store(moved(p, blend), &positions[3 * i]);
                 if (!normals.empty()) store(turned(load(&input_.normals[3 * i]), blend), &normals[3 * i]);
             }
@@ -227,7 +171,8 @@ private:
 
     Workers& workers_;
     UpsampleInput input_;
-    std::vector<PackedMotion> packed_;
+    std::vector<PackedMotion> packed_; // one that moves nothing, and the motions
+    InfluenceGroups influences_;
     ChangedBlocks changes_;
 };
 

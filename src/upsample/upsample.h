@@ -26,6 +26,7 @@
 #include "graph/influences.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -55,6 +56,9 @@ struct UpsampleInput {
     InfluenceWeights weights = InfluenceWeights::smooth;
     // One past the largest number in all rows, if it is known: prepare() reads them all to find out, else.
     std::optional<Index> rows_end = std::nullopt;
+    // Of each block of points (point_blocks.h) 0 if what moves it is as it was when prepare() was called
+    // last, with these same arrays; empty if that is not known.
+    std::span<const std::uint8_t> changed = {};
 };
 
 // An OpenCL device cannot do its work: the words say which call failed, on what, and OpenCL's reason, with
@@ -96,6 +100,9 @@ public:
     // Returns the blocks that were written, ascending, good until the next call.
     virtual std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
                                        std::span<float> normals, Held held) = 0;
+
+    // What a frame of all points reads, beside their rest shape, to know what moves which of them.
+    virtual std::size_t influence_bytes() const = 0;
 
     // What the user should know about the last calls (a device that failed and was replaced), once; else
     // empty.

@@ -74,7 +74,9 @@ TEST(Table1, MeasuresEveryColumn) {
     EXPECT_EQ(row.solve.count, 90U);
     EXPECT_TRUE(row.upsampling.with_normals);
     // Positions and normals in and out, what moves it, and a narrow row of influences for each point.
-    EXPECT_EQ(row.upsampling.bytes, 2000U * (4 * 12 + 4 + 32));
+    // Rest shape and result, and of every sixteen points at least one entry and at most all of their places.
+    EXPECT_GE(row.upsampling.bytes, 2000U * 4 * 12 + 2000U / 16 * (8 + 36));
+    EXPECT_LE(row.upsampling.bytes, 2000U * 4 * 12 + 2000U / 16 * (8 + 128 * 36));
     EXPECT_LT(row.upsampling.largest_difference, 1e-5);
 }
 

@@ -13,6 +13,7 @@ class WholeFrames final : public Upsampler {
 public:
     explicit WholeFrames(std::unique_ptr<Upsampler> inner) : inner_(std::move(inner)) {}
     std::string device() const override { return inner_->device(); }
+    std::size_t influence_bytes() const override { return inner_->influence_bytes(); }
     void prepare(const UpsampleInput& input, std::size_t motions) override {
         inner_->prepare(input, motions);
     }

@@ -30,14 +30,14 @@ struct Machine {
 // The vertices of a cloud and all that the graph room knows of them.
 struct Cloud {
     std::vector<float> positions;
-    std::vector<std::uint64_t> code;
+    MortonCube cube;
     Graph graph;
     Components components;
     std::vector<std::uint8_t> lengths; // link_lengths()
 
-    std::size_t size() const { return code.size(); }
+    std::size_t size() const { return positions.size() / 3; }
     Vec3d at(std::size_t v) const { return Eigen::Map<const Vec3f>(positions.data() + 3 * v).cast<double>(); }
-    VertexShape shape() const { return {code, positions, graph, components}; }
+    VertexShape shape() const { return {cube, positions, graph, components}; }
     std::vector<std::uint8_t> hops() const { return std::vector<std::uint8_t>(graph.neighbor.size(), 1); }
 };
 
@@ -48,7 +48,7 @@ inline Cloud cloud_of(const std::vector<float>& file_positions, std::size_t k = 
     gather(order, file_positions, 3, ordered, machine.workers);
     Cloud cloud;
     cloud.positions = vertex_positions(order, ordered, machine.workers);
-    cloud.code = order.code;
+    cloud.cube = order.cube;
     cloud.graph = neighbor_graph(cloud.positions, k, machine.workers, machine.progress);
     cloud.components = find_components(cloud.graph, machine.workers);
     cloud.lengths = link_lengths(cloud.graph, cloud.positions, machine.workers);
@@ -152,7 +152,7 @@ inline std::vector<Index> random_vertices(std::size_t vertices, std::size_t coun
 inline std::vector<Index> octree_of(const Cloud& cloud, std::size_t count) {
     std::vector<Index> all(cloud.size());
     std::iota(all.begin(), all.end(), Index{0});
-    return octree_samples(cloud.code, cloud.positions, all, count);
+    return octree_samples(cloud.cube, cloud.positions, all, count);
 }
 
 inline bool all_different(const std::vector<Index>& vertices) {

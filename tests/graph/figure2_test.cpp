@@ -75,7 +75,7 @@ TEST(Figure2, StrandsThatPassCloseNeverInfluenceEachOther) {
     for (const std::size_t count : {200U, 1000U}) {
         Machine machine;
         const auto samples =
-            relaxed(shuffled(octree_samples(cloud.code, cloud.positions, all, count)), cloud.graph,
+            relaxed(shuffled(octree_samples(cloud.cube, cloud.positions, all, count)), cloud.graph,
                     cloud.lengths, cloud.positions, {}, 3, machine.workers, machine.progress);
         const auto nearest = flood(cloud.graph, cloud.lengths, samples, machine.workers, machine.progress);
         // The eight nearest of evenly spaced samples reach 1.6 spacings far (their circle has eight

@@ -15,7 +15,7 @@ std::vector<Index> all_of(const Cloud& cloud) {
 }
 
 std::vector<Index> samples_of(const Cloud& cloud, std::size_t count) {
-    return octree_samples(cloud.code, cloud.positions, all_of(cloud), count);
+    return octree_samples(cloud.cube, cloud.positions, all_of(cloud), count);
 }
 
 TEST(OctreeSamples, AreAsManyAsAskedForAndAscend) {
@@ -33,7 +33,7 @@ TEST(OctreeSamples, AreAllWhereThereAreNoMore) {
     EXPECT_EQ(samples_of(cloud, 50), all_of(cloud));
     EXPECT_EQ(samples_of(cloud, 5000), all_of(cloud));
     EXPECT_TRUE(samples_of(cloud, 0).empty());
-    EXPECT_TRUE(octree_samples(cloud.code, cloud.positions, {}, 10).empty());
+    EXPECT_TRUE(octree_samples(cloud.cube, cloud.positions, {}, 10).empty());
 }
 
 TEST(OctreeSamples, ComeFromTheVerticesGivenOnly) {
@@ -41,7 +41,7 @@ TEST(OctreeSamples, ComeFromTheVerticesGivenOnly) {
     std::vector<Index> among;
     for (Index v = 0; v < cloud.size(); ++v)
         if (cloud.at(v).x() > 0.3) among.push_back(v);
-    const std::vector<Index> samples = octree_samples(cloud.code, cloud.positions, among, 40);
+    const std::vector<Index> samples = octree_samples(cloud.cube, cloud.positions, among, 40);
     EXPECT_EQ(samples.size(), 40U);
     EXPECT_TRUE(std::ranges::includes(among, samples));
 }

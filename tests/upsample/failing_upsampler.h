@@ -15,6 +15,7 @@ public:
         : works_(make_reference_upsampler(workers)), failing_call_(failing_call), calls_(calls) {}
 
     std::string device() const override { return "a flaky device"; }
+    std::size_t influence_bytes() const override { return works_->influence_bytes(); }
 
     void prepare(const UpsampleInput& input, std::size_t motions) override {
         if (fails()) throw DeviceFailure("the kernel does not compile");

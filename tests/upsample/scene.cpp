@@ -29,10 +29,12 @@ NarrowRow random_row(Random& random, std::size_t number, std::size_t motions) {
     NarrowRow row;
     row.sample.fill(NarrowRow::none);
     row.distance.fill(NarrowRow::none);
-    const std::size_t used = number % 4 == 3 ? 1 : number % 5 == 4 ? 5 : influences_per_row;
+    const std::size_t wanted = number % 4 == 3 ? 1 : number % 5 == 4 ? 5 : influences_per_row;
+    const std::size_t used = std::min(wanted, motions); // each at most once
+    const std::size_t first = random();
     std::multiset<std::uint16_t> distances;
     for (std::size_t k = 0; k < used; ++k) {
-        row.sample.at(k) = static_cast<std::uint16_t>(random() % motions);
+        row.sample.at(k) = static_cast<std::uint16_t>((first + k) % motions);
         distances.insert(static_cast<std::uint16_t>(number % 11 == 5 ? 7 : 1 + random() % 3000));
     }
     std::ranges::copy(distances, row.distance.begin());

@@ -1,0 +1,78 @@
+#pragma once
+// Private to this room: what moves which point, as a frame reads it.
+//
+// Points come in Morton order, so sixteen consecutive ones are neighbours and share most of the samples
+// around them. A group of sixteen names each of those once, with what it counts for each of the points: a
+// frame then reads a motion once a group and not once a point, works on sixteen points side by side, and
+// knows no exceptions. A point that one motion alone moves, one right at a sample, one near a handle, and one
+// with few samples around it are the same to it.
+//
+// A weight is kept as its square root, a whole number up to 65,535. Smooth weights are squares of whole
+// numbers (graph/influences.h) and kept exactly; those of handles, of the paper, and of very long ways are
+// rounded to a 65,535th of the root of the row's largest.
+
+#include "upsample/upsample.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace knead {
+
+inline constexpr std::size_t points_in_group = 16;
+
+// Entries `first` to `first` + `count` of a group.
+struct InfluenceGroup {
+    Index first = 0, count = 0;
+};
+
+// Entries with this number or a higher one have no place (upsample.h): handles. With the paper's weights it
+// does not matter.
+inline Index first_without_place(const UpsampleInput& input) {
+    const Index first = input.weights == InfluenceWeights::paper ? no_index : input.rows->first_handle;
+    return first == no_index ? no_index : first + 1;
+}
+
+class InfluenceGroups {
+public:
+    // Takes who moves which points. Only blocks that `input.changed` names are made again where all else is
+    // as before. Throws Error (numeric) where there are more entries than Index can count.
+    void prepare(const UpsampleInput& input, Workers& workers);
+
+    // One for every sixteen points; of the last one those points that there are.
+    std::span<const InfluenceGroup> groups() const { return groups_; }
+    // Of each entry: 0 for a motion that moves nothing, else the number of a motion and 1.
+    std::span<const Index> number() const { return number_; }
+    // Of each entry: the roots of its weights for the sixteen points, 0 where it moves a point not at all.
+    std::span<const std::uint16_t> root() const { return root_; }
+
+    // What a frame of all points reads of this.
+    std::size_t bytes() const;
+
+private:
+    struct Room { // of a block, in the entries
+        Index first = 0, size = 0;
+    };
+    std::vector<Index> count_entries(std::span<const Index> blocks, const UpsampleInput& input,
+                                     Workers& workers);
+    void write_entries(std::span<const Index> blocks, const UpsampleInput& input, Workers& workers);
+    void make_all(const UpsampleInput& input, Workers& workers);
+    bool make_again(std::span<const Index> blocks, const UpsampleInput& input, Workers& workers);
+
+    std::vector<InfluenceGroup> groups_;
+    std::vector<Index> number_;
+    std::vector<std::uint16_t> root_;
+    std::vector<Room> room_; // of each block
+    std::size_t used_ = 0;   // entries; behind them is room for blocks that grow
+    struct Made {            // of what
+        const Index* mover = nullptr;
+        std::size_t points = 0;
+        const InfluenceRows* rows = nullptr;
+        std::size_t row_count = 0;
+        Index first_handle = 0;
+        InfluenceWeights weights = InfluenceWeights::smooth;
+        bool operator==(const Made&) const = default;
+    } made_;
+};
+
+} // namespace knead

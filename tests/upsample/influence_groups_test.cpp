@@ -1,0 +1,134 @@
+#include "upsample/influence_groups.h"
+
+#include "base/workers.h"
+#include "upsample/every_upsampler.h"
+#include "upsample/point_blocks.h"
+
+#include <map>
+
+namespace knead::test {
+
+namespace {
+
+using Roots = std::map<Index, std::uint16_t>; // by entry, where they count
+
+Roots roots_of(const InfluenceGroups& influences, std::size_t point) {
+    const InfluenceGroup group = influences.groups()[point / points_in_group];
+    Roots roots;
+    for (Index entry = group.first; entry < group.first + group.count; ++entry) {
+        const std::uint16_t root = influences.root()[points_in_group * entry + point % points_in_group];
+        if (root == 0) continue;
+        EXPECT_TRUE(roots.emplace(influences.number()[entry], root).second) << "named twice";
+    }
+    return roots;
+}
+
+std::vector<Roots> all_roots(const InfluenceGroups& influences, std::size_t points) {
+    std::vector<Roots> all;
+    for (std::size_t i = 0; i < points; ++i) all.push_back(roots_of(influences, i));
+    return all;
+}
+
+} // namespace
+
+TEST(InfluenceGroups, HaveTheWeightsOfEveryPoint) {
+    Workers workers(2);
+    for (const InfluenceWeights weights : {InfluenceWeights::smooth, InfluenceWeights::paper})
+        for (const std::size_t points : {std::size_t{1}, std::size_t{257}, std::size_t{5003}}) {
+            Scene scene = random_scene(points, 60, 7);
+            scene.weights = weights;
+            InfluenceGroups influences;
+            influences.prepare(scene.input(), workers);
+            for (std::size_t i = 0; i < points; ++i) {
+                const Influence expected = influence_of(scene.rows, weights, scene.mover[i]);
+                double sum = 0;
+                const Roots roots = roots_of(influences, i);
+                for (const auto& [entry, root] : roots) sum += double{1} * root * root;
+                std::map<Index, double> left;
+                for (std::size_t k = 0; k < expected.count; ++k)
+                    left[expected.motion.at(k) + 1] += static_cast<double>(expected.weight.at(k));
+                for (const auto& [entry, root] : roots) left[entry] -= double{1} * root * root / sum;
+                for (const auto& [entry, rest] : left)
+                    EXPECT_NEAR(rest, 0, 3.0 / 65535) << "point " << i << ", entry " << entry;
+            }
+        }
+}
+
+TEST(InfluenceGroups, SmoothWeightsOfSamplesAreExact) {
+    Workers workers(1);
+    Scene scene = random_scene(2000, 400, 8);
+    scene.rows.first_handle = no_index;
+    InfluenceGroups influences;
+    influences.prepare(scene.input(), workers);
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < 2000; ++i) {
+        if (scene.mover[i] >= scene.rows.size()) continue;
+        const WideRow row = scene.rows[scene.mover[i]];
+        if (row.count() < influences_per_row || row.distance[0] == 0 || row.distance[0] == row.distance[7])
+            continue;
+        ++seen;
+        const Roots roots = roots_of(influences, i);
+        for (std::size_t k = 0; k < influences_per_row; ++k) {
+            const auto found = roots.find(row.sample.at(k) + 1);
+            EXPECT_EQ(found == roots.end() ? 0 : found->second, row.distance[7] - row.distance.at(k));
+        }
+    }
+    EXPECT_GT(seen, 500U);
+}
+
+TEST(InfluenceGroups, MadeAgainWhereSomethingChangedAreWhatTheyWouldBeFromNothing) {
+    Workers workers(2);
+    Scene scene = random_scene(20'000, 300, 9);
+    const Scene other = random_scene(20'000, 300, 10);
+    auto& rows = std::get<std::vector<NarrowRow>>(scene.rows.rows);
+    const auto& other_rows = std::get<std::vector<NarrowRow>>(other.rows.rows);
+    const std::size_t points = scene.mover.size();
+    for (std::size_t i = 0; i < points; ++i) // neighbours have neighbouring rows, as in a cloud
+        if (scene.mover[i] < rows.size()) scene.mover[i] = static_cast<Index>(i * rows.size() / points);
+    InfluenceGroups influences;
+    influences.prepare(scene.input(), workers);
+    for (const std::size_t stride : {40, 11, 5, 1, 30}) { // few blocks, for which there is room, and all
+        std::vector<bool> is_other(rows.size(), false);
+        for (std::size_t block = stride / 2; block < blocks_of(points); block += stride) {
+            const PointRange own = points_of(block, points);
+            for (std::size_t i = own.first; i < own.end; ++i)
+                if (const Index row = scene.mover[i]; row < rows.size()) {
+                    rows[row] = other_rows[(row + stride) % rows.size()];
+                    is_other[row] = true;
+                }
+        }
+        std::vector<std::uint8_t> changed(blocks_of(points), 0);
+        for (std::size_t i = 0; i < points; ++i)
+            if (scene.mover[i] < rows.size() && is_other[scene.mover[i]]) changed[i / points_in_block] = 1;
+        UpsampleInput input = scene.input();
+        input.changed = changed;
+        influences.prepare(input, workers);
+        InfluenceGroups fresh;
+        fresh.prepare(scene.input(), workers);
+        EXPECT_TRUE(all_roots(influences, points) == all_roots(fresh, points)) << stride;
+    }
+}
+
+class EveryUpsamplerChanged : public EveryUpsampler {};
+
+INSTANTIATE_TEST_SUITE_P(, EveryUpsamplerChanged, all_paths, name_of_path);
+
+TEST_P(EveryUpsamplerChanged, MovesPointsAsFromNothingWhereSomethingElseMovesSomeOfThem) {
+    for (const auto& upsampler : all()) {
+        Scene scene = random_scene(3000, 40, 11);
+        upsampled(*upsampler, scene);
+        std::vector<std::uint8_t> changed(blocks_of(scene.mover.size()), 0);
+        changed[3] = 1;
+        for (std::size_t i = 3 * points_in_block; i < 3 * points_in_block + 100; ++i)
+            scene.mover[i] = static_cast<Index>(scene.rows.size()) + 5;
+        UpsampleInput input = scene.input();
+        input.changed = changed;
+        upsampler->prepare(input, scene.motions.size());
+        Posed posed{scene.positions, scene.normals};
+        upsampler->run(scene.motions, posed.positions, posed.normals, Held::nothing);
+        Workers workers(1);
+        EXPECT_TRUE(same_bits(posed, upsampled(*make_reference_upsampler(workers), scene)));
+    }
+}
+
+} // namespace knead::test

@@ -203,7 +203,8 @@ private:
 
     void make_motions() {
         packed_.assign(motion_count_ + 1, {});
-        pack_motions(std::vector<Motion>(packed_.size()), input_.weights, packed_); // and the first one stays
+        // None of them moves anything; of the first one that stays so.
+        pack_motions(std::vector<Motion>(packed_.size()), input_.weights, packed_);
         const cl_mem_flags where = shares_memory_ ? CL_MEM_USE_HOST_PTR : 0;
         motions_ =
             make_buffer(opened_.context.get(), CL_MEM_READ_ONLY | where,
@@ -233,7 +234,6 @@ private:
     // those of the largest frame and of the smallest, as PoCL compiles small and large grids differently; all
     // but the first block have no point to move.
     void launch_once(const UpsampleInput& input) {
-        pack_motions(std::vector<Motion>(motion_count_ + 1), input.weights, packed_);
         const EventHandle written = write_motions();
         const std::size_t points = std::min(input.mover.size(), points_in_block);
         const std::size_t bytes = 3 * points * sizeof(float);

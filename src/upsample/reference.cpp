@@ -138,6 +138,7 @@ public:
         input_ = input;
         packed_.assign(motions + 1, {});
         pack_motions(std::vector<Motion>(packed_.size()), input.weights, packed_); // and the first one stays
+        if (input.mover.empty()) influences_ = {};
         if (!input.mover.empty()) influences_.prepare(input, workers_);
         changes_.prepare(input, motions, workers_);
     }

@@ -171,7 +171,9 @@ TEST_F(LiveBar, WhatIsRestoredIsSavedWhereItWasSavedBefore) {
         EXPECT_EQ(live.take_held_saves().size(), theirs ? 1U : 0U);
         if (!theirs) {
             EXPECT_EQ(live.saved().session_state, live.view()->state);
-            EXPECT_EQ(lines_in(session).back(), to_text(RenameLine{"high", "top"}));
+            // A slow machine's choice of samples may come after it.
+            const std::vector<std::string> lines = lines_in(session);
+            EXPECT_EQ(std::ranges::count(lines, to_text(RenameLine{"high", "top"})), 1);
         }
         live.discard_journal();
     };

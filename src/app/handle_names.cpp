@@ -111,6 +111,7 @@ void draw_handle_names(const Ui& ui, ImDrawList& list) {
             names.insert(chosen ? names.begin() : names.end(), *name); // which has the choice
         }
     std::vector<Label> labels;
+    labels.reserve(names.size());
     for (const Name& name : names) labels.push_back(name.label);
     const std::vector<PlacedLabel> placed = lay_out_labels(labels, in_the_way(ui), as_box(ui.state.view));
     for (std::size_t i = names.size(); i-- > 0;)

@@ -222,7 +222,7 @@ std::vector<Table1Row> rows_named(std::span<const std::string> names) {
         return name == row.model || name == name_of(row);
     };
     std::string known;
-    for (const Table1Row& row : rows_of_table) known += (known.empty() ? "" : ", ") + name_of(row);
+    for (const Table1Row& row : rows_of_table) known.append(known.empty() ? "" : ", ").append(name_of(row));
     for (const std::string& name : names)
         if (std::ranges::none_of(rows_of_table, [&](const Table1Row& row) { return is_meant(row, name); }))
             throw Error(Trouble::usage, "",

@@ -29,6 +29,7 @@ std::optional<std::vector<LabelColumn::Value>> values_of(const Attribute& attrib
     for (std::size_t i = 0; i < points; ++i)
         if (++counts[label_at(attribute, i)] == 1 && counts.size() > most_labels) return std::nullopt;
     std::vector<LabelColumn::Value> values;
+    values.reserve(counts.size());
     for (const auto& [value, count] : counts) values.push_back({value, count});
     std::ranges::sort(values, {}, &LabelColumn::Value::value);
     return values;

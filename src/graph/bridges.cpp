@@ -20,7 +20,7 @@ using Links = std::vector<std::pair<Index, Index>>;
 
 // Every vertex's component, and no_index where it hangs, as the groups of a search.
 std::vector<Index> standing(const Components& components, std::span<const std::uint8_t> hanging) {
-    std::vector<Index> group = components.component;
+    std::vector<Index> group = components.component.of_all();
     for (std::size_t v = 0; v < group.size(); ++v)
         if (hanging[v]) group[v] = no_index;
     return group;

@@ -47,15 +47,13 @@ std::vector<Index> roots_of(const Graph& graph, Stays&& stays, Workers& workers)
 }
 
 Components components_of(std::span<const Index> root) {
-    Components components;
-    components.component.resize(root.size());
+    std::vector<Index> component(root.size()), size;
     for (Index v = 0; v < root.size(); ++v) { // a root stands before all others of its component
-        if (root[v] == v) components.size.push_back(0);
-        components.component[v] =
-            root[v] == v ? static_cast<Index>(components.size.size() - 1) : components.component[root[v]];
-        ++components.size[components.component[v]];
+        if (root[v] == v) size.push_back(0);
+        component[v] = root[v] == v ? static_cast<Index>(size.size() - 1) : component[root[v]];
+        ++size[component[v]];
     }
-    return components;
+    return {{std::move(component), size.size()}, std::move(size)};
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace knead {
@@ -15,9 +16,29 @@ namespace knead {
 // `positions`: 3 floats a vertex, finite and pairwise different. k ≥ 1.
 Graph neighbor_graph(std::span<const float> positions, std::size_t k, Workers& workers, Progress& progress);
 
+// A component for each vertex. Where all are of the same, which is how it is in most clouds once they are
+// bridged, nothing is stored.
+class ComponentNumbers {
+public:
+    ComponentNumbers() = default;
+    // `component`: of each vertex, below `components`.
+    ComponentNumbers(std::vector<Index> component, std::size_t components) : size_(component.size()) {
+        if (components > 1) numbers_ = std::move(component);
+    }
+
+    std::size_t size() const { return size_; }
+    Index operator[](std::size_t v) const { return numbers_.empty() ? 0 : numbers_[v]; }
+    std::vector<Index> of_all() const { return numbers_.empty() ? std::vector<Index>(size_, 0) : numbers_; }
+    bool operator==(const ComponentNumbers&) const = default;
+
+private:
+    std::vector<Index> numbers_;
+    std::size_t size_ = 0;
+};
+
 // Which vertices hang together: component[v] numbers them by their lowest vertex, from 0.
 struct Components {
-    std::vector<Index> component;
+    ComponentNumbers component;
     std::vector<Index> size; // vertices in each
 };
 Components find_components(const Graph& graph, Workers& workers);

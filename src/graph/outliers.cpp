@@ -63,7 +63,7 @@ Components cut_long_links(const Graph& graph, std::span<const float> positions,
 std::vector<std::uint8_t> find_sticking_out(std::span<const float> positions, const Spacings& spacings,
                                             const Components& pieces, Workers& workers) {
     const auto is_crumb = [&](std::size_t v) { return pieces.size[pieces.component[v]] < crumb; };
-    std::vector<Index> group = pieces.component;
+    std::vector<Index> group = pieces.component.of_all();
     for (std::size_t v = 0; v < group.size(); ++v)
         if (is_crumb(v)) group[v] = no_index;
     const GroupTree tree = group_tree(positions, group, workers);

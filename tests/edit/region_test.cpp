@@ -104,21 +104,24 @@ INSTANTIATE_TEST_SUITE_P(, Region, ::testing::Values("reference", "0"), [](const
     return std::string(tested.param) == "reference" ? "Reference" : "Device";
 });
 
+void play_every_act(Twins& twins) {
+    twins.play(foot + above("region", 1) + above("top", 2, "moving") + drag(some_frames('x')) + settle(5) +
+               drag(some_frames('y')) + undo + redo + undo + undo + undo + redo + redo);
+    twins.play(commit + drag(some_frames('z')) + commit + drag(some_frames('x')));
+    twins.play(undo + undo + undo + undo + redo + redo + redo + redo + commit);
+    twins.play(above("region", -1) + drag(some_frames('y')) + settle(3) + commit); // another region
+    twins.play(above("cap", 2.4, "fixed") + drag(some_frames('y')) + undo + undo + drag(some_frames('z')));
+    twins.play(commit + forget_region + drag(some_frames('x')) + commit + undo + undo + undo +
+               drag(some_frames('z')) + set(R"("weights":"paper")") + drag(some_frames('y')));
+    twins.play(set(R"("stiffness":0.05)") + settle(4) + commit + drag(some_frames('x')));
+}
+
 TEST_P(Region, OfInterestChangesNoBitInAnyAct) {
     for (const char* samples : {"300", "all"}) {
         Settings settings;
         settings.samples = samples == std::string("all") ? std::nullopt : std::optional<std::uint64_t>(300);
         Twins twins(bar_of_splats(samples == std::string("all") ? 2500 : 12'000), settings, GetParam());
-        twins.play(foot + above("region", 1) + above("top", 2, "moving") + drag(some_frames('x')) +
-                   settle(5) + drag(some_frames('y')) + undo + redo + undo + undo + undo + redo + redo);
-        twins.play(commit + drag(some_frames('z')) + commit + drag(some_frames('x')));
-        twins.play(undo + undo + undo + undo + redo + redo + redo + redo + commit);
-        twins.play(above("region", -1) + drag(some_frames('y')) + settle(3) + commit); // another region
-        twins.play(above("cap", 2.4, "fixed") + drag(some_frames('y')) + undo + undo +
-                   drag(some_frames('z')));
-        twins.play(commit + forget_region + drag(some_frames('x')) + commit + undo + undo + undo +
-                   drag(some_frames('z')) + set(R"("weights":"paper")") + drag(some_frames('y')));
-        twins.play(set(R"("stiffness":0.05)") + settle(4) + commit + drag(some_frames('x')));
+        play_every_act(twins);
     }
 }
 

@@ -138,7 +138,7 @@ std::vector<Index> plain_components(const Graph& graph) {
 void expect_plain_components(const Graph& graph) {
     const Components found = test::components_of(graph);
     const std::vector<Index> plain = plain_components(graph);
-    EXPECT_EQ(found.component, plain);
+    EXPECT_EQ(found.component.of_all(), plain);
     std::vector<Index> size(found.size.size(), 0);
     for (const Index c : plain) ++size.at(c);
     EXPECT_EQ(found.size, size);

@@ -192,7 +192,7 @@ TEST(HandleSamples, AreNoneWithoutHandlesOrWhereEveryPointIsASample) {
 
 TEST(HandleSamples, AreFoundWhereAHandleHoldsAWholeComponent) {
     const Cloud cloud = test::cloud_of(test::two_patches(false)); // it has no border then
-    const std::vector<Index> label = cloud.components.component;
+    const std::vector<Index> label = cloud.components.component.of_all();
     EXPECT_EQ(handle_samples_of(cloud, label, {}, 50).size(), 2U);
 }
 

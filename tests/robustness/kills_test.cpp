@@ -138,6 +138,7 @@ pid_t begin_knead(const std::vector<std::string>& arguments, const fs::path& fol
         std::vector<std::string> words{binary};
         words.insert(words.end(), arguments.begin(), arguments.end());
         std::vector<char*> pointers;
+        pointers.reserve(words.size() + 1);
         for (std::string& word : words) pointers.push_back(word.data());
         pointers.push_back(nullptr);
         if (::chdir(folder.c_str()) == 0) ::execv(binary.c_str(), pointers.data());

@@ -16,8 +16,7 @@ namespace knead {
 // `positions`: 3 floats a vertex, finite and pairwise different. k ≥ 1.
 Graph neighbor_graph(std::span<const float> positions, std::size_t k, Workers& workers, Progress& progress);
 
-// A component for each vertex. Where all are of the same, which is how it is in most clouds once they are
-// bridged, nothing is stored.
+// A component for each vertex. Where there is one alone, nothing is stored.
 class ComponentNumbers {
 public:
     ComponentNumbers() = default;

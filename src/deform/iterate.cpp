@@ -44,10 +44,19 @@ constexpr std::size_t soon = 3;
     }
 }
 
+// Calls visit(s, pair) for the bodies that a sample has points in common with.
+template<typename Visit>
+void for_bodies(const PointEnergy& energy, Index sample, Visit&& visit) {
+    if (energy.first.empty()) return;
+    for (Index at = energy.first[sample]; at < energy.first[sample + 1]; ++at)
+        visit(energy.body[at], energy.pair[at]);
+}
+
 // The right-hand side, four numbers a row: `own(row)` of the sample itself, and what `given(sample)` of the
-// handles around it says, times `smoothing`.
+// handles around it says, times `smoothing`. `coefficient`: of the matrix that it is for.
 template<typename Own, typename Given>
-void assemble_rotations(SampleSystem& system, double smoothing, Own&& own, Given&& given, Workers& workers) {
+void assemble_rotations(SampleSystem& system, double smoothing, double BodyPair::*coefficient, Own&& own,
+                        Given&& given, Workers& workers) {
     const SampleRest& rest = system.rest;
     const std::size_t rows = system.free_sample.size();
     workers.for_each(rows, grain, [&](std::size_t row) {
@@ -57,6 +66,11 @@ void assemble_rotations(SampleSystem& system, double smoothing, Own&& own, Given
             const Index j = rest.graph.neighbor[link];
             if (system.unknown[j] == no_index) side += smoothing * rest.weight[link] * beyond_one(given(j));
         }
+        for_bodies(rest.energy, i, [&](Index s, const BodyPair& pair) {
+            if (!system.body[s].turned) return;
+            const Index sample = s < rest.energy.samples ? s : system.body[s].from;
+            if (sample != no_index) side -= smoothing * pair.*coefficient * beyond_one(given(sample));
+        });
         Eigen::Map<Eigen::Vector4d>(system.sides.data() + 4 * row) = side;
     });
 }
@@ -85,8 +99,8 @@ void turn_with_handles(SampleSystem& system, std::span<const HandleMotion> handl
         return handles[handle].rotation * state.rotation[s].conjugate();
     };
     assemble_rotations(
-        system, 1.0, [](std::size_t) -> Eigen::Vector4d { return Eigen::Vector4d::Zero(); }, increment,
-        workers);
+        system, 1.0, &BodyPair::way, [](std::size_t) -> Eigen::Vector4d { return Eigen::Vector4d::Zero(); },
+        increment, workers);
     (system.has_increments ? system.increments : system.positions).solve(system.sides, 4, workers);
     for_solved_rotations(
         system,
@@ -113,6 +127,18 @@ Quatd turn_of_edges(const SampleSystem& system, const SampleState& state, std::s
                             state.rotation[system.free_sample[row]]);
 }
 
+// What the points around a sample, a body, add to step 1.
+Mat3d points_around(const SampleSystem& system, const SampleState& state, Index i) {
+    const Mat3d& spread = system.rest.energy.spread[i];
+    Mat3d sum = spread + (turn_of(state.rotation[i]) - (1 - system.midway) * system.body[i].turn) * spread;
+    for_bodies(system.rest.energy, i, [&](Index s, const BodyPair& pair) {
+        const Body& body = system.body[s];
+        sum += body.way * pair.way_slope.transpose() + body.map * pair.map_slope -
+               system.midway * body.turn * pair.target_spread;
+    });
+    return sum;
+}
+
 // Step 1. What is the sample's own in it, R_i e - (1 - γ/2) M_i e, is one product with Σ w e eᵀ.
 Quatd local_rotation(const SampleSystem& system, const SampleState& state, std::size_t row) {
     const Graph& graph = system.rest.graph;
@@ -127,6 +153,7 @@ Quatd local_rotation(const SampleSystem& system, const SampleState& state, std::
         const Vec3d turned = of_other * (system.turn[j] * (system.rest.position[j] - position));
         sum += (state.displacement[j] - displacement - turned) * system.weighted_edge[link].transpose();
     }
+    if (!system.rest.energy.first.empty()) sum += points_around(system, state, i);
     return nearest_rotation(sum, state.rotation[i]);
 }
 
@@ -150,6 +177,24 @@ void find_turns(SampleSystem& system, const SampleState& state, Workers& workers
         const Index i = system.free_sample[row];
         system.turn[i] = turn_of(state.rotation[i]);
         if (!system.target.empty()) system.turn[i] += state.rotation[i] * system.target[row];
+    });
+}
+
+// What all bodies do, where points have an energy.
+void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state,
+                 Workers& workers) {
+    const std::size_t samples = system.rest.energy.samples;
+    workers.for_each(system.body.size(), grain, [&](std::size_t s) {
+        Body& body = system.body[s];
+        if (s < samples) {
+            body.way = state.displacement[s];
+            body.turn = body.map = system.turn[s];
+            if (!body.turned) body.map = sample_gradient(system, state, static_cast<Index>(s));
+        } else {
+            const HandleMotion& motion = handles[s - samples];
+            body.way = motion.offset;
+            body.turn = body.map = motion.linear - Mat3d::Identity();
+        }
     });
 }
 
@@ -188,10 +233,11 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
     const SampleRest& rest = system.rest;
     const std::size_t rows = system.moving_rows;
     find_turns(system, state, workers);
+    find_bodies(system, handles, state, workers);
     workers.for_each(rows, grain, [&](std::size_t row) {
         look_ahead(system, state, row);
         const Index i = system.free_sample[row];
-        Vec3d given = Vec3d::Zero(); // by handles: Σ w u_j
+        Vec3d given = Vec3d::Zero(); // by handles: Σ w u_j; and by bodies
         Vec3d edges = Vec3d::Zero(); // Σ w e
         Vec3d turned = Vec3d::Zero();
         for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
@@ -201,6 +247,11 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
             if (!(system.unknown[j] < rows)) given += rest.weight[link] * state.displacement[j];
         }
         turned += system.turn[i] * edges;
+        for_bodies(rest.energy, i, [&](Index s, const BodyPair& pair) {
+            const Body& body = system.body[s];
+            given -= body.map * pair.map_force - body.turn * pair.target_force;
+            if (body.placed) given -= pair.way * body.way;
+        });
         Eigen::Map<Vec3d>(system.sides.data() + 3 * row) = given - 0.5 * turned; // p_i - p_j = -e
     });
     add_pulls(system, handles, state);
@@ -250,9 +301,10 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
     if (system.midway > 0) {
         find_targets(system, state, workers);
         find_turns(system, state, workers);
+        find_bodies(system, handles, state, workers);
     }
     assemble_rotations(
-        system, system.smoothing,
+        system, system.smoothing, &BodyPair::turn,
         [&](std::size_t row) -> Eigen::Vector4d {
             look_ahead(system, state, row);
             const Quatd local =

@@ -15,6 +15,12 @@ namespace {
 // The stiffness for which γ is one half.
 constexpr double next_to_nothing = 1e-4;
 
+// With an energy of points, links have so much of their weight.
+constexpr double share_of_links = 0.01;
+
+// Turns that spread less far than this many ℓ², β/ℓ², are left to links.
+constexpr double least_smoothing = 0.25;
+
 // Of the weight of a leaf's link that is no longer than others.
 constexpr double leaf_share = 1e-3;
 
@@ -78,8 +84,21 @@ void lighten_leaves(SampleRest& rest, double square_length) {
     }
 }
 
-// L of the first rows, so many.
-SparseMatrix laplacian(const SampleSystem& system, std::size_t rows) {
+// Sums up what stands in a column more than once.
+void merge(std::vector<std::pair<int, double>>& column) {
+    std::ranges::sort(column);
+    std::size_t kept = 0;
+    for (std::size_t at = 0; at < column.size(); ++at) {
+        if (kept > 0 && column[kept - 1].first == column[at].first)
+            column[kept - 1].second += column[at].second;
+        else
+            column[kept++] = column[at];
+    }
+    column.resize(kept);
+}
+
+// L of the first rows, so many: for ways or for turns.
+SparseMatrix laplacian(const SampleSystem& system, std::size_t rows, double BodyPair::*of) {
     const SampleRest& rest = system.rest;
     SparseMatrix matrix;
     matrix.first.reserve(rows + 1);
@@ -97,7 +116,12 @@ SparseMatrix laplacian(const SampleSystem& system, std::size_t rows) {
             if (other < rows) column.emplace_back(static_cast<int>(other), -rest.weight[link]);
         }
         column.emplace_back(static_cast<int>(row), diagonal);
-        std::ranges::sort(column);
+        const PointEnergy& energy = rest.energy;
+        if (!energy.first.empty())
+            for (Index at = energy.first[i]; at < energy.first[i + 1]; ++at)
+                if (const Index s = energy.body[at]; s < energy.samples && system.unknown[s] < rows)
+                    column.emplace_back(static_cast<int>(system.unknown[s]), energy.pair[at].*of);
+        merge(column);
         for (const auto& [at, value] : column) {
             matrix.row.push_back(at);
             matrix.value.push_back(value);
@@ -163,6 +187,40 @@ void find_confidence(SampleSystem& system, double square_length) {
     }
 }
 
+// The energy of the points takes the place of the links, and weighs as much; or is dropped.
+void weigh_energy(SampleSystem& system, double square_length) {
+    SampleRest& rest = system.rest;
+    PointEnergy& energy = rest.energy;
+    double of_links = 0, of_points = 0;
+    if (!energy.first.empty() && system.smoothing >= least_smoothing)
+        for (std::size_t row = 0; row < system.free_sample.size(); ++row) {
+            of_links += system.confidence[row] * square_length;
+            of_points += energy.confidence[system.free_sample[row]];
+        }
+    if (!(of_points > 0)) {
+        energy = {};
+        return;
+    }
+    scale(energy, of_links / of_points);
+    for (double& weight : rest.weight) weight *= share_of_links;
+    for (std::size_t row = 0; row < system.free_sample.size(); ++row)
+        system.confidence[row] = share_of_links * system.confidence[row] +
+                                 energy.confidence[system.free_sample[row]] / square_length;
+}
+
+// The bodies of the energy: which of them are given, and a sample of each handle.
+void number_bodies(SampleSystem& system) {
+    const PointEnergy& energy = system.rest.energy;
+    system.body.assign(energy.bodies, Body{});
+    for (Index s = 0; s < energy.samples; ++s) {
+        system.body[s].placed = !(system.unknown[s] < system.moving_rows);
+        system.body[s].turned = system.unknown[s] == no_index;
+        const Index handle = system.rest.handle[s];
+        if (handle != no_index && energy.samples + handle < energy.bodies)
+            system.body[energy.samples + handle].from = s;
+    }
+}
+
 void find_weighted_edges(SampleSystem& system, Workers& workers) {
     const SampleRest& rest = system.rest;
     system.weighted_edge.resize(rest.graph.neighbor.size());
@@ -201,7 +259,7 @@ OrderedLaplacian order_and_find_surroundings(SampleSystem& system, Workers& work
     OrderedLaplacian result;
     workers.for_each(1 + (rows + rows_a_task - 1) / rows_a_task, 1, [&](std::size_t task) {
         if (task == 0) {
-            result.matrix = laplacian(system, system.moving_rows);
+            result.matrix = laplacian(system, system.moving_rows, &BodyPair::way);
             result.order = minimum_degree_order(result.matrix);
             return;
         }
@@ -220,6 +278,7 @@ bool is_leaf(const SampleRest& rest, Index sample) {
 
 FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& workers) {
     require(rest.weight.size() == rest.graph.neighbor.size(), "a weight a link");
+    require(rest.energy.first.empty() || rest.energy.samples == rest.graph.size(), "bodies are the samples");
     require(rest.position.size() == rest.graph.size() && rest.handle.size() == rest.graph.size(),
             "an entry a sample");
     system.rest = std::move(rest);
@@ -233,6 +292,8 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     const double square_stiffness = system.rest.stiffness * system.rest.stiffness;
     system.midway = square_stiffness / (square_stiffness + next_to_nothing * next_to_nothing);
     find_confidence(system, square_length);
+    weigh_energy(system, square_length);
+    number_bodies(system);
     find_weighted_edges(system, workers);
     const OrderedLaplacian of_moving = order_and_find_surroundings(system, workers);
     set_poisson(system, system.rest.poisson);
@@ -245,7 +306,9 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     const std::size_t rows = system.free_sample.size();
     const bool more = rows > system.moving_rows;
     system.has_increments = more || !system.pull.empty();
-    const SparseMatrix of_all = more ? laplacian(system, rows) : of_moving.matrix;
+    const SparseMatrix of_all = more ? laplacian(system, rows, &BodyPair::way) : of_moving.matrix;
+    const bool other_turns = !system.rest.energy.first.empty();
+    const SparseMatrix of_turns = other_turns ? laplacian(system, rows, &BodyPair::turn) : SparseMatrix{};
     const std::vector<int> order = more ? minimum_degree_order(of_all) : of_moving.order;
     // None knows of the others.
     std::array<FactorOutcome, 3> outcomes;
@@ -254,7 +317,8 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
             outcomes[0] =
                 system.positions.factorize(position_matrix(system, of_moving.matrix), of_moving.order);
         else if (which == 1)
-            outcomes[1] = system.rotations.factorize(rotation_matrix(system, of_all), order);
+            outcomes[1] =
+                system.rotations.factorize(rotation_matrix(system, other_turns ? of_turns : of_all), order);
         else
             outcomes[2] = system.increments.factorize(increment_matrix(of_all), order);
     });
@@ -264,8 +328,8 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
 }
 
 SystemMatrices system_matrices(const SampleSystem& system) {
-    return {rotation_matrix(system, laplacian(system, system.free_sample.size())),
-            position_matrix(system, laplacian(system, system.moving_rows))};
+    return {rotation_matrix(system, laplacian(system, system.free_sample.size(), &BodyPair::turn)),
+            position_matrix(system, laplacian(system, system.moving_rows, &BodyPair::way))};
 }
 
 void set_poisson(SampleSystem& system, double poisson) {

@@ -27,6 +27,18 @@
 // does the shape depend on how many samples there are. With γ = 1 only α resists. A sheet for which α is next
 // to nothing would wrinkle and not come to rest; there the resistance of the links is what holds it.
 //
+// Where there are few samples, the energy is summed up over the points between them instead of over links
+// (deform/point_energy.h). All three steps and both matrices then have sums over bodies in the place of sums
+// over links, and links count a hundredth beside them, for what no point tells of. With D - A̅ P in the place
+// of x_j - x_i - M_ij e:
+//
+//     1. r*_t is the rotation nearest to Σ 2ω w_t (R_t P + D - A̅ P), A̅ = (1 - γ) M_t + γ Σ_s w_s M_s,
+//     2. L_ts = Σ ω ĝ_t·ĝ_s and C_t = Σ 2 dim ω w_t,
+//     3. L_ts = Σ ω g_t·g_s and b_t = -Σ_s (A_s Σ ω H_s g_t - M_s Σ ω w_s P g_t).
+//
+// That is so where turns spread over half a link or more, β ≥ ℓ²/4: the blends are too wide for a sheet that
+// is softer, and links hold it.
+//
 // A leaf, a free sample with one link, to a sample with more, is sent the same way whatever that link weighs:
 // along with the other end. So its link counts with a thousandth of its weight, or less if it is longer than
 // ℓ, and C is 0 there: the turn that one edge leaves open is that of the other end. Nothing pulls at a leaf.
@@ -36,6 +48,7 @@
 // nothing moves.
 
 #include "base/workers.h"
+#include "deform/point_energy.h"
 #include "deform/stretch.h"
 #include "graph/csr.h"
 #include "solve/sparse_cholesky.h"
@@ -72,6 +85,7 @@ struct SampleRest {
     std::vector<Index> handle;      // of each sample; no_index where it is free
     std::vector<bool> turns_freely; // of each handle: whether it gives positions only; may end early
     std::vector<SoftHold> pulled;   // samples that no handle holds
+    PointEnergy energy;             // of the points between; empty: links alone count
     double cloud_size = 1;          // s, in the units of the positions
     double stiffness = 0.01;        // α
     double poisson = 0;             // ν, -1 < ν < 0.5
@@ -81,6 +95,16 @@ struct SampleRest {
 struct SampleState {
     std::vector<Quatd> rotation;     // r
     std::vector<Vec3d> displacement; // u
+};
+
+// What a body of a PointEnergy does: it sends p to p + map p + way, or, a sample, about its place.
+struct Body {
+    Vec3d way = Vec3d::Zero();
+    Mat3d map = Mat3d::Zero();  // A: R U - I
+    Mat3d turn = Mat3d::Zero(); // M - I: R S - I
+    bool placed = true;         // given, not to be solved for: `way` ...
+    bool turned = true;         // ... and how it turns
+    Index from = no_index;      // of a handle: one of its samples
 };
 
 // Both systems, factorised, and the work space of an iteration.
@@ -108,6 +132,7 @@ struct SampleSystem {
     std::vector<Surroundings> surroundings; // of each row
 
     std::vector<Mat3d> turn;      // M - I, of each sample
+    std::vector<Body> body;       // of rest.energy, samples and then handles
     std::vector<Quatd> free_turn; // of each handle that `rest.turns_freely` tells of
     std::vector<Mat3d> target;    // S - I, of each row; empty for ν = 0
     std::vector<double> sides;    // right-hand sides and solutions, 4 or 3 numbers a row

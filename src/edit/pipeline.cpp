@@ -33,7 +33,7 @@ Pipeline::Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampl
 void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
     note_changes(input.settings);
     stale_.handles |= !hold_the_same(input.handles, input_.handles);
-    if (input.rest != input_.rest) stale_.weights = stale_.systems = true;
+    if (input.rest != input_.rest) stale_.weights = stale_.energy = stale_.systems = true;
     stale_.upsampler |= input.rest != input_.rest;
     input_ = input;
 
@@ -42,7 +42,7 @@ void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
     if (stale_.handles) {
         prepare_handles(progress);
         ++samples_version_;
-        stale_.influences = stale_.weights = stale_.systems = true;
+        stale_.influences = stale_.weights = stale_.energy = stale_.systems = true;
         stale_.handles = false;
     }
     if (stale_.influences) {
@@ -72,6 +72,7 @@ void Pipeline::note_changes(const Settings& settings) {
     stale_.samples |= settings.samples != before.samples;
     stale_.bridges |= (settings.strays == knead::Strays::bridge) != (before.strays == knead::Strays::bridge);
     stale_.influences |= settings.weights != before.weights || settings.strays != before.strays;
+    if (settings.weights != before.weights && !energy_.first.empty()) stale_.energy = stale_.systems = true;
     stale_.systems |= settings.stiffness != before.stiffness;
     if (settings.poisson != before.poisson) {
         set_poisson(system_, settings.poisson);
@@ -187,6 +188,18 @@ void Pipeline::prepare_samples(Progress& progress) {
     seconds_.geodesic += clock.lap();
 }
 
+// Where samples are so few that what lies between them has to be asked.
+void Pipeline::find_energy(const SampleRest& rest) {
+    energy_ = {};
+    if (every_point_ || samples_.size() > few_samples) return;
+    const RestShape& shape = input_.rest ? *input_.rest : opened_;
+    const PointsBetween between{
+        *graph_,           shape.positions,         order_.first_point,
+        nearest_,          input_.settings.weights, labels_.vertex,
+        rest.turns_freely, rest.position,           input_.handles.size() + 1}; // and what is outside
+    energy_ = point_energy(between, workers_);
+}
+
 void Pipeline::prepare_systems() {
     Stopwatch clock;
     const RestShape& rest_shape = input_.rest ? *input_.rest : opened_;
@@ -207,6 +220,8 @@ void Pipeline::prepare_systems() {
     rest.poisson = input_.settings.poisson;
     for (const Handle& handle : input_.handles) rest.turns_freely.push_back(handle.free_rotation);
     rest.pulled = soft_holds(input_.handles, pulled_, rest);
+    if (std::exchange(stale_.energy, false)) find_energy(rest);
+    rest.energy = energy_;
     const FactorOutcome outcome = build_system(std::move(rest), system_, workers_);
     has_coarse_ = outcome.solved && !coarse_.samples.sample.empty() &&
                   build_coarse_level(system_, coarse_, workers_).solved;

@@ -174,6 +174,7 @@ private:
     void note_changed_points(std::size_t block);
     void prepare_influences();
     void prepare_carried(std::span<const Index> mover_of_label);
+    void find_energy(const SampleRest& rest);
     void prepare_systems();
     void prepare_upsampler();
     std::span<const float> vertex_positions() const; // as opened
@@ -192,7 +193,7 @@ private:
     // Which stages have to run again before the next frame.
     struct Stale {
         bool points = true, bridges = true, samples = true, handles = true, contacts = true,
-             influences = true, weights = true, systems = true, upsampler = true;
+             influences = true, weights = true, energy = true, systems = true, upsampler = true;
         bool memory = false; // what a set-up freed is not given back yet
     };
     Stale stale_;
@@ -223,6 +224,7 @@ private:
     std::vector<bool> held_component_;
     SampleGraph sample_graph_;
     std::vector<double> link_weights_; // of the links of that
+    PointEnergy energy_;               // of the points between these samples, where they are few
     std::uint64_t samples_version_ = 0;
 
     std::vector<Index> mover_of_point_; // as influence_of() reads it

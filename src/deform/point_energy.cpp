@@ -1,0 +1,341 @@
+#include "deform/point_energy.h"
+
+#include "base/require.h"
+#include "deform/stretch.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace knead {
+
+namespace {
+
+constexpr std::size_t points_a_sample = 64, fewest_points = 16384;
+
+// Points whose sums are made together, by one worker, are near each other and meet few bodies: as many as
+// around so many samples.
+constexpr std::size_t samples_a_part = 8;
+
+// A blend that is flatter than this, or steeper, is not made up for.
+constexpr double least_slope = 0.55, most_slope = 1.7;
+
+// The handle that moves a vertex alone, or no_index.
+Index holder_of(const PointsBetween& between, Index vertex) {
+    const Index handle = between.label[vertex];
+    const bool turns = handle < between.turns_freely.size() && between.turns_freely[handle];
+    return turns ? no_index : handle;
+}
+
+// What a body does at a vertex.
+struct Blend {
+    Index body = 0;
+    double weight = 0;
+    Vec3d arm = Vec3d::Zero();   // w c
+    Vec3d place = Vec3d::Zero(); // w p_s
+};
+
+// Those of a vertex, one after another in the same memory.
+class Blends {
+public:
+    explicit Blends(const PointsBetween& between) : between_(between) {}
+
+    Vec3d position(Index vertex) const { return point_at(between_.positions, between_.point[vertex]); }
+
+    std::span<const Blend> read(Index vertex) {
+        const Vec3d p = position(vertex);
+        count_ = 0;
+        if (const Index handle = holder_of(between_, vertex); handle != no_index) {
+            add(handle_body(handle), 1, p);
+        } else {
+            const Influence influence = influence_of(between_.nearest, between_.weights, vertex);
+            for (std::size_t k = 0; k < influence.count; ++k)
+                add(body_of(influence.motion[k]), static_cast<double>(influence.weight[k]), p);
+        }
+        if (between_.weights == InfluenceWeights::smooth) bow(p);
+        return {blend_.data(), count_};
+    }
+
+private:
+    bool is_sample(Index body) const { return body < between_.sample.size(); }
+    Index handle_body(Index handle) const { return static_cast<Index>(between_.sample.size()) + handle; }
+    Index body_of(Index motion) const {
+        return motion < between_.nearest.first_handle ? motion
+                                                      : handle_body(motion - between_.nearest.first_handle);
+    }
+
+    void add(Index body, double weight, const Vec3d& p) {
+        const Vec3d place = is_sample(body) ? between_.sample[body] : p;
+        const Vec3d arm = is_sample(body) ? Vec3d(p - place) : p;
+        blend_[count_++] = {body, weight, weight * arm, weight * place};
+    }
+
+    // Along arcs: a sample's own arm counts half, and for all of them half of where the blend falls short.
+    void bow(const Vec3d& p) {
+        Vec3d short_of = p;
+        for (std::size_t k = 0; k < count_; ++k) short_of -= blend_[k].place;
+        for (std::size_t k = 0; k < count_; ++k) {
+            Blend& blend = blend_[k];
+            if (is_sample(blend.body)) blend.arm *= 0.5;
+            blend.arm += 0.5 * blend.weight * short_of;
+        }
+    }
+
+    const PointsBetween& between_;
+    std::array<Blend, influences_per_row> blend_;
+    std::size_t count_ = 0;
+};
+
+// A body at a vertex, with its gradients.
+struct Element {
+    Index body = 0;
+    double weight = 0;
+    Vec3d gradient = Vec3d::Zero();  // g
+    Mat3d arms = Mat3d::Zero();      // H
+    Vec3d corrected = Vec3d::Zero(); // ĝ
+};
+
+// All that one vertex adds.
+struct Contribution {
+    double measure = 0;          // ω
+    double dimension = 0;        // tr P
+    Mat3d along = Mat3d::Zero(); // P
+    std::vector<Element> elements;
+};
+
+Element& element_of(std::vector<Element>& elements, Index body) {
+    for (Element& element : elements)
+        if (element.body == body) return element;
+    elements.push_back({});
+    elements.back().body = body;
+    return elements.back();
+}
+
+// G⁻ᵀ, G along the surface and the identity across it.
+Mat3d correction_of(const Mat3d& slope, const Mat3d& along) {
+    const Mat3d filled = along * slope * along + (Mat3d::Identity() - along);
+    Eigen::SelfAdjointEigenSolver<Mat3d> squares;
+    squares.computeDirect(filled.transpose() * filled);
+    const auto inverse = [](double square) {
+        const double slope_along = std::sqrt(std::max(square, 1e-6));
+        return 1 / (slope_along * std::clamp(slope_along, least_slope, most_slope));
+    };
+    const Vec3d inverses = squares.eigenvalues().unaryExpr(inverse);
+    return filled * squares.eigenvectors() * inverses.asDiagonal() * squares.eigenvectors().transpose();
+}
+
+// Adds what the neighbours of a vertex, at `row`, say of the gradients. Returns G.
+Mat3d add_gradients(std::span<const Index> row, const Vec3d& position, const Surroundings& surroundings,
+                    std::span<const Blend> own, Blends& blends, std::vector<Element>& elements) {
+    Mat3d slope = Mat3d::Zero();
+    const auto add = [&](const Blend& blend, const Vec3d& along) {
+        Element& element = element_of(elements, blend.body);
+        element.gradient += blend.weight * along;
+        element.arms += blend.arm * along.transpose();
+        slope += blend.place * along.transpose();
+    };
+    Vec3d sum = Vec3d::Zero();
+    for (const Index other : row) {
+        const Vec3d along = surroundings.inverse * (blends.position(other) - position);
+        sum += along;
+        for (const Blend& blend : blends.read(other)) add(blend, along);
+    }
+    for (const Blend& blend : own) add(blend, -sum);
+    return slope;
+}
+
+// Whether it adds anything: not where one body moves it and all its neighbours, or nothing does.
+bool contribution_of(const PointsBetween& between, Index vertex, Blends& blends, Contribution& result) {
+    const std::span<const Index> row = between.graph.row(vertex);
+    if (row.size() < 2) return false;
+    if (const Index handle = holder_of(between, vertex);
+        handle != no_index &&
+        std::ranges::all_of(row, [&](Index other) { return holder_of(between, other) == handle; }))
+        return false;
+    const Vec3d position = blends.position(vertex);
+    Mat3d spread = Mat3d::Zero();
+    Vec3d pull = Vec3d::Zero();
+    double effort = 0;
+    for (const Index other : row) {
+        const Vec3d edge = blends.position(other) - position;
+        spread += edge * edge.transpose();
+        pull += edge;
+        effort += edge.norm();
+    }
+    if (!(effort > 0)) return false;
+    const Surroundings surroundings = surroundings_of(spread);
+    result.along = Mat3d::Identity() - surroundings.open;
+    result.dimension = std::max(1.0, result.along.trace());
+    const double square_length = spread.trace() / static_cast<double>(row.size());
+    const double share = 1 - std::numbers::pi / 4 * pull.norm() / effort;
+    result.measure = 3 / result.dimension * square_length * share;
+    result.elements.clear();
+    const std::span<const Blend> read = blends.read(vertex);
+    const std::vector<Blend> own(read.begin(), read.end());
+    for (const Blend& blend : own) element_of(result.elements, blend.body).weight = blend.weight;
+    const Mat3d slope = add_gradients(row, position, surroundings, own, blends, result.elements);
+    const Mat3d correction = correction_of(slope, result.along);
+    for (Element& element : result.elements) element.corrected = correction * element.gradient;
+    return !result.elements.empty();
+}
+
+void add_pair(const Contribution& at, const Element& t, const Element& s, BodyPair& pair) {
+    const double measure = at.measure;
+    pair.way += measure * t.gradient.dot(s.gradient);
+    pair.turn += measure * t.corrected.dot(s.corrected);
+    pair.map_force += measure * (s.arms * t.gradient);
+    pair.target_force += measure * s.weight * (at.along * t.gradient);
+    pair.way_slope += 2 * measure * t.weight * s.gradient;
+    pair.map_slope += 2 * measure * t.weight * s.arms;
+    pair.target_spread += 2 * measure * t.weight * s.weight * at.along;
+}
+
+void add_pair(const BodyPair& other, BodyPair& pair) {
+    pair.way += other.way;
+    pair.turn += other.turn;
+    pair.map_force += other.map_force;
+    pair.target_force += other.target_force;
+    pair.way_slope += other.way_slope;
+    pair.map_slope += other.map_slope;
+    pair.target_spread += other.target_spread;
+}
+
+// The sums over some points.
+struct Part {
+    std::vector<Index> met;      // bodies, in the order in which they were met
+    std::vector<BodyPair> pairs; // t * met.size() + s, by places in `met`; of handles t: nothing
+    std::vector<Mat3d> spread;   // of each
+    std::vector<double> confidence;
+};
+
+Part sum_up(std::span<const Contribution> contributions, std::size_t samples) {
+    Part part;
+    std::vector<Index> places;
+    const auto place_of = [&](Index body) {
+        const auto place = static_cast<Index>(std::ranges::find(part.met, body) - part.met.begin());
+        if (place == part.met.size()) part.met.push_back(body);
+        return place;
+    };
+    for (const Contribution& at : contributions)
+        for (const Element& element : at.elements) places.push_back(place_of(element.body));
+    const std::size_t bodies = part.met.size();
+    part.pairs.resize(bodies * bodies);
+    part.spread.assign(bodies, Mat3d::Zero());
+    part.confidence.assign(bodies, 0);
+    const Index* place = places.data();
+    for (const Contribution& at : contributions) {
+        for (std::size_t t = 0; t < at.elements.size(); ++t) {
+            const Element& own = at.elements[t];
+            if (own.body >= samples) continue;
+            part.spread[place[t]] += 2 * at.measure * own.weight * at.along;
+            part.confidence[place[t]] += 2 * at.dimension * at.measure * own.weight;
+            for (std::size_t s = 0; s < at.elements.size(); ++s)
+                add_pair(at, own, at.elements[s], part.pairs[place[t] * bodies + place[s]]);
+        }
+        place += at.elements.size();
+    }
+    return part;
+}
+
+// Which bodies each sample meets.
+void number_pairs(std::span<const Part> parts, PointEnergy& energy) {
+    std::vector<std::vector<Index>> rows(energy.samples);
+    for (const Part& part : parts)
+        for (const Index t : part.met) {
+            if (t >= energy.samples) continue;
+            rows[t].insert(rows[t].end(), part.met.begin(), part.met.end());
+        }
+    energy.first.assign(1, 0);
+    for (Index t = 0; t < rows.size(); ++t) {
+        rows[t].push_back(t);
+        std::ranges::sort(rows[t]);
+        rows[t].erase(std::unique(rows[t].begin(), rows[t].end()), rows[t].end());
+        energy.body.insert(energy.body.end(), rows[t].begin(), rows[t].end());
+        energy.first.push_back(static_cast<Index>(energy.body.size()));
+    }
+    energy.pair.resize(energy.body.size());
+}
+
+void add_part(const Part& part, PointEnergy& energy) {
+    for (std::size_t t = 0; t < part.met.size(); ++t) {
+        const Index sample = part.met[t];
+        if (sample >= energy.samples) continue;
+        energy.spread[sample] += part.spread[t];
+        energy.confidence[sample] += part.confidence[t];
+        const auto begin = energy.body.begin() + energy.first[sample];
+        const auto end = energy.body.begin() + energy.first[sample + 1];
+        for (std::size_t s = 0; s < part.met.size(); ++s) {
+            const auto at = std::lower_bound(begin, end, part.met[s]) - energy.body.begin();
+            add_pair(part.pairs[t * part.met.size() + s], energy.pair[static_cast<std::size_t>(at)]);
+        }
+    }
+}
+
+// Most of what a part has met has met at no point.
+void drop_strangers(PointEnergy& energy) {
+    std::size_t kept = 0;
+    Index begin = 0;
+    for (Index t = 0; t < energy.samples; ++t) {
+        const Index end = energy.first[t + 1];
+        for (Index at = begin; at < end; ++at) {
+            const BodyPair& pair = energy.pair[at];
+            const bool met = pair.way != 0 || !pair.target_spread.isZero(0) || !pair.map_slope.isZero(0);
+            if (!met && energy.body[at] != t) continue;
+            energy.body[kept] = energy.body[at];
+            energy.pair[kept++] = pair;
+        }
+        begin = end;
+        energy.first[t + 1] = static_cast<Index>(kept);
+    }
+    energy.body.resize(kept);
+    energy.pair.resize(kept);
+}
+
+} // namespace
+
+PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
+    const std::size_t vertices = between.graph.size();
+    require(between.label.size() == vertices && between.nearest.size() == vertices, "an entry a vertex");
+    PointEnergy energy;
+    energy.samples = between.sample.size();
+    energy.bodies = energy.samples + between.handles;
+    energy.spread.assign(energy.samples, Mat3d::Zero());
+    energy.confidence.assign(energy.samples, 0);
+    if (energy.samples == 0) return energy;
+    const std::size_t points = std::min(vertices, std::max(points_a_sample * energy.samples, fewest_points));
+    const std::size_t points_a_part = std::max<std::size_t>(16, samples_a_part * points / energy.samples);
+    std::vector<Part> parts((points + points_a_part - 1) / points_a_part);
+    workers.for_each(parts.size(), 1, [&](std::size_t part) {
+        Blends blends(between);
+        std::vector<Contribution> contributions;
+        Contribution contribution;
+        for (std::size_t k = part * points_a_part; k < std::min((part + 1) * points_a_part, points); ++k)
+            if (contribution_of(between, static_cast<Index>((2 * k + 1) * vertices / (2 * points)), blends,
+                                contribution))
+                contributions.push_back(contribution);
+        parts[part] = sum_up(contributions, energy.samples);
+    });
+    number_pairs(parts, energy);
+    for (const Part& part : parts) add_part(part, energy);
+    drop_strangers(energy);
+    return energy;
+}
+
+void scale(PointEnergy& energy, double times) {
+    for (BodyPair& pair : energy.pair) {
+        pair.way *= times;
+        pair.turn *= times;
+        pair.map_force *= times;
+        pair.target_force *= times;
+        pair.way_slope *= times;
+        pair.map_slope *= times;
+        pair.target_spread *= times;
+    }
+    for (Mat3d& spread : energy.spread) spread *= times;
+    for (double& confidence : energy.confidence) confidence *= times;
+}
+
+} // namespace knead

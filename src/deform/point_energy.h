@@ -1,0 +1,87 @@
+#pragma once
+// The energy of the points between few samples, as a function of the samples alone.
+//
+// Where samples are few, a graph between them is a poor likeness of the surface. But how every point follows
+// is known (upsample/upsample.h): with the bodies s, which are samples and handles, p' = p + Σ_s w_s u_s +
+// Σ_s A_s (w_s c_s), with A_s p + b_s what a body does to the point and c_s the way to it, halfway along arcs
+// where the weights are smooth. So the displacement's gradient along the surface is linear in what the bodies
+// do,
+//
+//     D = Σ_s u_s g_sᵀ + Σ_s A_s H_s,    g_s = ∇w_s,  H_s = ∇(w_s c_s),
+//
+// and so is what it should be, A̅ P = Σ_s w_s M_s P, with M_s the turns (and elastic targets) beyond the
+// identity and P the surface's projection. The energy of sample_system.h over the points, Σ ω |D - A̅ P|² +
+// β Σ ω |∇r|², restricted to shapes that so few samples can make, is then a sum over pairs of bodies, whose
+// coefficients are sums over points: Galerkin's method, with the blends of the samples as the finite
+// elements. (Reduced deformables by frames: B. Gilles, G. Bousquet, F. Faure, D. Pai, "Frame-based elastic
+// models", 2011; by blended handles: A. Jacobson and others, "Fast automatic skinning transformations",
+// 2012.) The fixed point is then nearer to that of every
+// point a sample than by links alone (knead evaluate).
+//
+// Blends of constants are no linear functions, they climb in steps. For the turns, which have no slope of
+// their own in a sample, that would count as resistance; so their gradients are ĝ_s = G⁻ᵀ g_s, with G =
+// Σ_s p_s g_sᵀ what the blend makes of the positions themselves: linear in the place, turns have the slope
+// that they should.
+//
+// Gradients are those of least squares over the neighbours of a point. ω = 3/dim · h² c stands for the
+// surface around it, with h² the mean square length of its links, c its share of all directions
+// (graph/edge_weights.h), and dim = tr P; so that Σ ω matches what links add up to when every point is one.
+
+#include "base/workers.h"
+#include "graph/csr.h"
+#include "graph/influences.h"
+#include "graph/point_order.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace knead {
+
+// What two bodies t and s have to do with each other; t is a sample.
+struct BodyPair {
+    double way = 0;                      // Σ ω g_t·g_s
+    double turn = 0;                     // Σ ω ĝ_t·ĝ_s
+    Vec3d map_force = Vec3d::Zero();     // Σ ω H_s g_t
+    Vec3d target_force = Vec3d::Zero();  // Σ ω w_s P g_t
+    Vec3d way_slope = Vec3d::Zero();     // Σ 2ω w_t g_s
+    Mat3d map_slope = Mat3d::Zero();     // Σ 2ω w_t H_s
+    Mat3d target_spread = Mat3d::Zero(); // Σ 2ω w_t w_s P
+};
+
+struct PointEnergy {
+    std::size_t samples = 0; // bodies below are samples, the others handles
+    std::size_t bodies = 0;
+    std::vector<Index> first; // one entry a sample, and the end; empty: no energy
+    std::vector<Index> body;  // of each pair: s, ascending within t, which is among them
+    std::vector<BodyPair> pair;
+    std::vector<Mat3d> spread;      // Σ 2ω w_t P, of each sample
+    std::vector<double> confidence; // Σ 2 dim ω w_t, of each sample
+};
+
+// The cloud between the samples.
+struct PointsBetween {
+    const Graph& graph;               // of the vertices
+    std::span<const float> positions; // 3n at rest, of the points
+    const Numbering& point;           // of each vertex: one of its points
+    const InfluenceRows& nearest;     // of each vertex
+    InfluenceWeights weights;
+    std::span<const Index> label;          // of each vertex: its handle, or no_index
+    const std::vector<bool>& turns_freely; // of each handle: whether it moves nothing by itself but what its
+                                           // samples move; may end early
+    std::span<const Vec3d> sample;         // rest positions
+    std::size_t handles;                   // handle h is body sample.size() + h
+};
+
+// For so many samples and fewer. More are near enough to every point a sample by links, and these hold a bar
+// straight that is twisted by two turns, where the energy of the points lets it throw a loop.
+inline constexpr std::size_t few_samples = 300;
+
+// Sums up over so many points a sample that more change nothing that counts, evenly spread along the order
+// of the vertices; over all, where there are no more. The same for any number of workers.
+PointEnergy point_energy(const PointsBetween& between, Workers& workers);
+
+// All of it so many times.
+void scale(PointEnergy& energy, double times);
+
+} // namespace knead

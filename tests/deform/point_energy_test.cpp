@@ -1,0 +1,163 @@
+#include "deform/point_energy.h"
+
+#include "deform/stretch.h"
+#include "graph/clouds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace knead {
+namespace {
+
+// A bar with samples between two handles, and its rows of influences.
+struct Held {
+    test::Machine machine;
+    test::Cloud cloud = test::cloud_of(test::shape_positions(Shape::bar, 3000));
+    std::vector<Index> label, vertices;
+    std::vector<Vec3d> sample;
+    std::vector<bool> turning;
+    InfluenceRows nearest;
+    Numbering point = Numbering::as_they_stand(cloud.size());
+
+    Held() {
+        for (Index v = 0; v < cloud.size(); ++v) {
+            const double z = cloud.at(v).z();
+            label.push_back(z < -2 ? 0 : z > 2 ? 1 : no_index);
+        }
+        for (const Index v : test::octree_of(cloud, 60))
+            if (label[v] == no_index) vertices.push_back(v);
+        for (const Index v : vertices) sample.push_back(cloud.at(v));
+        nearest = flood(cloud.graph, cloud.lengths, vertices, machine.workers, machine.progress);
+        nearest.first_handle = static_cast<Index>(sample.size());
+    }
+
+    PointsBetween between(InfluenceWeights weights) const {
+        return {cloud.graph, cloud.positions, point, nearest, weights, label, turning, sample, 2};
+    }
+
+    PointEnergy energy(InfluenceWeights weights, unsigned threads) const {
+        Workers workers(threads);
+        return point_energy(between(weights), workers);
+    }
+};
+
+// What bodies do that all follow p → p + map p + shift.
+struct Bodies {
+    std::vector<Vec3d> way;
+    std::vector<Mat3d> map;
+
+    Bodies(const Held& held, const Mat3d& all, const Vec3d& shift) : map(held.sample.size() + 2, all) {
+        for (const Vec3d& p : held.sample) way.emplace_back(all * p + shift);
+        way.resize(map.size(), shift); // handles: about the origin
+    }
+};
+
+// -∂E/∂u of sample t, over ω, and what pulls where nothing resists, for scale.
+Vec3d force(const PointEnergy& energy, const Bodies& bodies, Index t, double& effort) {
+    Vec3d sum = Vec3d::Zero();
+    for (Index at = energy.first[t]; at < energy.first[t + 1]; ++at) {
+        const BodyPair& pair = energy.pair[at];
+        const Index s = energy.body[at];
+        sum += pair.way * bodies.way[s] + bodies.map[s] * (pair.map_force - pair.target_force);
+        effort += std::abs(pair.way) * bodies.way[s].norm();
+    }
+    return sum;
+}
+
+TEST(PointEnergy, KnowsNoForceWhereAllIsMovedByOneLinearMap) {
+    const Held held;
+    std::mt19937 random(1);
+    for (const InfluenceWeights weights : {InfluenceWeights::smooth, InfluenceWeights::paper}) {
+        const PointEnergy energy = held.energy(weights, 2);
+        Mat3d map;
+        for (int k = 0; k < 3; ++k) map.col(k) = test::random_vector(random);
+        const Bodies bodies(held, map, test::random_vector(random));
+        for (Index t = 0; t < energy.samples; ++t) {
+            double effort = 0;
+            const double left = force(energy, bodies, t, effort).norm();
+            EXPECT_LT(left, 1e-5 * effort); // weights are floats
+        }
+    }
+}
+
+TEST(PointEnergy, KnowsNoResidualOfTurnsWhereAllIsMovedByOneLinearMap) {
+    const Held held;
+    const PointEnergy energy = held.energy(InfluenceWeights::smooth, 2);
+    const Mat3d map = 0.3 * Mat3d::Ones();
+    const Bodies bodies(held, map, {1, 2, 3});
+    for (Index t = 0; t < energy.samples; ++t) {
+        Mat3d sum = Mat3d::Zero(), target = Mat3d::Zero();
+        for (Index at = energy.first[t]; at < energy.first[t + 1]; ++at) {
+            const BodyPair& pair = energy.pair[at];
+            sum += bodies.way[energy.body[at]] * pair.way_slope.transpose() + map * pair.map_slope;
+            target += map * pair.target_spread;
+        }
+        EXPECT_LT((sum - target).norm(), 1e-4 * target.norm());
+        EXPECT_LT((target - map * energy.spread[t]).norm(), 1e-5 * target.norm()); // weights sum to 1
+    }
+}
+
+// E/2 of ways alone, at every point by least squares over its neighbours, beside the sum over pairs.
+TEST(PointEnergy, IsTheSumOverThePoints) {
+    const Held held;
+    const PointEnergy energy = held.energy(InfluenceWeights::paper, 2);
+    std::mt19937 random(2);
+    std::vector<Vec3d> way(energy.bodies, Vec3d::Zero()); // handles rest
+    for (Index s = 0; s < energy.samples; ++s) way[s] = test::random_vector(random);
+    const auto blended = [&](Index v) -> Vec3d {
+        Vec3d sum = Vec3d::Zero();
+        if (held.label[v] != no_index) return sum;
+        const Influence influence = influence_of(held.nearest, InfluenceWeights::paper, v);
+        for (std::size_t k = 0; k < influence.count; ++k)
+            sum += static_cast<double>(influence.weight[k]) * way[influence.motion[k]];
+        return sum;
+    };
+    double of_points = 0;
+    for (Index v = 0; v < held.cloud.size(); ++v) {
+        Mat3d spread = Mat3d::Zero(), moved = Mat3d::Zero();
+        Vec3d pull = Vec3d::Zero();
+        double effort = 0;
+        for (const Index other : held.cloud.graph.row(v)) {
+            const Vec3d edge = held.cloud.at(other) - held.cloud.at(v);
+            spread += edge * edge.transpose();
+            moved += (blended(other) - blended(v)) * edge.transpose();
+            pull += edge;
+            effort += edge.norm();
+        }
+        const Surroundings surroundings = surroundings_of(spread);
+        const double square = spread.trace() / static_cast<double>(held.cloud.graph.row(v).size());
+        const double share = 1 - std::numbers::pi / 4 * pull.norm() / effort;
+        const double dimension = std::max(1.0, 3 - surroundings.open.trace());
+        of_points += 3 / dimension * square * share * (moved * surroundings.inverse).squaredNorm();
+    }
+    double of_pairs = 0;
+    for (Index t = 0; t < energy.samples; ++t)
+        for (Index at = energy.first[t]; at < energy.first[t + 1]; ++at)
+            of_pairs += energy.pair[at].way * way[t].dot(way[energy.body[at]]);
+    EXPECT_NEAR(of_pairs, of_points, 1e-9 * of_points);
+}
+
+TEST(PointEnergy, IsTheSameForAnyNumberOfWorkers) {
+    const Held held;
+    const PointEnergy one = held.energy(InfluenceWeights::smooth, 1);
+    const PointEnergy two = held.energy(InfluenceWeights::smooth, 2);
+    ASSERT_EQ(one.first, two.first);
+    ASSERT_EQ(one.body, two.body);
+    for (std::size_t at = 0; at < one.pair.size(); ++at) {
+        EXPECT_EQ(one.pair[at].way, two.pair[at].way);
+        EXPECT_EQ(one.pair[at].turn, two.pair[at].turn);
+        EXPECT_EQ(one.pair[at].map_slope, two.pair[at].map_slope);
+    }
+}
+
+TEST(PointEnergy, OfNoSamplesIsNone) {
+    Held held;
+    held.sample.clear();
+    EXPECT_TRUE(held.energy(InfluenceWeights::smooth, 2).pair.empty());
+}
+
+} // namespace
+} // namespace knead

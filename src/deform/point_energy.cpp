@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace knead {
 
@@ -147,14 +148,45 @@ Mat3d add_gradients(std::span<const Index> row, const Vec3d& position, const Sur
     return slope;
 }
 
-// Whether it adds anything: not where one body moves it and all its neighbours, or nothing does.
+// Whether a vertex can add anything: not where one handle moves it and all its neighbours.
+bool is_between(const PointsBetween& between, Index vertex) {
+    const Index handle = holder_of(between, vertex);
+    if (handle == no_index) return true;
+    return std::ranges::any_of(between.graph.row(vertex),
+                               [&](Index other) { return holder_of(between, other) != handle; });
+}
+
+// So many of those that can, or all if there are no more, evenly spread along the order of the vertices.
+std::vector<Index> spread_between(const PointsBetween& between, std::size_t wanted, Workers& workers) {
+    constexpr std::size_t vertices_a_chunk = 1 << 14;
+    const std::size_t vertices = between.graph.size();
+    std::vector<std::size_t> before((vertices + vertices_a_chunk - 1) / vertices_a_chunk + 1, 0);
+    const auto for_those_of = [&](std::size_t chunk, auto&& visit) {
+        const std::size_t end = std::min((chunk + 1) * vertices_a_chunk, vertices);
+        for (std::size_t v = chunk * vertices_a_chunk; v < end; ++v)
+            if (is_between(between, static_cast<Index>(v))) visit(static_cast<Index>(v));
+    };
+    workers.for_each(before.size() - 1, 1,
+                     [&](std::size_t chunk) { for_those_of(chunk, [&](Index) { ++before[chunk + 1]; }); });
+    std::partial_sum(before.begin(), before.end(), before.begin());
+    const std::size_t all = before.back(), count = std::min(all, wanted);
+    std::vector<Index> chosen(count);
+    // Each k is met once: where rank · count / all comes to k + 1.
+    workers.for_each(before.size() - 1, 1, [&](std::size_t chunk) {
+        std::size_t rank = before[chunk];
+        for_those_of(chunk, [&](Index vertex) {
+            const std::size_t k = rank * count / all;
+            ++rank;
+            if (rank * count / all > k) chosen[k] = vertex;
+        });
+    });
+    return chosen;
+}
+
+// What a vertex adds. Returns whether it is anything.
 bool contribution_of(const PointsBetween& between, Index vertex, Blends& blends, Contribution& result) {
     const std::span<const Index> row = between.graph.row(vertex);
     if (row.size() < 2) return false;
-    if (const Index handle = holder_of(between, vertex);
-        handle != no_index &&
-        std::ranges::all_of(row, [&](Index other) { return holder_of(between, other) == handle; }))
-        return false;
     const Vec3d position = blends.position(vertex);
     Mat3d spread = Mat3d::Zero();
     Vec3d pull = Vec3d::Zero();
@@ -297,15 +329,17 @@ void drop_strangers(PointEnergy& energy) {
 } // namespace
 
 PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
-    const std::size_t vertices = between.graph.size();
-    require(between.label.size() == vertices && between.nearest.size() == vertices, "an entry a vertex");
+    require(between.label.size() == between.graph.size() && between.nearest.size() == between.graph.size(),
+            "an entry a vertex");
     PointEnergy energy;
     energy.samples = between.sample.size();
     energy.bodies = energy.samples + between.handles;
     energy.spread.assign(energy.samples, Mat3d::Zero());
     energy.confidence.assign(energy.samples, 0);
     if (energy.samples == 0) return energy;
-    const std::size_t points = std::min(vertices, std::max(points_a_sample * energy.samples, fewest_points));
+    const std::vector<Index> asked =
+        spread_between(between, std::max(points_a_sample * energy.samples, fewest_points), workers);
+    const std::size_t points = asked.size();
     const std::size_t points_a_part = std::max<std::size_t>(16, samples_a_part * points / energy.samples);
     std::vector<Part> parts((points + points_a_part - 1) / points_a_part);
     workers.for_each(parts.size(), 1, [&](std::size_t part) {
@@ -313,8 +347,7 @@ PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
         std::vector<Contribution> contributions;
         Contribution contribution;
         for (std::size_t k = part * points_a_part; k < std::min((part + 1) * points_a_part, points); ++k)
-            if (contribution_of(between, static_cast<Index>((2 * k + 1) * vertices / (2 * points)), blends,
-                                contribution))
+            if (contribution_of(between, asked[k], blends, contribution))
                 contributions.push_back(contribution);
         parts[part] = sum_up(contributions, energy.samples);
     });

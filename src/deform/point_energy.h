@@ -77,8 +77,9 @@ struct PointsBetween {
 // straight that is twisted by two turns, where the energy of the points lets it throw a loop.
 inline constexpr std::size_t few_samples = 300;
 
-// Sums up over so many points a sample that more change nothing that counts, evenly spread along the order
-// of the vertices; over all, where there are no more. The same for any number of workers.
+// Sums up over so many points a sample that more change little, evenly spread along the order of the
+// vertices that are free or have a neighbour that another handle moves, or none; over all of those where
+// there are no more. The same for any number of workers.
 PointEnergy point_energy(const PointsBetween& between, Workers& workers);
 
 // All of it so many times.

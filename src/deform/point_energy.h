@@ -15,8 +15,8 @@
 // coefficients are sums over points: Galerkin's method, with the blends of the samples as the finite
 // elements. (Reduced deformables by frames: B. Gilles, G. Bousquet, F. Faure, D. Pai, "Frame-based elastic
 // models", 2011; by blended handles: A. Jacobson and others, "Fast automatic skinning transformations",
-// 2012.) The fixed point is then nearer to that of every
-// point a sample than by links alone (knead evaluate).
+// 2012.) The fixed point is then nearer to that of every point a sample than by links alone (knead
+// evaluate).
 //
 // Blends of constants are no linear functions, they climb in steps. For the turns, which have no slope of
 // their own in a sample, that would count as resistance; so their gradients are ĝ_s = G⁻ᵀ g_s, with G =

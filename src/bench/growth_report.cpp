@@ -13,6 +13,7 @@ void add_rows(std::span<const RowFigures> rows, std::size_t RowFigures::*size, T
     for (const RowFigures& row : rows) {
         std::vector<std::string> line{grouped(row.points), grouped(row.samples)};
         for (const Stage& stage : growth_stages()) line.push_back(duration_text((row.*stage.seconds).median));
+        line.push_back(digits_text(100 * share_of_copy(row.upsampling), 0) + " %");
         for (const std::uint64_t memory : {row.memory_held, row.memory_peak})
             line.push_back(
                 memory == 0 ? unknown_text
@@ -39,6 +40,8 @@ ReportJson json_of(std::span<const RowFigures> rows, std::size_t RowFigures::*si
         json["rows"].push_back({{"points", row.points},
                                 {"samples", row.samples},
                                 {"seconds", seconds},
+                                {"upsampling_bytes", row.upsampling.bytes},
+                                {"share_of_copy", share_of_copy(row.upsampling)},
                                 {"held_bytes", row.memory_held},
                                 {"peak_bytes", row.memory_peak}});
     }
@@ -54,16 +57,16 @@ ReportJson json_of(std::span<const RowFigures> rows, std::size_t RowFigures::*si
 std::string growth_text(const Growth& growth) {
     std::vector<std::string> heading{"points", "samples"};
     for (const Stage& stage : growth_stages()) heading.emplace_back(stage.name);
-    for (const char* name : {"B/point", "at most"}) heading.emplace_back(name);
-    TextTable table{
-        {machine_text(growth.machine)},
-        {std::to_string(growth.threads) + (growth.threads == 1 ? " thread" : " threads") + " and " +
-         growth.device},
-        {"B/point: bytes a point that set-up and frames hold, and held at most, beyond the file's own bytes. "
-         "Exponent: of the"},
-        {"power law that fits best."},
-        {""},
-        heading};
+    for (const char* name : {"of copy", "B/point", "at most"}) heading.emplace_back(name);
+    TextTable table{{machine_text(growth.machine)},
+                    {std::to_string(growth.threads) + (growth.threads == 1 ? " thread" : " threads") +
+                     " and " + growth.device},
+                    {"Of copy: how fast points are moved beside a copy of as many bytes. B/point: bytes a "
+                     "point that set-up "
+                     "and frames hold, and"},
+                    {"held at most, beyond the file's own bytes. Exponent: of the power law that fits best."},
+                    {""},
+                    heading};
     add_rows(growth.by_points, &RowFigures::points, table);
     table.push_back({""});
     add_rows(growth.by_samples, &RowFigures::samples, table);

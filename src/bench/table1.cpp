@@ -209,6 +209,10 @@ UpsamplerProbe make_probe(const Table1Options& options, Workers& workers,
 
 } // namespace
 
+double share_of_copy(const UpsampleFigures& figures) {
+    return figures.device.median > 0 ? figures.copy.median / figures.device.median : 0;
+}
+
 std::span<const Table1Row> table1_rows() {
     return rows_of_table;
 }

@@ -77,7 +77,7 @@ void add_upsampling(const Table1Result& result, TextTable& table) {
                      spread_text(ours.device), duration_text(ours.reference.median),
                      factor_text(ratio(ours.reference, ours.device)), power_text(ours.largest_difference),
                      digits_text(1e-6 * static_cast<double>(ours.bytes), 1), digits_text(moved, 1),
-                     digits_text(copied, 1), digits_text(copied > 0 ? 100 * moved / copied : 0, 0) + " %"});
+                     digits_text(copied, 1), digits_text(100 * share_of_copy(ours), 0) + " %"});
 }
 
 Json json_of(const Summary& summary) {
@@ -114,7 +114,8 @@ Json json_of(const UpsampleFigures& ours) {
             {"bytes", ours.bytes},
             {"gigabytes_per_second", gigabytes_per_second(ours.bytes, ours.device)},
             {"copy_seconds", json_of(ours.copy)},
-            {"copy_gigabytes_per_second", gigabytes_per_second(ours.bytes, ours.copy)}};
+            {"copy_gigabytes_per_second", gigabytes_per_second(ours.bytes, ours.copy)},
+            {"share_of_copy", share_of_copy(ours)}};
 }
 
 Json json_of(const Table1Result& result) {

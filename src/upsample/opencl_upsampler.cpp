@@ -45,7 +45,7 @@ std::string build_log(cl_program program, cl_device_id device) {
     return log;
 }
 
-// Root and quotient are rounded correctly where the device can do so: then it agrees with C++ to the bit.
+// Root and quotient are rounded correctly where the device can do so, as in C++.
 std::string build_options(cl_device_id device, bool sixteen_at_once) {
     std::string options = "-D POINTS_IN_BLOCK=" + std::to_string(points_in_block) +
                           " -D POINTS_IN_GROUP=" + std::to_string(points_in_group);

@@ -1,4 +1,4 @@
-// The upsampling kernel in plain C++: kernels/upsample.cl, operation by operation.
+// The upsampling kernel in plain C++: kernels/upsample.cl, operation by operation, none of them fused.
 
 #include "base/workers.h"
 #include "upsample/changed_blocks.h"

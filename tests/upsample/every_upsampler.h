@@ -16,8 +16,9 @@ enum class Path { reference, device, device_with_own_memory };
 
 class EveryUpsampler : public ::testing::TestWithParam<Path> {
 protected:
-    // One of each device there is; empty where the test is to be skipped.
-    std::vector<std::unique_ptr<Upsampler>> all(unsigned threads = 0) {
+    // One of each device there is; empty where the test is to be skipped. `kernel` is built instead of
+    // kernels/upsample.cl, and must outlive what is made.
+    std::vector<std::unique_ptr<Upsampler>> all(unsigned threads = 0, const char* kernel = nullptr) {
         std::vector<std::unique_ptr<Upsampler>> made;
         workers_.push_back(std::make_unique<Workers>(threads));
         if (GetParam() == Path::reference) {
@@ -27,8 +28,9 @@ protected:
         const bool own = GetParam() == Path::device_with_own_memory;
         const std::size_t devices = list_devices().size();
         for (std::size_t i = 0; i < devices; ++i)
-            made.push_back(make_opencl_upsampler(
-                i, *workers_.back(), threads, own ? DeviceMemory::own : DeviceMemory::as_the_device_has_it));
+            made.push_back(make_opencl_upsampler(i, *workers_.back(), threads,
+                                                 own ? DeviceMemory::own : DeviceMemory::as_the_device_has_it,
+                                                 kernel));
         return made;
     }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <queue>
 
@@ -12,14 +13,24 @@ namespace {
 // A range of `among`.
 struct Cell {
     std::size_t begin, end;
+    double weight;
 
-    // What is halved first: the fullest, and of equals the first on the curve.
+    // What is halved first: the heaviest, and of equals the first on the curve.
     bool operator<(const Cell& other) const {
-        const std::size_t size = end - begin;
-        const std::size_t other_size = other.end - other.begin;
-        return size != other_size ? size < other_size : begin > other.begin;
+        return weight != other.weight ? weight < other.weight : begin > other.begin;
     }
 };
+
+// Its vertices times the edge of the octree's cell that just holds them, in edges of the smallest cell there
+// is: 1 for a lone vertex, more for any others.
+Cell weighed(std::size_t begin, std::size_t end, const MortonCube& cube, std::span<const float> positions,
+             std::span<const Index> among) {
+    constexpr double halved[] = {1, 1.2599210498948732, 1.5874010519681994}; // 2^0, 2^⅓, 2^⅔
+    const auto code = [&](std::size_t at) { return morton_code(point_at(positions, among[at]), cube); };
+    const auto bits = std::bit_width(code(begin) ^ code(end - 1));
+    const double edge = std::ldexp(halved[bits % 3], static_cast<int>(bits / 3));
+    return {begin, end, static_cast<double>(end - begin) * edge};
+}
 
 // Where a cell of at least two vertices is halved: at the first bit in which the Morton codes of its vertices
 // differ. Vertices of one code cannot be told apart on the curve, and are halved by number.
@@ -58,13 +69,13 @@ std::vector<Index> octree_samples(const MortonCube& cube, std::span<const float>
     if (among.size() <= count) return {among.begin(), among.end()};
     if (count == 0) return {};
     std::priority_queue<Cell> cells;
-    cells.push({0, among.size()});
+    cells.push(weighed(0, among.size(), cube, positions, among));
     while (cells.size() < count) {
         const Cell cell = cells.top();
         cells.pop();
         const std::size_t middle = middle_of(cell, cube, positions, among);
-        cells.push({cell.begin, middle});
-        cells.push({middle, cell.end});
+        cells.push(weighed(cell.begin, middle, cube, positions, among));
+        cells.push(weighed(middle, cell.end, cube, positions, among));
     }
     std::vector<Index> samples;
     samples.reserve(count);

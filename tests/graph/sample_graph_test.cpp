@@ -104,7 +104,7 @@ TEST(SampleGraph, LinksAddedSamplesAsIfTheyHadBeenThere) {
             return missing;
         };
         EXPECT_LT(60 * missing_in(later, at_once), at_once.graph.neighbor.size());
-        EXPECT_LT(100 * missing_in(at_once, later), at_once.graph.neighbor.size());
+        EXPECT_LT(60 * missing_in(at_once, later), at_once.graph.neighbor.size());
     }
 }
 

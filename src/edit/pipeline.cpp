@@ -162,9 +162,9 @@ void Pipeline::prepare_samples(Progress& progress) {
     every_point_ = !input_.settings.samples || *input_.settings.samples >= vertices;
     if (!every_point_) {
         if (!hanging_.empty()) std::erase_if(samples_, [&](Index v) { return hanging_[v] != 0; });
-        const auto chosen =
-            octree_samples(order_.cube, vertex_positions(), samples_, *input_.settings.samples);
-        samples_ = relaxed(shuffled(chosen), *graph_, link_lengths_, vertex_positions(), hanging_,
+        auto chosen = octree_samples(order_.cube, vertex_positions(), samples_, *input_.settings.samples);
+        shuffle_in_runs(chosen);
+        samples_ = relaxed(std::move(chosen), *graph_, link_lengths_, vertex_positions(), hanging_,
                            relaxing_rounds, workers_, progress);
     }
     base_samples_ = samples_.size();

@@ -12,7 +12,8 @@
 // A link is 1 to 63 levels long. With all of them 1, distance is the number of links, as in the paper. knead
 // measures them by their length (link_lengths()): the number of links follows the lattice that a scanner left
 // rather than the surface, and on the survey's cylinder it tore the tube apart between rings. Equal distances
-// go by sample number, so samples should be numbered in no particular direction (shuffled()).
+// go by sample number, so samples should be numbered in no particular direction, and, as whatever is kept of
+// them is looked up by number, those that are near each other by near numbers (shuffle_in_runs()).
 
 #include "base/progress.h"
 #include "base/workers.h"
@@ -29,6 +30,9 @@ namespace knead {
 
 // The same vertices in an order that depends on nothing but their numbers and follows no direction.
 std::vector<Index> shuffled(std::vector<Index> vertices);
+// Sorts them, and shuffles each run of 1024: near vertices get near places, and where they are it still
+// follows no direction.
+void shuffle_in_runs(std::span<Index> vertices);
 
 // Floods the graph from `samples`, which are different vertices; sample s is the one at samples[s].
 // `lengths`: one entry for every entry of graph.neighbor, 1 … 63, the same in both directions. Returns one

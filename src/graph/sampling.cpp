@@ -151,6 +151,19 @@ std::vector<Index> nearest_others(const WideRow& row, Index sample, std::span<co
     return others;
 }
 
+// Brings added samples into the order of their numbers: handle by handle, and each handle's by themselves, so
+// that they stay as they are while other handles come and go.
+void put_in_order(std::vector<Index>& added, const VertexLabels& labels) {
+    const auto label_of = [&](Index v) { return labels.label[v]; };
+    std::ranges::sort(added, {}, label_of);
+    for (std::span<Index> rest(added); !rest.empty();) {
+        const auto end = std::ranges::upper_bound(rest, label_of(rest.front()), {}, label_of);
+        const auto own = static_cast<std::size_t>(end - rest.begin());
+        shuffle_in_runs(rest.first(own));
+        rest = rest.subspan(own);
+    }
+}
+
 } // namespace
 
 HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& labels,
@@ -173,8 +186,7 @@ HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& label
             parts.erase(part_of(v));
         }
     for (const Index v : one_of_each(parts, shape, labels)) added.push_back(v);
-    added = shuffled(std::move(added));
-    std::ranges::stable_sort(added, {}, [&](Index v) { return labels.label[v]; });
+    put_in_order(added, labels);
     return {std::move(added), std::move(borders)};
 }
 

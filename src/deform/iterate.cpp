@@ -5,6 +5,7 @@
 #include "deform/sample_system.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace knead {
@@ -52,26 +53,33 @@ void for_bodies(const PointEnergy& energy, Index sample, Visit&& visit) {
         visit(energy.body[at], energy.pair[at]);
 }
 
-// The right-hand side, four numbers a row: `own(row)` of the sample itself, and what `given(sample)` of the
-// handles around it says, times `smoothing`. `coefficient`: of the matrix that it is for.
+// Adds to the right-hand side of a row what `given(sample)` of the handles around it says, times `smoothing`.
+template<typename Given>
+[[gnu::always_inline]] inline void add_given(SampleSystem& system, std::size_t row, double smoothing,
+                                             double BodyPair::*coefficient, Given&& given) {
+    const SampleRest& rest = system.rest;
+    const Index i = system.free_sample[row];
+    Eigen::Map<Eigen::Vector4d> side(system.sides.data() + 4 * row);
+    for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
+        const Index j = rest.graph.neighbor[link];
+        if (system.unknown[j] == no_index) side += smoothing * rest.weight[link] * beyond_one(given(j));
+    }
+    for_bodies(rest.energy, i, [&](Index s, const BodyPair& pair) {
+        if (!system.body[s].turned) return;
+        const Index sample = s < rest.energy.samples ? s : system.body[s].from;
+        if (sample != no_index) side -= smoothing * pair.*coefficient * beyond_one(given(sample));
+    });
+}
+
+// The right-hand side, four numbers a row: what own(begin, end) writes for these rows of the samples
+// themselves, and what `given(sample)` of the handles around them says, times `smoothing`. `coefficient`: of
+// the matrix that it is for.
 template<typename Own, typename Given>
 void assemble_rotations(SampleSystem& system, double smoothing, double BodyPair::*coefficient, Own&& own,
                         Given&& given, Workers& workers) {
-    const SampleRest& rest = system.rest;
-    const std::size_t rows = system.free_sample.size();
-    workers.for_each(rows, grain, [&](std::size_t row) {
-        const Index i = system.free_sample[row];
-        Eigen::Vector4d side = own(row);
-        for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
-            const Index j = rest.graph.neighbor[link];
-            if (system.unknown[j] == no_index) side += smoothing * rest.weight[link] * beyond_one(given(j));
-        }
-        for_bodies(rest.energy, i, [&](Index s, const BodyPair& pair) {
-            if (!system.body[s].turned) return;
-            const Index sample = s < rest.energy.samples ? s : system.body[s].from;
-            if (sample != no_index) side -= smoothing * pair.*coefficient * beyond_one(given(sample));
-        });
-        Eigen::Map<Eigen::Vector4d>(system.sides.data() + 4 * row) = side;
+    workers.for_chunks(system.free_sample.size(), grain, [&](std::size_t begin, std::size_t end) {
+        own(begin, end);
+        for (std::size_t row = begin; row < end; ++row) add_given(system, row, smoothing, coefficient, given);
     });
 }
 
@@ -99,7 +107,10 @@ void turn_with_handles(SampleSystem& system, std::span<const HandleMotion> handl
         return handles[handle].rotation * state.rotation[s].conjugate();
     };
     assemble_rotations(
-        system, 1.0, &BodyPair::way, [](std::size_t) -> Eigen::Vector4d { return Eigen::Vector4d::Zero(); },
+        system, 1.0, &BodyPair::way,
+        [&](std::size_t begin, std::size_t end) {
+            std::fill(system.sides.data() + 4 * begin, system.sides.data() + 4 * end, 0.0);
+        },
         increment, workers);
     (system.has_increments ? system.increments : system.positions).solve(system.sides, 4, workers);
     for_solved_rotations(
@@ -120,11 +131,10 @@ Mat3d displaced_spread(const SampleSystem& system, const SampleState& state, std
     return displaced;
 }
 
-// Step 1 with γ = 0, the rotation that the sample's edges made. With x = p + u its sum is what the edges are
-// at rest, and what displacements add; where nothing moved, that is nothing at all.
-Quatd turn_of_edges(const SampleSystem& system, const SampleState& state, std::size_t row) {
-    return nearest_rotation(system.spread[row] + displaced_spread(system, state, row),
-                            state.rotation[system.free_sample[row]]);
+// The sum of step 1 with γ = 0: of the edges as they are. With x = p + u that is what they are at rest, and
+// what displacements add; where nothing moved, that is nothing at all.
+Mat3d sum_of_edges(const SampleSystem& system, const SampleState& state, std::size_t row) {
+    return system.spread[row] + displaced_spread(system, state, row);
 }
 
 // What the points around a sample, a body, add to step 1.
@@ -139,8 +149,8 @@ Mat3d points_around(const SampleSystem& system, const SampleState& state, Index 
     return sum;
 }
 
-// Step 1. What is the sample's own in it, R_i e - (1 - γ/2) M_i e, is one product with Σ w e eᵀ.
-Quatd local_rotation(const SampleSystem& system, const SampleState& state, std::size_t row) {
+// The sum of step 1. What is the sample's own in it, R_i e - (1 - γ/2) M_i e, is one product with Σ w e eᵀ.
+Mat3d local_sum(const SampleSystem& system, const SampleState& state, std::size_t row) {
     const Graph& graph = system.rest.graph;
     const Index i = system.free_sample[row];
     const Vec3d& displacement = state.displacement[i];
@@ -154,7 +164,29 @@ Quatd local_rotation(const SampleSystem& system, const SampleState& state, std::
         sum += (state.displacement[j] - displacement - turned) * system.weighted_edge[link].transpose();
     }
     if (!system.rest.energy.first.empty()) sum += points_around(system, state, i);
-    return nearest_rotation(sum, state.rotation[i]);
+    return sum;
+}
+
+// Step 1 of these rows, into the right-hand sides of step 2: C (r* - 1). Some at once, as side by side they
+// take half the time.
+void find_local_rotations(SampleSystem& system, const SampleState& state, std::size_t begin,
+                          std::size_t end) {
+    constexpr std::size_t at_once = 16;
+    std::array<Mat3d, at_once> sum;
+    std::array<Quatd, at_once> local;
+    for (std::size_t first = begin; first < end; first += at_once) {
+        const std::size_t count = std::min(at_once, end - first);
+        for (std::size_t k = 0; k < count; ++k) {
+            look_ahead(system, state, first + k);
+            sum[k] = system.midway > 0 ? local_sum(system, state, first + k)
+                                       : sum_of_edges(system, state, first + k);
+            local[k] = state.rotation[system.free_sample[first + k]];
+        }
+        nearest_rotations(std::span(sum).first(count), std::span(local).first(count));
+        for (std::size_t k = 0; k < count; ++k)
+            Eigen::Map<Eigen::Vector4d>(system.sides.data() + 4 * (first + k)) =
+                system.confidence[first + k] * beyond_one(local[k]);
+    }
 }
 
 // F - I of a row.
@@ -305,12 +337,7 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
     }
     assemble_rotations(
         system, system.smoothing, &BodyPair::turn,
-        [&](std::size_t row) -> Eigen::Vector4d {
-            look_ahead(system, state, row);
-            const Quatd local =
-                system.midway > 0 ? local_rotation(system, state, row) : turn_of_edges(system, state, row);
-            return system.confidence[row] * beyond_one(local);
-        },
+        [&](std::size_t begin, std::size_t end) { find_local_rotations(system, state, begin, end); },
         [&](Index s) -> const Quatd& { return state.rotation[s]; }, workers);
     system.rotations.solve(system.sides, 4, workers);
     for_solved_rotations(

@@ -1,8 +1,11 @@
 #include "deform/rotation.h"
 
+#include "base/new_processors.h"
+
 #include <Eigen/Eigenvalues>
 
-#include <optional>
+#include <algorithm>
+#include <cstdint>
 
 namespace knead {
 
@@ -16,54 +19,95 @@ Vec3d axial(const Mat3d& b) {
     return {b(2, 1) - b(1, 2), b(0, 2) - b(2, 0), b(1, 0) - b(0, 1)};
 }
 
-// C⁻¹ v by Cramer's rule; nothing unless C is positive definite.
-std::optional<Vec3d> solved_positive(const Mat3d& c, const Vec3d& v) {
-    // The cofactors, C being symmetric.
-    const double a00 = c(1, 1) * c(2, 2) - c(1, 2) * c(1, 2);
-    const double a01 = c(0, 2) * c(1, 2) - c(0, 1) * c(2, 2);
-    const double a02 = c(0, 1) * c(1, 2) - c(0, 2) * c(1, 1);
-    const double a11 = c(0, 0) * c(2, 2) - c(0, 2) * c(0, 2);
-    const double a12 = c(0, 1) * c(0, 2) - c(0, 0) * c(1, 2);
-    const double a22 = c(0, 0) * c(1, 1) - c(0, 1) * c(0, 1);
-    const double determinant = c(0, 0) * a00 + c(0, 1) * a01 + c(0, 2) * a02;
-    if (!(c(0, 0) > 0 && a22 > 0 && determinant > 0)) return std::nullopt;
-    return Vec3d(a00 * v[0] + a01 * v[1] + a02 * v[2], a01 * v[0] + a11 * v[1] + a12 * v[2],
-                 a02 * v[0] + a12 * v[1] + a22 * v[2]) /
-           determinant;
+// Several numbers side by side, one of each rotation that is sought, in the vectors of GCC and Clang.
+constexpr std::size_t lanes = 4;
+using Reals = double __attribute__((vector_size(8 * lanes)));
+using Truths = std::int64_t __attribute__((vector_size(8 * lanes)));
+
+struct Vectors {
+    Reals x, y, z;
+};
+struct Turns {
+    Reals w, x, y, z;
+};
+struct Matrices {
+    Reals of[3][3]; // row, column
+};
+
+[[gnu::always_inline]] inline bool any(const Truths& truths) {
+    std::int64_t any = 0;
+    for (std::size_t k = 0; k < lanes; ++k) any |= truths[k];
+    return any != 0;
 }
 
-// Rᵀ of the quaternion (1, h), which has any length.
-Mat3d turned_back(const Vec3d& h) {
-    const double squared = h.squaredNorm();
-    Mat3d back = (2 * h) * h.transpose();
-    back.diagonal().array() += 1 - squared;
-    back(0, 1) += 2 * h.z(), back(1, 0) -= 2 * h.z();
-    back(2, 0) += 2 * h.y(), back(0, 2) -= 2 * h.y();
-    back(1, 2) += 2 * h.x(), back(2, 1) -= 2 * h.x();
-    return back * (1 / (1 + squared));
+[[gnu::always_inline]] inline Matrices product(const Matrices& a, const Matrices& b) {
+    Matrices c;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            c.of[i][j] = a.of[i][0] * b.of[0][j] + a.of[i][1] * b.of[1][j] + a.of[i][2] * b.of[2][j];
+    return c;
+}
+
+[[gnu::always_inline]] inline Turns product(const Turns& a, const Turns& b) {
+    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+            a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z, a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x};
+}
+
+// Rᵀ of the quaternion (w, v), which has any length.
+[[gnu::always_inline]] inline Matrices turned_back(const Turns& q) {
+    const Reals squared = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+    const Reals twice = 2.0 / squared;
+    const Reals x = twice * q.x, y = twice * q.y, z = twice * q.z;
+    const Reals xx = x * q.x, yy = y * q.y, zz = z * q.z, xy = x * q.y, xz = x * q.z, yz = y * q.z;
+    const Reals wx = x * q.w, wy = y * q.w, wz = z * q.w;
+    return {{{1.0 - (yy + zz), xy + wz, xz - wy},
+             {xy - wz, 1.0 - (xx + zz), yz + wx},
+             {xz + wy, yz - wx, 1.0 - (xx + yy)}}};
+}
+
+// C⁻¹ v by Cramer's rule for the symmetric C = (tr B + p) I - sym(B), and where C is positive definite.
+[[gnu::always_inline]] inline Vectors solved(const Matrices& b, const Reals& p, const Vectors& v,
+                                             Truths& is_positive) {
+    const auto& of = b.of;
+    const Reals trace = of[0][0] + of[1][1] + of[2][2] + p;
+    const Reals c00 = trace - of[0][0], c11 = trace - of[1][1], c22 = trace - of[2][2];
+    const Reals c01 = -0.5 * (of[0][1] + of[1][0]), c02 = -0.5 * (of[0][2] + of[2][0]);
+    const Reals c12 = -0.5 * (of[1][2] + of[2][1]);
+    const Reals a00 = c11 * c22 - c12 * c12, a01 = c02 * c12 - c01 * c22, a02 = c01 * c12 - c02 * c11;
+    const Reals a11 = c00 * c22 - c02 * c02, a12 = c01 * c02 - c00 * c12, a22 = c00 * c11 - c01 * c01;
+    const Reals determinant = c00 * a00 + c01 * a01 + c02 * a02;
+    is_positive = (c00 > 0.0) & (a22 > 0.0) & (determinant > 0.0);
+    return {(a00 * v.x + a01 * v.y + a02 * v.z) / determinant,
+            (a01 * v.x + a11 * v.y + a12 * v.z) / determinant,
+            (a02 * v.x + a12 * v.y + a22 * v.z) / determinant};
 }
 
 // Newton's method for the maximum of tr(Rᵀ A) over rotations, from `near`: with B = Rᵀ A, turning R further
 // by ω changes it by ω·axial(B) - ½ ωᵀ(tr(B) I - sym(B)) ω. There is one maximum, so arriving where the
-// quadratic form is positive means having found it. Nothing, if on the way it is not. The quaternion gets its
-// length at the end.
-std::optional<Quatd> climb(const Mat3d& a, double size, const Quatd& near) {
-    Quatd rotation = near;
-    Mat3d b = near.toRotationMatrix().transpose() * a;
-    for (int step = 0; step < 8; ++step) {
-        Mat3d curvature = -0.5 * (b + b.transpose());
-        curvature.diagonal().array() += b.trace() + preference * size;
-        const std::optional<Vec3d> turn = solved_positive(curvature, axial(b));
-        if (!turn) return std::nullopt;
-        const double squared = turn->squaredNorm();
-        if (squared == 0) return step == 0 ? near : rotation.normalized();
-        if (!(squared < 1)) return std::nullopt; // too far for the quadratic form to be trusted
-        const Vec3d half = 0.5 * *turn;
-        rotation = rotation * Quatd(1, half.x(), half.y(), half.z());
-        if (squared < 1e-14) return rotation.normalized(); // the next step would be of the size of its square
-        b = turned_back(half) * b;
+// quadratic form is positive means having found it. `near` receives the quaternions that were found, of any
+// length; those of the others, where on the way it is not, are good for nothing. Where the first step is
+// none, `near` stays to the last bit. Returns which were found.
+KNEAD_FOR_NEW_PROCESSORS_TOO
+void climb(const Matrices& a, const Reals& size, Turns& near, Truths& found) {
+    found = Truths{};
+    Truths going = ~found;
+    Matrices b = product(turned_back(near), a);
+    for (int step = 0; step < 8 && any(going); ++step) {
+        const Vectors uphill{b.of[2][1] - b.of[1][2], b.of[0][2] - b.of[2][0], b.of[1][0] - b.of[0][1]};
+        Truths is_positive;
+        const Vectors turn = solved(b, preference * size, uphill, is_positive);
+        const Reals squared = turn.x * turn.x + turn.y * turn.y + turn.z * turn.z;
+        going &= is_positive & (squared < 1.0); // too far for the quadratic form to be trusted
+        found |= going & (squared == 0.0);
+        going &= ~found;
+        const Turns further{Reals{} + 1.0, 0.5 * turn.x, 0.5 * turn.y, 0.5 * turn.z};
+        const Turns turned = product(near, further);
+        near = {going ? turned.w : near.w, going ? turned.x : near.x, going ? turned.y : near.y,
+                going ? turned.z : near.z};
+        found |= going & (squared < 1e-14); // the next step would be of the size of its square
+        going &= ~found;
+        b = product(turned_back(further), b);
     }
-    return std::nullopt;
 }
 
 // The same maximum from anywhere: the largest eigenvector of Horn's symmetric 4×4 matrix (B. K. P. Horn,
@@ -94,11 +138,38 @@ Mat3d turn_of(const Quatd& q) {
     return turn;
 }
 
+void nearest_rotations(std::span<const Mat3d> a, std::span<Quatd> near) {
+    for (std::size_t first = 0; first < near.size(); first += lanes) {
+        Matrices matrices;
+        Turns turns;
+        Reals sizes;
+        for (std::size_t k = 0; k < lanes; ++k) {
+            const std::size_t at =
+                std::min(first + k, near.size() - 1); // lanes beyond the end do the last again
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j) matrices.of[i][j][k] = a[at](i, j);
+            turns.w[k] = near[at].w(), turns.x[k] = near[at].x();
+            turns.y[k] = near[at].y(), turns.z[k] = near[at].z();
+            sizes[k] = a[at].norm();
+        }
+        Truths found;
+        climb(matrices, sizes, turns, found);
+        for (std::size_t k = 0; k < std::min(lanes, near.size() - first); ++k) {
+            Quatd& one = near[first + k];
+            if (!(sizes[k] > 0)) continue;
+            const Quatd climbed(turns.w[k], turns.x[k], turns.y[k], turns.z[k]);
+            if (!found[k])
+                one = search(a[first + k], sizes[k], one);
+            else if (climbed.coeffs() != one.coeffs())
+                one = climbed.normalized();
+        }
+    }
+}
+
 Quatd nearest_rotation(const Mat3d& a, const Quatd& near) {
-    const double size = a.norm();
-    if (!(size > 0)) return near;
-    if (const auto found = climb(a, size, near)) return *found;
-    return search(a, size, near);
+    Quatd one = near;
+    nearest_rotations({&a, 1}, {&one, 1});
+    return one;
 }
 
 } // namespace knead

@@ -1,6 +1,7 @@
 #pragma once
 // Private to this room: pixels that the processor draws, and vectors of them.
 
+#include "base/new_processors.h"
 #include "base/workers.h"
 #include "render/screen_pass.h"
 
@@ -21,15 +22,6 @@ struct Pixels {
     static constexpr std::size_t padding = 16;
     std::size_t row() const { return static_cast<std::size_t>(width) + padding; }
 };
-
-// Functions are compiled twice where the compiler can: once for processors of the last ten years, chosen when
-// the program starts. Both round alike.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&     \
-    !defined(__SANITIZE_THREAD__)
-#define KNEAD_FOR_NEW_PROCESSORS_TOO __attribute__((target_clones("avx2", "default")))
-#else
-#define KNEAD_FOR_NEW_PROCESSORS_TOO
-#endif
 
 // Eight pixels of a row at a time, in the vectors of GCC and Clang.
 constexpr int lanes = 8;

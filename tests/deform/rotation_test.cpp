@@ -164,6 +164,25 @@ TEST(NearestRotation, DoesNotDependOnTheUnit) {
     }
 }
 
+TEST(NearestRotations, AreEachAsItIsByItself) {
+    std::mt19937 random(11);
+    for (const std::size_t count : {0U, 1U, 3U, 4U, 5U, 16U, 257U}) {
+        std::vector<Mat3d> a(count);
+        std::vector<Quatd> near(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            near[i] = random_rotation(random);
+            a[i] = random_matrix(random); // most of them far away
+            if (i % 3 == 0) a[i] = random_rotation(random).slerp(0.9, near[i]).toRotationMatrix();
+            if (i % 7 == 3) a[i].setZero();
+            if (i % 7 == 5) a[i].setConstant(std::nan(""));
+        }
+        std::vector<Quatd> together = near;
+        nearest_rotations(a, together);
+        for (std::size_t i = 0; i < count; ++i)
+            EXPECT_EQ(together[i].coeffs(), nearest_rotation(a[i], near[i]).coeffs()) << i << " of " << count;
+    }
+}
+
 TEST(TurnOf, IsTheRotationLessTheIdentity) {
     std::mt19937 random(9);
     for (int i = 0; i < 200; ++i) {

@@ -65,12 +65,12 @@ template<typename Places>
 [[gnu::noinline]] bool has_room(const Places& row, NumberOf<Places> sample, NumberOf<Places> distance) {
     using Number = NumberOf<Places>;
     constexpr std::size_t last = places_of<Places> - 1;
-    const bool as_far = row.distance[last] == distance;
-    const bool before_last = (row.distance[last] > distance) | (as_far & (row.sample[last] > sample));
+    const int as_far = row.distance[last] == distance;
+    const int before_last = int{row.distance[last] > distance} | (as_far & int{row.sample[last] > sample});
     Number found = 0;
     for (std::size_t k = 0; k < places_of<Places>; ++k)
         found |= static_cast<Number>(Number{row.sample[k] == sample} & Number{row.distance[k] <= distance});
-    return before_last & (found == 0);
+    return (before_last & int{found == 0}) != 0;
 }
 
 // Puts it there, in place of itself farther away, or of the last one.

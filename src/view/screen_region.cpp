@@ -20,13 +20,13 @@ void test_points(const Projector& projector, std::span<const float> positions,
                  std::span<const std::uint8_t> hidden, std::span<std::uint8_t> inside, Workers& workers,
                  Contains&& contains_pixel) {
     workers.for_chunks(inside.size(), grain, [&](std::size_t begin, std::size_t end) {
-        project_each(projector, positions.data(), begin, end,
-                     [&](std::size_t i, const Projector::Seen& seen) {
-                         const bool shown = hidden.empty() || hidden[i] == 0;
-                         // No branches: nobody can guess which points are inside.
-                         inside[i] = static_cast<std::uint8_t>(shown & projector.in_front(seen.depth) &
-                                                               contains_pixel(seen.x, seen.y));
-                     });
+        project_each(
+            projector, positions.data(), begin, end, [&](std::size_t i, const Projector::Seen& seen) {
+                const bool shown = hidden.empty() || hidden[i] == 0;
+                // No branches: nobody can guess which points are inside.
+                inside[i] = static_cast<std::uint8_t>(int{shown} & int{projector.in_front(seen.depth)} &
+                                                      int{contains_pixel(seen.x, seen.y)});
+            });
     });
 }
 

@@ -42,7 +42,7 @@ public:
 private:
     void replace(const DeviceFailure& failure) {
         warning_ = current_->device() + " failed (" + failure.what() +
-                   "); the points are moved in plain C++ from here on, with the same result";
+                   "); the points are moved in plain C++ from here on, the same but for rounding";
         current_ = make_reference_upsampler(workers_);
         current_->prepare(input_, motions_);
     }

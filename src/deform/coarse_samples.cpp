@@ -24,7 +24,7 @@ constexpr int relaxing_rounds = 2;
 constexpr std::size_t grain = 256;
 
 // The samples and their graph in the order of the Morton curve: floods go through near memory then, which
-// samples in their own scrambled order are not.
+// samples in their own order, shuffled in runs, are not.
 struct OrderedSamples {
     std::vector<Index> sample; // at each place
     std::vector<Index> place;  // of each sample

@@ -63,10 +63,6 @@ double megabytes_per_second(std::size_t bytes, const Summary& seconds) {
     return seconds.median > 0 ? 1e-6 * static_cast<double>(bytes) / seconds.median : 0;
 }
 
-double ratio(const Summary& ours, const Summary& plain) {
-    return plain.median > 0 ? ours.median / plain.median : 0;
-}
-
 ReportJson json_of(std::size_t bytes, const Summary& seconds) {
     return {{"seconds", seconds.median},
             {"min", seconds.lowest},

@@ -58,15 +58,15 @@ std::string growth_text(const Growth& growth) {
     std::vector<std::string> heading{"points", "samples"};
     for (const Stage& stage : growth_stages()) heading.emplace_back(stage.name);
     for (const char* name : {"of copy", "B/point", "at most"}) heading.emplace_back(name);
-    TextTable table{{machine_text(growth.machine)},
-                    {std::to_string(growth.threads) + (growth.threads == 1 ? " thread" : " threads") +
-                     " and " + growth.device},
-                    {"Of copy: how fast points are moved beside a copy of as many bytes. B/point: bytes a "
-                     "point that set-up "
-                     "and frames hold, and"},
-                    {"held at most, beyond the file's own bytes. Exponent: of the power law that fits best."},
-                    {""},
-                    heading};
+    TextTable table{
+        {machine_text(growth.machine)},
+        {std::to_string(growth.threads) + (growth.threads == 1 ? " thread" : " threads") + " and " +
+         growth.device},
+        {"Of copy: how fast points are moved beside a copy of as many bytes."},
+        {"B/point: bytes a point that set-up and frames hold, and hold at most, beyond the file's own."},
+        {"Exponent: of the power law that fits best."},
+        {""},
+        heading};
     add_rows(growth.by_points, &RowFigures::points, table);
     table.push_back({""});
     add_rows(growth.by_samples, &RowFigures::samples, table);

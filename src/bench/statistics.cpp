@@ -13,4 +13,8 @@ Summary summarize(std::vector<double> values) {
     return {median, values.front(), values.back(), values.size()};
 }
 
+double ratio(const Summary& a, const Summary& b) {
+    return b.median > 0 ? a.median / b.median : 0;
+}
+
 } // namespace knead

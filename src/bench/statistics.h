@@ -16,4 +16,7 @@ struct Summary {
 
 Summary summarize(std::vector<double> values);
 
+// The median of `a` over that of `b`; 0 where nothing was measured of b.
+double ratio(const Summary& a, const Summary& b);
+
 } // namespace knead

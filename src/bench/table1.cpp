@@ -210,7 +210,7 @@ UpsamplerProbe make_probe(const Table1Options& options, Workers& workers,
 } // namespace
 
 double share_of_copy(const UpsampleFigures& figures) {
-    return figures.device.median > 0 ? figures.copy.median / figures.device.median : 0;
+    return ratio(figures.copy, figures.device);
 }
 
 std::span<const Table1Row> table1_rows() {

@@ -64,10 +64,6 @@ double gigabytes_per_second(std::size_t bytes, const Summary& seconds) {
     return seconds.median > 0 ? 1e-9 * static_cast<double>(bytes) / seconds.median : 0;
 }
 
-double ratio(const Summary& reference, const Summary& device) {
-    return device.median > 0 ? reference.median / device.median : 0;
-}
-
 void add_upsampling(const Table1Result& result, TextTable& table) {
     if (!result.missing.empty()) return;
     const UpsampleFigures& ours = result.figures.upsampling;

@@ -1,10 +1,12 @@
 #include "deform/rotation.h"
 
 #include "base/new_processors.h"
+#include "base/require.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace knead {
@@ -35,9 +37,9 @@ struct Matrices {
 };
 
 [[gnu::always_inline]] inline bool any(const Truths& truths) {
-    std::int64_t any = 0;
-    for (std::size_t k = 0; k < lanes; ++k) any |= truths[k];
-    return any != 0;
+    std::int64_t joined = 0;
+    for (std::size_t k = 0; k < lanes; ++k) joined |= truths[k];
+    return joined != 0;
 }
 
 [[gnu::always_inline]] inline Matrices product(const Matrices& a, const Matrices& b) {
@@ -139,6 +141,7 @@ Mat3d turn_of(const Quatd& q) {
 }
 
 void nearest_rotations(std::span<const Mat3d> a, std::span<Quatd> near) {
+    require(a.size() == near.size(), "every matrix has a rotation that its own is to be near to");
     for (std::size_t first = 0; first < near.size(); first += lanes) {
         Matrices matrices;
         Turns turns;
@@ -156,7 +159,7 @@ void nearest_rotations(std::span<const Mat3d> a, std::span<Quatd> near) {
         climb(matrices, sizes, turns, found);
         for (std::size_t k = 0; k < std::min(lanes, near.size() - first); ++k) {
             Quatd& one = near[first + k];
-            if (!(sizes[k] > 0)) continue;
+            if (!(sizes[k] > 0 && std::isfinite(sizes[k]))) continue; // says nothing of a turn
             const Quatd climbed(turns.w[k], turns.x[k], turns.y[k], turns.z[k]);
             if (!found[k])
                 one = search(a[first + k], sizes[k], one);

@@ -33,6 +33,11 @@ TEST(Summary, OfOneValueIsThatValue) {
     EXPECT_EQ(summary.highest, 7);
 }
 
+TEST(Summary, IsSoManyTimesAnotherByTheMedians) {
+    EXPECT_EQ(ratio(summarize({3, 6, 100}), summarize({1, 2, 4})), 3);
+    EXPECT_EQ(ratio(summarize({3}), summarize({})), 0);
+}
+
 TEST(Summary, IsNotMovedByOneSlowRun) {
     EXPECT_EQ(summarize({1, 1, 1, 1, 1000}).median, 1);
 }

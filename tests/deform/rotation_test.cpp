@@ -7,6 +7,7 @@
 #include <Eigen/SVD>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace knead {
@@ -137,6 +138,8 @@ TEST(NearestRotation, OfNothingIsTheOneBefore) {
     EXPECT_EQ(nearest_rotation(Mat3d::Zero(), near).coeffs(), near.coeffs());
     const double nan = std::nan("");
     EXPECT_EQ(nearest_rotation(Mat3d::Constant(nan), near).coeffs(), near.coeffs());
+    const double infinite = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(nearest_rotation(Mat3d::Constant(infinite), near).coeffs(), near.coeffs());
 }
 
 TEST(NearestRotation, KeepsWhatIsStationaryToTheLastBit) {
@@ -175,6 +178,8 @@ TEST(NearestRotations, AreEachAsItIsByItself) {
             if (i % 3 == 0) a[i] = random_rotation(random).slerp(0.9, near[i]).toRotationMatrix();
             if (i % 7 == 3) a[i].setZero();
             if (i % 7 == 5) a[i].setConstant(std::nan(""));
+            if (i % 7 == 6) a[i](1, 2) = std::numeric_limits<double>::infinity();
+            if (i % 5 == 4) near[i].setIdentity(), a[i] = (a[i] * a[i].transpose()).eval(); // stays
         }
         std::vector<Quatd> together = near;
         nearest_rotations(a, together);

@@ -155,6 +155,12 @@ inline std::vector<Index> octree_of(const Cloud& cloud, std::size_t count) {
     return octree_samples(cloud.cube, cloud.positions, all, count);
 }
 
+// Numbered as the editor numbers them.
+inline std::vector<Index> shuffled_in_runs(std::vector<Index> vertices) {
+    shuffle_in_runs(vertices);
+    return vertices;
+}
+
 inline bool all_different(const std::vector<Index>& vertices) {
     return std::set<Index>(vertices.begin(), vertices.end()).size() == vertices.size();
 }

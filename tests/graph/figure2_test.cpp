@@ -75,8 +75,8 @@ TEST(Figure2, StrandsThatPassCloseNeverInfluenceEachOther) {
     for (const std::size_t count : {200U, 1000U}) {
         Machine machine;
         const auto samples =
-            relaxed(shuffled(octree_samples(cloud.cube, cloud.positions, all, count)), cloud.graph,
-                    cloud.lengths, cloud.positions, {}, 3, machine.workers, machine.progress);
+            relaxed(test::shuffled_in_runs(octree_samples(cloud.cube, cloud.positions, all, count)),
+                    cloud.graph, cloud.lengths, cloud.positions, {}, 3, machine.workers, machine.progress);
         const auto nearest = flood(cloud.graph, cloud.lengths, samples, machine.workers, machine.progress);
         // The eight nearest of evenly spaced samples reach 1.6 spacings far (their circle has eight
         // spacings² of area); four leave room for uneven ones. Strands that meet are 9 apart along the tube.

@@ -11,6 +11,7 @@ namespace {
 using test::Cloud;
 using test::Machine;
 using test::octree_of;
+using test::shuffled_in_runs;
 
 struct Sampled {
     std::vector<Index> samples;
@@ -56,7 +57,7 @@ TEST(SampleGraph, HangsTogetherAsThePointsDo) {
     for (const auto& [name, cloud] : test::several_clouds()) {
         SCOPED_TRACE(name);
         for (const std::size_t count : {1U, 2U, 12U, 100U}) {
-            const Sampled result = sampled(cloud, shuffled(octree_of(cloud, count)));
+            const Sampled result = sampled(cloud, shuffled_in_runs(octree_of(cloud, count)));
             ASSERT_EQ(result.graph.graph.size(), count);
             test::expect_well_formed(result.graph.graph);
             expect_contacts(result.graph);
@@ -86,7 +87,7 @@ SampleGraph with_added(const Cloud& cloud, const std::vector<Index>& samples, st
 TEST(SampleGraph, LinksAddedSamplesAsIfTheyHadBeenThere) {
     for (const auto& [name, cloud] : test::several_clouds()) {
         SCOPED_TRACE(name);
-        const std::vector<Index> samples = shuffled(octree_of(cloud, 100));
+        const std::vector<Index> samples = shuffled_in_runs(octree_of(cloud, 100));
         const SampleGraph at_once = sampled(cloud, samples).graph;
         const SampleGraph later = with_added(cloud, samples, samples.size() * 9 / 10);
         test::expect_well_formed(later.graph);
@@ -103,8 +104,10 @@ TEST(SampleGraph, LinksAddedSamplesAsIfTheyHadBeenThere) {
                 }
             return missing;
         };
-        EXPECT_LT(60 * missing_in(later, at_once), at_once.graph.neighbor.size());
-        EXPECT_LT(60 * missing_in(at_once, later), at_once.graph.neighbor.size());
+        // Of ten added samples there may be a pair or two, and each pair is two links of some 700.
+        constexpr std::size_t one_in = 60;
+        EXPECT_LT(one_in * missing_in(later, at_once), at_once.graph.neighbor.size());
+        EXPECT_LT(one_in * missing_in(at_once, later), at_once.graph.neighbor.size());
     }
 }
 
@@ -133,7 +136,7 @@ TEST(SampleGraph, CrossesAThinNeck) {
 
 TEST(SampleGraph, LinksTheNearestAndWhatTouches) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 4000));
-    const Sampled result = sampled(cloud, shuffled(octree_of(cloud, 150)));
+    const Sampled result = sampled(cloud, shuffled_in_runs(octree_of(cloud, 150)));
     const Graph& graph = result.graph.graph;
     std::map<std::pair<Index, Index>, float> crossing;
     for (Index v = 0; v < cloud.size(); ++v) {
@@ -165,7 +168,7 @@ TEST(SampleGraph, LinksTheNearestAndWhatTouches) {
 
 TEST(SampleGraph, IsTheSameForAnyNumberOfThreads) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::knot, 10000));
-    const std::vector<Index> samples = shuffled(octree_of(cloud, 2500));
+    const std::vector<Index> samples = shuffled_in_runs(octree_of(cloud, 2500));
     const Sampled one = sampled(cloud, samples, 1);
     for (const unsigned threads : {2U, 5U}) {
         const Sampled more = sampled(cloud, samples, threads);

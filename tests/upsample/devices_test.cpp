@@ -31,8 +31,8 @@ TEST(FallbackUpsampler, GivesTheRightResultInTheCallThatFails) {
     const Scene scene = random_scene(5000, 40, 21);
     const Posed expected = upsampled(*make_reference_upsampler(workers), scene);
     for (const int failing_call : {1, 2, 3}) {
-        const auto upsampler =
-            make_fallback_upsampler(std::make_unique<FailingUpsampler>(workers, failing_call), workers);
+        const auto upsampler = make_fallback_upsampler(
+            std::make_unique<FailingUpsampler>(make_reference_upsampler(workers), failing_call), workers);
         EXPECT_EQ(upsampler->device(), "a flaky device");
         EXPECT_EQ(upsampled(*upsampler, scene), expected);
         Posed second = {std::vector<float>(15'000), std::vector<float>(15'000)};
@@ -72,7 +72,8 @@ TEST(FallbackUpsampler, ADeviceThatIsGoneIsAFailure) {
 
 TEST(FallbackUpsampler, SaysNothingWhileAllIsWell) {
     Workers workers(1);
-    const auto upsampler = make_fallback_upsampler(std::make_unique<FailingUpsampler>(workers, 100), workers);
+    const auto upsampler = make_fallback_upsampler(
+        std::make_unique<FailingUpsampler>(make_reference_upsampler(workers), 100), workers);
     upsampled(*upsampler, random_scene(10, 3, 23));
     EXPECT_EQ(upsampler->take_warning(), "");
     EXPECT_EQ(upsampler->device(), "a flaky device");

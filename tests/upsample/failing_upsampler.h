@@ -8,11 +8,12 @@
 
 namespace knead::test {
 
-// Works until the call of prepare() or run() that it is told to fail in, from 1; and never again.
+// Works as `works` does until the call of prepare() or run() that it is told to fail in, from 1; and never
+// again.
 class FailingUpsampler final : public Upsampler {
 public:
-    FailingUpsampler(Workers& workers, int failing_call, int* calls = nullptr)
-        : works_(make_reference_upsampler(workers)), failing_call_(failing_call), calls_(calls) {}
+    FailingUpsampler(std::unique_ptr<Upsampler> works, int failing_call, int* calls = nullptr)
+        : works_(std::move(works)), failing_call_(failing_call), calls_(calls) {}
 
     std::string device() const override { return "a flaky device"; }
     std::size_t influence_bytes() const override { return works_->influence_bytes(); }
@@ -44,11 +45,21 @@ private:
     int* calls_; // counts them for whoever wants to know; or null
 };
 
-// For ReplayOptions and OpenRequest: such a device, with what replaces it.
+// For ReplayOptions and OpenRequest: such a device, which rounds as the reference does, with what replaces
+// it.
 inline UpsamplerMaker failing_in_call(int call, int* calls = nullptr) {
     return [=](const std::string& /*request*/, Workers& workers, unsigned /*threads*/) {
-        return UpsamplerChoice{
-            make_fallback_upsampler(std::make_unique<FailingUpsampler>(workers, call, calls), workers), {}};
+        auto flaky = std::make_unique<FailingUpsampler>(make_reference_upsampler(workers), call, calls);
+        return UpsamplerChoice{make_fallback_upsampler(std::move(flaky), workers), {}};
+    };
+}
+
+// The same of a device of list_devices().
+inline UpsamplerMaker device_failing_in_call(std::size_t device, int call, int* calls = nullptr) {
+    return [=](const std::string& /*request*/, Workers& workers, unsigned threads) {
+        auto flaky =
+            std::make_unique<FailingUpsampler>(make_opencl_upsampler(device, workers, threads), call, calls);
+        return UpsamplerChoice{make_fallback_upsampler(std::move(flaky), workers), {}};
     };
 }
 

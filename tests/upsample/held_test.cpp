@@ -187,8 +187,8 @@ TEST(FallbackUpsampler, HoldsNothingOfAFrameThatFailed) {
     const Scene scene = scene_with_region(5003, {{300, 1001}});
     const auto reference = make_reference_upsampler(workers);
     for (const int failing_call : {2, 3, 4}) { // the first is prepare()
-        const auto upsampler =
-            make_fallback_upsampler(std::make_unique<FailingUpsampler>(workers, failing_call), workers);
+        const auto upsampler = make_fallback_upsampler(
+            std::make_unique<FailingUpsampler>(make_reference_upsampler(workers), failing_call), workers);
         upsampler->prepare(scene.input(), motions);
         Posed posed = nothing_yet(scene);
         for (unsigned f = 0; f < 4; ++f) {

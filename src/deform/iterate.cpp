@@ -24,8 +24,9 @@ Vec3d sent(const HandleMotion& motion, const Vec3d& p) {
     return (motion.linear - Mat3d::Identity()) * p + motion.offset;
 }
 
-// Samples are numbered in no direction, so what a row needs of its neighbours lies anywhere. Asks for it some
-// rows before, and for who they are some rows before that.
+// Near samples have near numbers, but in no order, so what a row needs of its neighbours lies on some hundred
+// lines of memory, and with very many samples not in the nearest cache. Asks for it some rows before, and for
+// who they are some rows before that.
 constexpr std::size_t soon = 3;
 [[gnu::always_inline]] inline void look_ahead(const SampleSystem& system, const SampleState& state,
                                               std::size_t row) {

@@ -104,7 +104,8 @@ public:
     //
     // It costs what the acts brought, poses and handles as their lines have them, and not points: of
     // committed shapes and of the samples' states only some are kept, near the present more than far from it,
-    // and another is made again, to the bit, from what is kept and the poses that were recorded.
+    // and another is made again, on the same device to the bit, from what is kept and the poses that were
+    // recorded.
 
     struct Memory {
         std::size_t shapes = 4;

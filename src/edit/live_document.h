@@ -4,7 +4,8 @@
 //
 // The window posts acts and takes back, whenever it likes, what is newest: a view of the document, the posed
 // points, words for the user. Of the poses of a drag only the newest counts; the ones that were computed are
-// the frames of the session's `drag` line, so that a replay of the recording makes the same shape to the bit.
+// the frames of the session's `drag` line, so that a replay of the recording on the same device makes
+// the same shape to the bit.
 // Where iterations of all samples cannot follow the hand, few answer for them (a frame with `coarse`), and
 // all go on as soon as the hand rests. While a pose rests the shape goes on converging: in a drag by repeated
 // frames, afterwards by a `settle` line.

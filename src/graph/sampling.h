@@ -24,7 +24,7 @@ struct VertexShape {
 // What a set of handles needs beside the base samples.
 struct HandleSamples {
     std::vector<Index> added;          // vertices that hold no base sample, all different, ascending by
-                                       // label, and in no order within each
+                                       // label, and within each as shuffle_in_runs() leaves them
     std::vector<BorderVertex> borders; // all of them, ascending by (label, vertex)
 };
 

@@ -29,7 +29,7 @@ std::vector<AirSample> moved_samples(const Pipeline& pipeline, const std::vector
     for (std::size_t s = 0; s < pipeline.samples().size(); ++s) {
         const Index vertex = pipeline.samples()[s];
         const Vec3d rest = point_at(pipeline.opened().positions, pipeline.order().first_point[vertex]);
-        const Index handle = pipeline.labels().vertex[vertex];
+        const Index handle = pipeline.handle_of(pipeline.labels().vertex[vertex]);
         if (handle < motions.size()) {
             samples.push_back(of_handle(rest, motions[handle]));
         } else {
@@ -82,7 +82,7 @@ std::vector<float> posed_through_the_air(const Pipeline& pipeline, const std::ve
     workers.for_each(pipeline.order().points(), grain, [&](std::size_t i) {
         if (!held[components.component[pipeline.order().vertex[i]]]) return;
         const Vec3d p = point_at(pipeline.opened().positions, i);
-        const Index handle = pipeline.labels().point[i];
+        const Index handle = pipeline.handle_of(pipeline.labels().point[i]);
         const Vec3d way =
             handle < motions.size() ? of_handle(p, motions[handle]).displaced(p) : displaced(p, samples);
         for (int c = 0; c < 3; ++c) posed[3 * i + static_cast<std::size_t>(c)] += static_cast<float>(way[c]);

@@ -40,7 +40,7 @@ struct PageShape {
     const PointOrder* order = nullptr;
     const Graph* graph = nullptr;
     std::span<const float> opened, positions; // 3n
-    std::span<const Index> handle;            // n: who holds each point, as HandleLabels::point; or empty
+    std::vector<Index> handle;                // n: which handle holds each point, or no_index; or empty
     std::span<const float> values;            // n: told by colour instead of the handles; or empty
     double largest_value = 1;                 // the end of the scale
     bool solid = false;                       // a filled volume has no normals to shade it by

@@ -142,7 +142,7 @@ PageRow row_of(PageStudio& studio, const Close& close, PointCloud cloud,
                     &pipeline.graph(),
                     pipeline.opened().positions,
                     pipeline.posed().positions,
-                    pipeline.labels().point,
+                    holders_of_points(pipeline),
                     {},
                     1,
                     false};

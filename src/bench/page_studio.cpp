@@ -80,6 +80,12 @@ std::unique_ptr<Document> carry_out(PageStudio& studio, const PageScene& scene, 
     return document;
 }
 
+std::vector<Index> holders_of_points(const Pipeline& pipeline) {
+    std::vector<Index> holders = pipeline.labels().point;
+    for (Index& holder : holders) holder = pipeline.handle_of(holder);
+    return holders;
+}
+
 PageShape shape_of(PageStudio& studio, Document& document) {
     PageShape shape;
     shape.positions = document.shape(studio.progress).positions;
@@ -87,7 +93,7 @@ PageShape shape_of(PageStudio& studio, Document& document) {
     shape.order = &pipeline.order();
     shape.graph = &pipeline.graph();
     shape.opened = pipeline.opened().positions;
-    shape.handle = pipeline.labels().point;
+    shape.handle = holders_of_points(pipeline);
     return shape;
 }
 

@@ -59,6 +59,8 @@ std::unique_ptr<Document> carry_out(PageStudio& studio, const PageScene& scene, 
 
 // The shape as the document has it, as PageDrawer takes it; good until its next act.
 PageShape shape_of(PageStudio& studio, Document& document);
+// Which handle holds each point, in the order of computation; no_index: none.
+std::vector<Index> holders_of_points(const Pipeline& pipeline);
 
 // Draws into NAME-SUFFIX.png. The first picture of a scene chooses its camera. The caption is left to the
 // caller.

@@ -285,7 +285,8 @@ double Document::handle_error(Progress& progress) {
     for (std::size_t i = 0; i < pipeline_.order().points(); ++i) {
         const Index label = pipeline_.labels().point[i];
         if (label == no_index) continue;
-        const HandleMotion motion = label == pipeline_.labels().outside ? HandleMotion{} : motions_[label];
+        const Index handle = pipeline_.handle_of(label);
+        const HandleMotion motion = handle < motions_.size() ? motions_[handle] : HandleMotion{};
         const Vec3d target = motion.linear * point_at(rest.positions, i) + motion.offset;
         largest = std::max(largest, (point_at(posed.positions, i) - target).norm());
     }

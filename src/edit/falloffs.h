@@ -3,7 +3,7 @@
 
 #include "deform/sample_system.h"
 #include "edit/handles.h"
-#include "graph/vertex_labels.h"
+#include "graph/held_blocks.h"
 
 #include <span>
 #include <vector>
@@ -18,13 +18,14 @@ struct Pulled {
     double falloff = 0;
 };
 
-// Who is pulled by whom. `labels`: the handle of each vertex; `samples`: the vertex of each sample;
-// `positions`: 3 floats a vertex; `cloud_size`: in their unit. Held samples are not pulled. A handle that is
+// Who is pulled by whom. `label`: the handle of each vertex, and `blocks` what find_held() made of these;
+// `samples`: the vertex of each sample; `positions`: 3 floats a vertex; `cloud_size`: in their unit. Held
+// samples are not pulled. A handle that is
 // smaller than 3 % of the cloud has a falloff of up to 6 % whatever its own is: a surface cannot carry a
 // point, and what pulls at one draws out a spike, the sharper the more samples there are.
-std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, const VertexLabels& labels,
-                                   std::span<const Index> samples, const Graph& graph,
-                                   std::span<const float> positions, double cloud_size, Workers& workers);
+std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> label,
+                                   std::span<const HeldBlock> blocks, std::span<const Index> samples,
+                                   const Graph& graph, std::span<const float> positions, double cloud_size);
 
 // How strongly, with the samples' graph, weights and rest positions in `rest`. The pull is that of a bed of
 // springs whose stiffness over that of the surface is the inverse of a length squared: it looks alike for any

@@ -85,7 +85,7 @@ void label_by(const std::vector<Handle>& handles, const PointOrder& order, std::
     std::vector<Label> of_file_point(file_points, std::ranges::any_of(handles, is_region) ? outside : free);
     for (const bool region_pass : {true, false})
         for (std::size_t h = 0; h < handles.size(); ++h) {
-            if (is_region(handles[h]) != region_pass) continue;
+            if (!handles[h].points || is_region(handles[h]) != region_pass) continue;
             const Label label = region_pass ? free : static_cast<Label>(h);
             const std::vector<Index>& points = *handles[h].points;
             workers.for_each(points.size(), grain, [&](std::size_t i) { of_file_point[points[i]] = label; });
@@ -122,11 +122,13 @@ void label_by(const std::vector<Handle>& handles, const PointOrder& order, std::
 
 } // namespace
 
+bool holds_the_same(const Handle& a, const Handle& b) {
+    return a.role == b.role && a.points == b.points && a.free_rotation == b.free_rotation &&
+           a.falloff == b.falloff;
+}
+
 bool hold_the_same(const std::vector<Handle>& a, const std::vector<Handle>& b) {
-    return std::ranges::equal(a, b, [](const Handle& x, const Handle& y) {
-        return x.role == y.role && x.points == y.points && x.free_rotation == y.free_rotation &&
-               x.falloff == y.falloff;
-    });
+    return std::ranges::equal(a, b, holds_the_same);
 }
 
 void apply(const HandleChange& change, std::vector<Handle>& handles) {

@@ -23,8 +23,9 @@ struct Handle {
     double falloff = 0;         // how far along the surface it pulls what is around it, the less the farther
 };
 
-// Whether two lists of handles hold the same points in the same way, whatever their names. (The same points
-// are the same array: handles share theirs when they are copied.)
+// Whether two handles, or lists of them, hold the same points in the same way, whatever their names. (The
+// same points are the same array: handles share theirs when they are copied.)
+bool holds_the_same(const Handle& a, const Handle& b);
 bool hold_the_same(const std::vector<Handle>& a, const std::vector<Handle>& b);
 
 // What an act changed in a list of handles: one went, one came, or one went and another came.
@@ -64,13 +65,13 @@ HandlePose pose_of(const HandleMotion& motion, const Vec3d& pivot, const Vec3d& 
 // `change` after `motion`. The rotation continues that of `motion`.
 HandleMotion followed_by(const HandleMotion& motion, const Transform& change);
 
-// Who holds each ordered point (or vertex): a number in `handles`, `outside` for what lies outside the region
+// Who holds each ordered point (or vertex): a place in `handles`, `outside` for what lies outside the region
 // of interest, no_index for free ones. A point in several handles belongs to the one declared last; handles
 // beat the region.
 struct HandleLabels {
     std::vector<Index> point;
     std::vector<Index> vertex; // that of its points which was declared last; free only if all of them are
-    Index outside = 0;         // = the number of handles
+    Index outside = 0;         // = the number of places
 
     // Of each block of rows_in_block vertices: 0 only where all of them and of their points are free, ...
     std::vector<std::uint8_t> held;
@@ -81,6 +82,7 @@ struct HandleLabels {
 };
 struct PointOrder;
 class Workers;
+// `handles`: as they are declared; at places where `points` is null there is none (edit/handle_slots.h).
 // `labels`: none yet, or those of other handles of the same cloud; only what those held, or these hold, is
 // looked at. Where no point's label changed, vertices keep theirs, whatever became of these since.
 void label_points(const std::vector<Handle>& handles, const PointOrder& order, std::size_t file_points,

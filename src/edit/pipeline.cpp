@@ -32,7 +32,10 @@ Pipeline::Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampl
 
 void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
     note_changes(input.settings);
-    stale_.handles |= !hold_the_same(input.handles, input_.handles);
+    if (!hold_the_same(input.handles, input_.handles)) {
+        arrange(input.handles, slots_);
+        stale_.handles = true;
+    }
     if (input.rest != input_.rest) stale_.weights = stale_.energy = stale_.systems = true;
     stale_.upsampler |= input.rest != input_.rest;
     input_ = input;
@@ -196,7 +199,7 @@ void Pipeline::find_energy(const SampleRest& rest) {
     const PointsBetween between{
         *graph_,           shape.positions,         order_.first_point,
         nearest_,          input_.settings.weights, labels_.vertex,
-        rest.turns_freely, rest.position,           input_.handles.size() + 1}; // and what is outside
+        rest.turns_freely, rest.position,           slots_.handles.size() + 1}; // and what is outside
     energy_ = point_energy(between, workers_);
 }
 
@@ -218,8 +221,8 @@ void Pipeline::prepare_systems() {
     rest.cloud_size = cloud_size_;
     rest.stiffness = input_.settings.stiffness;
     rest.poisson = input_.settings.poisson;
-    for (const Handle& handle : input_.handles) rest.turns_freely.push_back(handle.free_rotation);
-    rest.pulled = soft_holds(input_.handles, pulled_, rest);
+    for (const Handle& handle : slots_.handles) rest.turns_freely.push_back(handle.free_rotation);
+    rest.pulled = soft_holds(slots_.handles, pulled_, rest);
     if (std::exchange(stale_.energy, false)) find_energy(rest);
     rest.energy = energy_;
     const FactorOutcome outcome = build_system(std::move(rest), system_, workers_);

@@ -30,7 +30,7 @@
 #include "edit/carried_parts.h"
 #include "edit/falloffs.h"
 #include "edit/handle_demand.h"
-#include "edit/handles.h"
+#include "edit/handle_slots.h"
 #include "graph/changing_territories.h"
 #include "graph/neighbors.h"
 #include "graph/point_order.h"
@@ -133,12 +133,16 @@ public:
     const SampleGraph& sample_graph() const { return sample_graph_; }
     // Counts how often samples() and sample_graph() changed together; 0: never yet.
     std::uint64_t samples_version() const { return samples_version_; }
+    // Who holds each point, by numbers that handle_of() knows.
     const HandleLabels& labels() const { return labels_; }
-    // Which motions move a vertex that no handle holds: those of samples, and from some number on, that is
-    // not below samples().size(), those of handles.
+    // Which of the handles a label means; their number for what is outside; no_index for what is free.
+    Index handle_of(Index label) const { return label == no_index ? no_index : slots_.handle[label]; }
+    // Which motions move a vertex that no handle holds: those of samples, and from first_handle_motion() on,
+    // which is not below samples().size(), those of handles, by their labels.
     Influence influence(Index vertex) const {
         return influence_of(nearest_, input_.settings.weights, vertex);
     }
+    Index first_handle_motion() const { return static_cast<Index>(first_handle_motion_); }
     const SampleSystem& system() const { return system_; }
     const RestShape& opened() const { return opened_; } // the shape in the file
     double cloud_size() const { return cloud_size_; }
@@ -217,6 +221,7 @@ private:
     std::vector<WideRow> rows_of_base_; // of the base samples, in the flood from them alone
     ChangingTerritories territories_;
 
+    HandleSlots slots_; // by which the stages tell handles
     HandleLabels labels_;
     std::vector<HeldBlock> held_blocks_; // of those
     std::vector<Pulled> pulled_;
@@ -230,7 +235,7 @@ private:
     std::vector<Index> mover_of_point_; // as influence_of() reads it
     struct MoverNumbers {
         std::size_t first_handle = 0; // where every part holds one; 0: else, or there are no movers
-        std::vector<bool> turning;    // of each handle, whether it leaves rotation free
+        std::vector<bool> turning;    // at each place, whether its handle leaves rotation free
     };
     MoverNumbers mover_numbers_;               // that they were made with
     std::vector<std::uint8_t> changed_points_; // blocks of them, as UpsampleInput has it
@@ -240,7 +245,7 @@ private:
     SampleSystem system_;
     CoarseLevel coarse_;
     bool has_coarse_ = false;                  // its system stands
-    std::vector<HandleMotion> handle_motions_; // those of the handles, and the identity for what is outside
+    std::vector<HandleMotion> handle_motions_; // at the handles' places; the identity for what is outside
     // Of the samples; from first_handle_motion_ on those of the handles, what is outside, and the carried
     // parts. Those in between move nothing.
     std::vector<Motion> motions_;

@@ -34,9 +34,9 @@ Quatd rotation_in(const Motion& motion) {
 } // namespace
 
 std::span<const HandleMotion> Pipeline::all_motions(const std::vector<HandleMotion>& motions) {
-    require(motions.size() == labels_.outside, "a motion a handle");
-    handle_motions_.assign(motions.begin(), motions.end());
-    handle_motions_.emplace_back();
+    require(motions.size() == slots_.slot.size(), "a motion a handle");
+    handle_motions_.assign(slots_.handles.size() + 1, HandleMotion{});
+    for (std::size_t h = 0; h < motions.size(); ++h) handle_motions_[slots_.slot[h]] = motions[h];
     return handle_motions_;
 }
 
@@ -67,17 +67,18 @@ template<typename Visit>
 void Pipeline::for_lone_pegs(Visit&& visit) const {
     for (Index s = 0; s < samples_.size(); ++s) {
         const Index handle = system_.rest.handle[s];
-        if (handle >= input_.handles.size() || system_.unknown[s] == no_index) continue;
-        if (input_.handles[handle].points->size() == 1) visit(s, handle);
+        if (handle >= slots_.handles.size() || system_.unknown[s] == no_index) continue;
+        if (slots_.handles[handle].points->size() == 1) visit(s, handle);
     }
 }
 
 void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {
+    const std::span<const HandleMotion> given_motions = all_motions(motions);
     workers_.for_each(samples_.size(), 256, [&](std::size_t s) {
         const Index handle = system_.rest.handle[s];
         const bool given = handle != no_index && system_.unknown[s] == no_index;
         if (given && handle != labels_.outside) {
-            motions_[s] = motion_of_handle(motions[handle]);
+            motions_[s] = motion_of_handle(given_motions[handle]);
         } else {
             // Stretched with its surroundings, a sample takes what is between it and the next ones along;
             // where every point is a sample there is nothing between.
@@ -90,7 +91,7 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
             motions_[s].place[axis] = static_cast<float>(system_.rest.position[s][axis]);
     });
     for (std::size_t h = 0; h < motions.size(); ++h)
-        motions_[first_handle_motion_ + h] = motion_of_handle(motions[h]);
+        motions_[first_handle_motion_ + slots_.slot[h]] = motion_of_handle(motions[h]);
     for_lone_pegs([&](Index s, Index handle) { motions_[first_handle_motion_ + handle] = motions_[s]; });
     const std::size_t first_carried = motions_.size() - carried_.size();
     workers_.for_each(carried_.size(), 16, [&](std::size_t part) {
@@ -105,7 +106,8 @@ HandleDemand Pipeline::demand(const SampleState& state) const {
     const RestShape& rest = input_.rest ? *input_.rest : opened_;
     const Parting parting = parting_of(*graph_, labels_, order_, rest.positions, posed_.positions);
     HandleDemand demand{strain_of(system_, state), parting.factor, {}, {}};
-    const auto name_of = [&](Index handle) {
+    const auto name_of = [&](Index label) {
+        const Index handle = handle_of(label);
         return handle < input_.handles.size() ? '"' + input_.handles[handle].name + '"'
                                               : std::string("what lies outside the region");
     };
@@ -115,15 +117,16 @@ HandleDemand Pipeline::demand(const SampleState& state) const {
 
 std::vector<float> Pipeline::rotations(const std::vector<HandleMotion>& motions,
                                        const SampleState& state) const {
-    require(motions.size() == labels_.outside && state.rotation.size() == samples_.size(),
+    require(motions.size() == slots_.slot.size() && state.rotation.size() == samples_.size(),
             "a motion a handle, and a turn a sample");
     std::vector<Quatd> turns(motions_.size(), Quatd::Identity());
     for (std::size_t s = 0; s < samples_.size(); ++s) {
-        const Index handle = system_.rest.handle[s];
-        const bool given = handle != no_index && system_.unknown[s] == no_index;
-        turns[s] = given && handle != labels_.outside ? motions[handle].rotation : state.rotation[s];
+        const Index handle = handle_of(system_.rest.handle[s]);
+        const bool given = handle < motions.size() && system_.unknown[s] == no_index;
+        turns[s] = given ? motions[handle].rotation : state.rotation[s];
     }
-    for (std::size_t h = 0; h < motions.size(); ++h) turns[first_handle_motion_ + h] = motions[h].rotation;
+    for (std::size_t h = 0; h < motions.size(); ++h)
+        turns[first_handle_motion_ + slots_.slot[h]] = motions[h].rotation;
     for_lone_pegs([&](Index s, Index handle) { turns[first_handle_motion_ + handle] = turns[s]; });
     for (std::size_t carried = turns.size() - carried_.size(); carried < turns.size(); ++carried)
         turns[carried] = rotation_in(motions_[carried]);

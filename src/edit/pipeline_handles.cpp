@@ -26,8 +26,8 @@ std::size_t handle_budget(std::size_t base_samples) {
 } // namespace
 
 void Pipeline::find_pulled() {
-    pulled_ = pulled_samples(input_.handles, labels_.of_vertices(), samples_, *graph_, vertex_positions(),
-                             cloud_size_, workers_);
+    pulled_ = pulled_samples(slots_.handles, labels_.vertex, held_blocks_, samples_, *graph_,
+                             vertex_positions(), cloud_size_);
 }
 
 void Pipeline::prepare_handles(Progress& progress) {
@@ -68,7 +68,7 @@ void Pipeline::prepare_handles(Progress& progress) {
 // at the end of the list leaves the others as they are. Where there are many handles, so many together as
 // give few floods.
 std::vector<std::vector<FloodStart>> Pipeline::added_by_handles() const {
-    const std::size_t handles = input_.handles.size() + 1; // and what is outside
+    const std::size_t handles = slots_.handles.size() + 1; // and what is outside
     const std::size_t together = (handles + most_territory_floods - 1) / most_territory_floods;
     std::vector<std::vector<FloodStart>> floods;
     std::size_t before = handles;
@@ -85,13 +85,13 @@ std::vector<std::vector<FloodStart>> Pipeline::added_by_handles() const {
 // flooded of a handle stays good. Rows are not made wide for that.
 Index Pipeline::first_handle_number() const {
     const std::size_t room = base_samples_ + handle_budget(base_samples_);
-    const std::size_t handles = input_.handles.size() + 1; // and what is outside
+    const std::size_t handles = slots_.handles.size() + 1; // and what is outside
     const bool would_widen = base_samples_ < NarrowRow::none && room + handles > NarrowRow::none;
     return static_cast<Index>(would_widen ? samples_.size() : std::max(samples_.size(), room));
 }
 
 bool Pipeline::turns_freely(Index label) const {
-    return label < input_.handles.size() && input_.handles[label].free_rotation;
+    return label < slots_.handles.size() && slots_.handles[label].free_rotation;
 }
 
 // Between samples, a handle is near where its border is near, not where a sample of it is: it starts from all
@@ -134,9 +134,10 @@ void Pipeline::label_hanging() {
 
 // Who holds what, and which components hold a handle.
 void Pipeline::label_vertices() {
-    label_points(input_.handles, order_, cloud_.size(), workers_, labels_);
+    label_points(slots_.handles, order_, cloud_.size(), workers_, labels_);
     label_hanging();
-    find_held(labels_.of_vertices(), labels_.changed, *graph_, *components_, workers_, held_blocks_);
+    find_held(labels_.of_vertices(), labels_.changed, *graph_, vertex_positions(), *components_, workers_,
+              held_blocks_);
     std::vector<bool> held(components_->size.size(), false);
     for (const HeldBlock& block : held_blocks_)
         for (const HeldPart& part : block.parts) held[part.component] = true;
@@ -170,7 +171,7 @@ Index Pipeline::followed_by(std::size_t point) const {
 // Whether movers are what they were before, but for those of points whose labels changed: what no handle
 // holds has the same one for all handles, if every part holds one. `first_handle`: as a mover.
 bool Pipeline::note_mover_numbers(std::size_t first_handle) {
-    std::vector<bool> turning(input_.handles.size()); // how what a handle holds follows it
+    std::vector<bool> turning(slots_.handles.size()); // how what a handle holds follows it
     for (Index label = 0; label < turning.size(); ++label) turning[label] = turns_freely(label);
     const std::size_t both = std::min(turning.size(), mover_numbers_.turning.size());
     const bool same = strays_.parts == 0 && mover_numbers_.first_handle == first_handle &&

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 namespace knead {
 
@@ -32,15 +33,24 @@ bool touches_free(const Graph& graph, std::span<const Index> label, Index v) {
     return std::ranges::any_of(graph.row(v), [&](Index u) { return label[u] == no_index; });
 }
 
-void look_at(std::size_t block, const VertexLabels& labels, const Graph& graph, const Components& components,
-             HeldBlock& found) {
+HeldExtent& extent_of(Index label, std::vector<HeldExtent>& extents) {
+    const auto found = std::ranges::find(extents, label, &HeldExtent::label);
+    if (found != extents.end()) return *found;
+    extents.push_back({label});
+    return extents.back();
+}
+
+void look_at(std::size_t block, const VertexLabels& labels, const Graph& graph,
+             std::span<const float> positions, const Components& components, HeldBlock& found) {
     found.parts.clear();
     found.borders.clear();
+    found.extents.clear();
     const std::size_t begin = block * rows_in_block, end = std::min(graph.size(), begin + rows_in_block);
     for_each_held(labels, begin, end, [&](Index v) {
         const HeldPart part{labels.label[v], components.component[v]};
         if (found.parts.empty() || found.parts.back() != part) found.parts.push_back(part);
         if (touches_free(graph, labels.label, v)) found.borders.push_back({labels.label[v], v});
+        extent_of(labels.label[v], found.extents).add(point_at(positions, v) - point_at(positions, 0));
     });
     std::sort(found.parts.begin(), found.parts.end());
     found.parts.erase(std::unique(found.parts.begin(), found.parts.end()), found.parts.end());
@@ -48,13 +58,30 @@ void look_at(std::size_t block, const VertexLabels& labels, const Graph& graph, 
 
 } // namespace
 
+void HeldExtent::add(const Vec3d& position) {
+    ++count;
+    sum += position;
+    squares += position.squaredNorm();
+}
+
+void HeldExtent::add(const HeldExtent& other) {
+    count += other.count;
+    sum += other.sum;
+    squares += other.squares;
+}
+
+double HeldExtent::radius() const {
+    return std::sqrt(std::max(0.0, 2 * (squares / count - (sum / count).squaredNorm())));
+}
+
 void find_held(const VertexLabels& labels, std::span<const std::uint8_t> changed, const Graph& graph,
-               const Components& components, Workers& workers, std::vector<HeldBlock>& blocks) {
+               std::span<const float> positions, const Components& components, Workers& workers,
+               std::vector<HeldBlock>& blocks) {
     const std::vector<std::uint8_t> marks =
         blocks.empty() ? std::vector<std::uint8_t>(changed.size(), 1) : near_changed(changed, graph, workers);
     blocks.resize(changed.size());
     workers.for_each(blocks.size(), blocks_at_once, [&](std::size_t block) {
-        if (marks[block]) look_at(block, labels, graph, components, blocks[block]);
+        if (marks[block]) look_at(block, labels, graph, positions, components, blocks[block]);
     });
 }
 

@@ -4,13 +4,30 @@
 #include "base/require.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
 
 namespace knead {
 
 namespace {
 
-bool begins_with(std::span<const FloodStart> starts, std::span<const FloodStart> others) {
-    return starts.size() >= others.size() && std::ranges::equal(starts.first(others.size()), others);
+using Starts = std::vector<FloodStart>;
+
+constexpr auto by_number = [](const FloodStart& a, const FloodStart& b) {
+    return std::pair(a.number, a.vertex) < std::pair(b.number, b.vertex);
+};
+
+Starts without(const Starts& starts, const Starts& others) {
+    Starts rest;
+    std::ranges::set_difference(starts, others, std::back_inserter(rest), by_number);
+    return rest;
+}
+
+Starts common(const Starts& starts, const Starts& others) {
+    Starts both;
+    std::ranges::set_intersection(starts, others, std::back_inserter(both), by_number);
+    return both;
 }
 
 void mark(const FloodPatch& patch, std::span<std::uint8_t> changed) {
@@ -28,25 +45,26 @@ void change_starts(std::vector<StartsFlood<influences_per_row>>& floods, std::sp
                    InfluenceRows& nearest, std::span<std::uint8_t> changed, const Graph& graph,
                    std::span<const std::uint8_t> lengths, Workers& workers, Progress& progress) {
     require(changed.size() == blocks_of_rows(nearest.size()), "a byte a block of rows");
-    std::span<const FloodStart> rest = starts;
+    Starts rest(starts.begin(), starts.end());
+    std::ranges::sort(rest, by_number);
     std::size_t stay = 0;
-    for (; stay < floods.size() && begins_with(rest, floods[stay].starts); ++stay)
-        rest = rest.subspan(floods[stay].starts.size());
+    for (; stay < floods.size() && std::ranges::includes(rest, floods[stay].starts, by_number); ++stay)
+        rest = without(rest, floods[stay].starts);
 
-    std::vector<FloodStart> gone;
-    for (std::size_t f = stay; f < floods.size(); ++f)
-        gone.insert(gone.end(), floods[f].starts.begin(), floods[f].starts.end());
+    Starts gone;
     for (; floods.size() > stay; floods.pop_back()) {
+        gone.insert(gone.end(), floods.back().starts.begin(), floods.back().starts.end());
         mark(floods.back().patch, changed);
         revert(nearest, floods.back().patch);
     }
+    std::ranges::sort(gone, by_number);
 
-    const auto same = static_cast<std::size_t>(std::ranges::mismatch(rest, gone).in1 - rest.begin());
-    for (const auto part : {rest.first(same), rest.subspan(same)}) {
+    std::array parts{common(rest, gone), without(rest, gone)};
+    for (Starts& part : parts) {
         if (part.empty()) continue;
-        floods.push_back(
-            {{part.begin(), part.end()}, add_starts(nearest, graph, lengths, part, workers, progress)});
-        mark(floods.back().patch, changed);
+        FloodPatch patch = add_starts(nearest, graph, lengths, part, workers, progress);
+        mark(patch, changed);
+        floods.push_back({std::move(part), std::move(patch)});
     }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Floods of starts that change from time to time, most of them at the end of the list.
+// Floods of starts that come and go.
 
 #include "graph/flood.h"
 
@@ -15,12 +15,12 @@ struct StartsFlood {
     RowPatch<places> patch;
 };
 
-// Brings rows from the starts that `floods` hold, one flood upon the other, to those of `starts`, and
-// `floods` with them: as add_starts() would from rows without any. As long as the list begins as it did
-// before, that much stays; the rest is taken back, and what is the same of it is a flood by itself from then
-// on, so that whoever changes the end again changes little. `changed`: a byte a block of rows
-// (blocks_of_rows()), set to 1 where any of them may be another one afterwards. A flood that is cancelled
-// leaves `nearest` good for nothing.
+// Brings rows from the starts that `floods` hold, one flood upon the other, to those of `starts`, each of
+// which is there once, and `floods` with them: as add_starts() would from rows without any. The order makes
+// no difference. Floods of starts that are all still there stay, as long as the ones that they were made upon
+// do; what is left of the others, and what is new, are a flood each from then on. `changed`: a byte a block
+// of rows (blocks_of_rows()), set to 1 where any of them may be another one afterwards. A flood that is
+// cancelled leaves `nearest` good for nothing.
 void change_starts(std::vector<StartsFlood<influences_per_row>>& floods, std::span<const FloodStart> starts,
                    InfluenceRows& nearest, std::span<std::uint8_t> changed, const Graph& graph,
                    std::span<const std::uint8_t> lengths, Workers& workers, Progress& progress);

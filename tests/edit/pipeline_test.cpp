@@ -162,12 +162,12 @@ TEST(Pipeline, HandlesMovePointsByThemselvesUnlessTheyTurnFreely) {
         for (std::size_t k = 0; k < influence.count; ++k) {
             const Index motion = influence.motion.at(k);
             if (motion >= samples)
-                movers.insert(motion - samples);
+                movers.insert(pipeline.handle_of(motion - pipeline.first_handle_motion()));
             else
-                by_samples_of_top |= labels.vertex[pipeline.samples()[motion]] == 0;
+                by_samples_of_top |= pipeline.handle_of(labels.vertex[pipeline.samples()[motion]]) == 0;
         }
     }
-    EXPECT_EQ(movers, (std::set<Index>{1, labels.outside}));
+    EXPECT_EQ(movers, (std::set<Index>{1, 3})); // 3: what is outside
     EXPECT_TRUE(by_samples_of_top);
 }
 

@@ -34,6 +34,9 @@ std::vector<HeldBlock> counted(const Cloud& cloud, std::span<const Index> label)
         if (std::ranges::find(block.parts, part) == block.parts.end()) block.parts.push_back(part);
         const auto is_free = [&](Index u) { return label[u] == no_index; };
         if (std::ranges::any_of(cloud.graph.row(v), is_free)) block.borders.push_back({label[v], v});
+        if (std::ranges::find(block.extents, label[v], &HeldExtent::label) == block.extents.end())
+            block.extents.push_back({label[v]});
+        std::ranges::find(block.extents, label[v], &HeldExtent::label)->add(cloud.at(v) - cloud.at(0));
     }
     for (HeldBlock& block : blocks) std::sort(block.parts.begin(), block.parts.end());
     return blocks;
@@ -43,6 +46,13 @@ void expect_same(const std::vector<HeldBlock>& found, const std::vector<HeldBloc
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t b = 0; b < found.size(); ++b) {
         EXPECT_EQ(found[b].parts, expected[b].parts) << "block " << b;
+        ASSERT_EQ(found[b].extents.size(), expected[b].extents.size()) << "block " << b;
+        for (std::size_t i = 0; i < found[b].extents.size(); ++i) {
+            EXPECT_EQ(found[b].extents[i].label, expected[b].extents[i].label) << "block " << b;
+            EXPECT_EQ(found[b].extents[i].count, expected[b].extents[i].count) << "block " << b;
+            EXPECT_EQ(found[b].extents[i].sum, expected[b].extents[i].sum) << "block " << b;
+            EXPECT_EQ(found[b].extents[i].squares, expected[b].extents[i].squares) << "block " << b;
+        }
         ASSERT_EQ(found[b].borders.size(), expected[b].borders.size()) << "block " << b;
         for (std::size_t i = 0; i < found[b].borders.size(); ++i) {
             EXPECT_EQ(found[b].borders[i].label, expected[b].borders[i].label) << "block " << b;
@@ -63,10 +73,26 @@ TEST(HeldBlocks, FollowHandlesThatComeAndGo) {
         const Index to = random() % 3 == 0 ? no_index : Index{static_cast<Index>(random() % 4)};
         for (Index v = 0; v < cloud.size(); ++v)
             if ((cloud.at(v) - center).norm() < 0.8) labels.set(v, to);
-        find_held(labels.view(), labels.changed, cloud.graph, cloud.components, machine.workers, blocks);
+        find_held(labels.view(), labels.changed, cloud.graph, cloud.positions, cloud.components,
+                  machine.workers, blocks);
         std::ranges::fill(labels.changed, std::uint8_t{0});
         expect_same(blocks, counted(cloud, labels.label));
     }
+}
+
+TEST(HeldExtent, IsThatOfADisc) {
+    HeldExtent disc, half, rest;
+    for (int i = -100; i <= 100; ++i)
+        for (int j = -100; j <= 100; ++j) {
+            const Vec3d p(0.02 * i + 7, 0.02 * j, 3);
+            if ((p - Vec3d(7, 0, 3)).norm() > 1.5) continue;
+            disc.add(p);
+            (i < 0 ? half : rest).add(p);
+        }
+    EXPECT_NEAR(disc.radius(), 1.5, 0.01);
+    half.add(rest);
+    EXPECT_EQ(half.count, disc.count);
+    EXPECT_NEAR(half.radius(), disc.radius(), 1e-9);
 }
 
 } // namespace

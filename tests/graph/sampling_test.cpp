@@ -19,7 +19,7 @@ std::vector<Index> handle_samples_of(const Cloud& cloud, std::span<const Index> 
     const InfluenceRows nearest = flood(cloud.graph, cloud.lengths, base, machine.workers, machine.progress);
     const std::vector<std::uint8_t> held(blocks_of_rows(label.size()), 1);
     std::vector<HeldBlock> blocks;
-    find_held({label, held}, held, cloud.graph, cloud.components, machine.workers, blocks);
+    find_held({label, held}, held, cloud.graph, cloud.positions, cloud.components, machine.workers, blocks);
     return handle_samples(cloud.shape(), {label, held}, blocks, base,
                           territories_of_base(nearest, cloud.graph, machine.workers), budget, machine.workers)
         .added;

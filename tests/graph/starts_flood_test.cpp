@@ -98,7 +98,7 @@ TEST(StartsFlood, HoldsTheStartsThatThereAre) {
     expect_same(changing.rows, changing.base);
 }
 
-TEST(StartsFlood, LeavesWhatTheListBeginsWith) {
+TEST(StartsFlood, LeavesWhatStays) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::plane, 3000));
     Changing changing(cloud, test::random_vertices(cloud.size(), 40, 9));
     changing.change(starts_of_handles({100, 900}, 40));
@@ -113,6 +113,21 @@ TEST(StartsFlood, LeavesWhatTheListBeginsWith) {
     EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{5, 5}));
     changing.change(starts_of_handles({100}, 40));
     EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{5}));
+}
+
+TEST(StartsFlood, DoesNotAskForTheOrder) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::plane, 3000));
+    Changing changing(cloud, test::random_vertices(cloud.size(), 40, 9));
+    const std::vector<FloodStart> late{{100, 50}, {900, 51}}, early{{2000, 45}};
+    changing.change(late);
+    std::vector<FloodStart> both = early; // a handle that is put first in the list
+    both.insert(both.end(), late.begin(), late.end());
+    changing.change(both);
+    EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{2, 1})) << "the others stay";
+    changing.change(late);
+    EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{2}));
+    changing.change({{900, 51}, {100, 50}});
+    EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{2}));
 }
 
 TEST(StartsFlood, TakesNarrowRowsBackFromWideOnes) {

@@ -175,12 +175,13 @@ void Pipeline::prepare_samples(Progress& progress) {
 
     changed_rows_.clear();
     row_ends_.clear();
-    from_handles_.clear(); // before the next are made
+    from_handles_ = {}; // before the next are made
     nearest_ = {};
     territories_ = {};
     rows_of_base_.clear();
     if (!every_point_) {
         nearest_ = flood(*graph_, link_lengths_, samples_, workers_, progress);
+        from_handles_ = no_starts(nearest_, static_cast<Index>(base_samples_));
         changed_rows_.assign(blocks_of_rows(nearest_.size()), 1);
         row_ends_.resize(changed_rows_.size());
         rows_of_base_ = rows_at(nearest_, samples_);

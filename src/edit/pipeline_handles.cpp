@@ -55,8 +55,7 @@ void Pipeline::prepare_handles(Progress& progress) {
                   link_lengths_, workers_, progress);
     stale_.samples = false;
     std::vector<WideRow> rows = rows_of_base_;
-    const std::vector<WideRow> more =
-        rows_without<influences_per_row>(from_handles_, nearest_, needed.added, workers_);
+    const std::vector<WideRow> more = rows_without(from_handles_, nearest_, needed.added);
     rows.insert(rows.end(), more.begin(), more.end());
     sample_graph_ = knead::sample_graph(rows, borders, workers_);
     find_pulled();

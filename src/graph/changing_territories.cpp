@@ -1,5 +1,7 @@
 #include "graph/changing_territories.h"
 
+#include "base/paged.h"
+
 #include <algorithm>
 
 namespace knead {
@@ -16,7 +18,7 @@ std::span<const TerritoryBorder> change_added(ChangingTerritories& territories,
                                               std::span<const std::uint8_t> lengths, Workers& workers,
                                               Progress& progress) {
     auto& [nearest, borders, floods] = territories;
-    const auto last_same = std::ranges::mismatch(floods, added, {}, &StartsFlood<1>::starts).in1;
+    const auto last_same = std::ranges::mismatch(floods, added, {}, &TerritoryFlood::starts).in1;
     const auto stay = static_cast<std::size_t>(last_same - floods.begin());
     for (; floods.size() > stay; floods.pop_back(), borders.pop_back()) revert(nearest, floods.back().patch);
     for (std::size_t f = stay; f < added.size(); ++f) {
@@ -30,9 +32,23 @@ std::span<const TerritoryBorder> change_added(ChangingTerritories& territories,
 
 std::vector<Index> nearest_of_base(const ChangingTerritories& territories, std::span<const Index> vertices,
                                    Workers& workers) {
-    const auto rows = rows_without<1>(territories.floods, territories.nearest, vertices, workers);
-    std::vector<Index> samples(rows.size());
-    std::ranges::transform(rows, samples.begin(), [](const auto& row) { return row.sample[0]; });
+    std::vector<Index> samples(vertices.size());
+    std::ranges::transform(vertices, samples.begin(),
+                           [&](Index v) { return territories.nearest[v].sample[0]; });
+    Paged<Index> place(territories.nearest.size(), no_index);
+    for (Index at = 0; at < vertices.size(); ++at) {
+        place.make_room(vertices[at]);
+        place.set(vertices[at], at);
+    }
+    const auto before = [&]<typename Row>(const OldRows<Row>& blocks) {
+        workers.for_each(blocks.size(), 16, [&](std::size_t block) {
+            for (const OldRow<Row>& old : blocks[block])
+                if (const Index at = place[old.vertex]; at != no_index)
+                    samples[at] = widened(Row{old.sample, old.distance}).sample[0];
+        });
+    };
+    for (auto flood = territories.floods.rbegin(); flood != territories.floods.rend(); ++flood)
+        std::visit(before, flood->patch.blocks);
     return samples;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // The territories of samples and where they touch, while samples come and go at the end of their list.
 
-#include "graph/starts_flood.h"
+#include "graph/flood.h"
 #include "graph/territory_borders.h"
 
 #include <span>
@@ -9,12 +9,18 @@
 
 namespace knead {
 
+// What the flood from some samples changed.
+struct TerritoryFlood {
+    std::vector<FloodStart> starts;
+    TerritoryPatch patch;
+};
+
 // Territories of base samples, and of samples that were added to them, flood upon flood.
 struct ChangingTerritories {
     TerritoryRows nearest; // of each vertex, with those that were added
     // Between territories of base samples, then with the first of the floods, with the second, ...
     std::vector<std::vector<TerritoryBorder>> borders;
-    std::vector<StartsFlood<1>> floods;
+    std::vector<TerritoryFlood> floods;
 };
 
 // Those of base samples alone; `nearest`: the flood from them over the graph `points`.

@@ -125,10 +125,12 @@ public:
     bool run(std::span<const FloodStart> starts, bool keep_old, Progress& progress) {
         if (keep_old) kept_.assign(graph_.size(), 0);
         for (const FloodStart& start : starts) {
-            require(start.number < Places::none, "numbers of samples fit into the rows");
+            require(start.number < Places::none && start.distance < Places::none,
+                    "numbers of samples and their distances fit into the rows");
             Arrived& arriving = tiles_[start.vertex / vertices_a_tile_].arriving;
-            arriving.all.push_back({start.vertex, static_cast<Number>(start.number), 0});
-            arriving.lowest = 0;
+            arriving.all.push_back(
+                {start.vertex, static_cast<Number>(start.number), static_cast<Number>(start.distance)});
+            arriving.lowest = std::min<Level>(arriving.lowest, start.distance);
         }
         std::vector<OnTheWay> of_worker(workers_.threads());
         for (OnTheWay& on_the_way : of_worker) on_the_way.leaving.resize(tiles_.size());
@@ -377,7 +379,9 @@ RowPatch<places> patched(NearestRows<places>& nearest, const Graph& graph,
     using Narrow = typename NearestRows<places>::Narrow;
     using Wide = typename NearestRows<places>::Wide;
     auto* narrow = std::get_if<std::vector<Narrow>>(&nearest.rows);
-    const auto is_narrow = [](const FloodStart& start) { return start.number < Narrow::none; };
+    const auto is_narrow = [](const FloodStart& start) {
+        return start.number < Narrow::none && start.distance < Narrow::none;
+    };
     if (narrow && std::ranges::all_of(starts, is_narrow)) {
         Flood<Narrow> flood(*narrow, graph, lengths, workers);
         const bool fits = flood.run(starts, true, progress);

@@ -68,10 +68,12 @@ struct RowPatch {
 using FloodPatch = RowPatch<influences_per_row>;
 using TerritoryPatch = RowPatch<1>;
 
-// Where a flood starts, and what: the number that rows will hold.
+// Where a flood starts, and what: the number that rows will hold; and how far away it is there already, in
+// levels.
 struct FloodStart {
     Index vertex;
     Index number;
+    Index distance = 0;
     bool operator==(const FloodStart&) const = default;
 };
 

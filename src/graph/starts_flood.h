@@ -1,34 +1,41 @@
 #pragma once
-// Floods of starts that come and go.
+// Floods of starts that come and go, over the finished flood of samples that stay.
 
 #include "graph/flood.h"
 
 #include <span>
+#include <variant>
 #include <vector>
 
 namespace knead {
 
-// What the flood from some starts changed.
-template<std::size_t places>
-struct StartsFlood {
-    std::vector<FloodStart> starts;
-    RowPatch<places> patch;
+// What is in the rows beside the samples that stay: starts whose numbers are not below `first_number`, which
+// is above those of all samples.
+//
+// A row that holds any of them is kept as it is without. Rows are the K first by (distance, number), and what
+// takes a start away can change no row but those that hold it: so each can go by itself, whoever came after.
+struct AddedStarts {
+    template<typename Row>
+    using Kept = std::vector<std::vector<OldRow<Row>>>; // by block of rows, in no order
+
+    Index first_number = 0;
+    std::vector<FloodStart> starts;                       // ascending by number and vertex
+    std::variant<Kept<NarrowRow>, Kept<WideRow>> without; // wide if the rows are
 };
 
-// Brings rows from the starts that `floods` hold, one flood upon the other, to those of `starts`, each of
-// which is there once, and `floods` with them: as add_starts() would from rows without any. The order makes
-// no difference. Floods of starts that are all still there stay, as long as the ones that they were made upon
-// do; what is left of the others, and what is new, are a flood each from then on. `changed`: a byte a block
-// of rows (blocks_of_rows()), set to 1 where any of them may be another one afterwards. A flood that is
-// cancelled leaves `nearest` good for nothing.
-void change_starts(std::vector<StartsFlood<influences_per_row>>& floods, std::span<const FloodStart> starts,
-                   InfluenceRows& nearest, std::span<std::uint8_t> changed, const Graph& graph,
-                   std::span<const std::uint8_t> lengths, Workers& workers, Progress& progress);
+// Of rows that hold no starts yet.
+AddedStarts no_starts(const InfluenceRows& nearest, Index first_number);
 
-// The rows of these vertices, which are different, as they would be without any of the floods.
-template<std::size_t places>
-std::vector<SampleRow<Index, places>> rows_without(std::span<const StartsFlood<places>> floods,
-                                                   const NearestRows<places>& nearest,
-                                                   std::span<const Index> vertices, Workers& workers);
+// Makes the starts that the rows hold those of `starts`, each of which is there once: the rows are then what
+// add_starts() would make of them without any. Only what numbers that come, go or start elsewhere reach is
+// flooded. `changed`: a byte a block of rows (blocks_of_rows()), set to 1 where any of them may be another
+// one afterwards. A flood that is cancelled leaves rows that are good for nothing.
+void change_starts(AddedStarts& added, std::span<const FloodStart> starts, InfluenceRows& nearest,
+                   std::span<std::uint8_t> changed, const Graph& graph, std::span<const std::uint8_t> lengths,
+                   Workers& workers, Progress& progress);
+
+// The rows of these vertices as they would be without any of the starts.
+std::vector<WideRow> rows_without(const AddedStarts& added, const InfluenceRows& nearest,
+                                  std::span<const Index> vertices);
 
 } // namespace knead

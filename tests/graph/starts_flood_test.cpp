@@ -4,6 +4,7 @@
 #include "graph/starts_flood.h"
 
 #include <random>
+#include <set>
 
 namespace knead {
 namespace {
@@ -33,11 +34,12 @@ struct Changing {
     const Cloud& cloud;
     InfluenceRows base;
     InfluenceRows rows = base;
-    std::vector<StartsFlood<influences_per_row>> floods;
+    AddedStarts added;
     Machine machine;
 
     Changing(const Cloud& flooded_cloud, const std::vector<Index>& samples)
-        : cloud(flooded_cloud), base(flooded(flooded_cloud, samples)) {}
+        : cloud(flooded_cloud), base(flooded(flooded_cloud, samples)),
+          added(no_starts(base, static_cast<Index>(samples.size()))) {}
 
     static InfluenceRows flooded(const Cloud& cloud, const std::vector<Index>& samples) {
         Machine machine;
@@ -47,15 +49,14 @@ struct Changing {
     void change(const std::vector<FloodStart>& starts) {
         const InfluenceRows before = rows;
         std::vector<std::uint8_t> changed(blocks_of_rows(rows.size()), 0);
-        change_starts(floods, starts, rows, changed, cloud.graph, cloud.lengths, machine.workers,
+        change_starts(added, starts, rows, changed, cloud.graph, cloud.lengths, machine.workers,
                       machine.progress);
         for (Index v = 0; v < rows.size(); ++v) {
             const bool same = rows[v].sample == before[v].sample && rows[v].distance == before[v].distance;
             ASSERT_TRUE(same || changed[v / rows_in_block] == 1) << v;
         }
         const std::vector<Index> some = test::random_vertices(rows.size(), 500, 4);
-        const std::vector<WideRow> without =
-            rows_without<influences_per_row>(floods, rows, some, machine.workers);
+        const std::vector<WideRow> without = rows_without(added, rows, some);
         for (std::size_t i = 0; i < some.size(); ++i) {
             ASSERT_EQ(without[i].sample, base[some[i]].sample);
             ASSERT_EQ(without[i].distance, base[some[i]].distance);
@@ -65,11 +66,18 @@ struct Changing {
         expect_same(rows, expected);
     }
 
-    // Of each flood, how many starts.
-    std::vector<std::size_t> sizes() const {
-        std::vector<std::size_t> sizes;
-        for (const auto& flood : floods) sizes.push_back(flood.starts.size());
-        return sizes;
+    // Of how many vertices the rows without starts are kept, each once.
+    std::size_t kept() const {
+        std::set<Index> vertices;
+        std::size_t count = 0;
+        std::visit(
+            [&](const auto& blocks) {
+                for (const auto& block : blocks)
+                    for (const auto& old : block) vertices.insert(old.vertex), ++count;
+            },
+            added.without);
+        EXPECT_EQ(vertices.size(), count);
+        return count;
     }
 };
 
@@ -94,40 +102,42 @@ TEST(StartsFlood, HoldsTheStartsThatThereAre) {
         changing.change(starts_of_handles(handles, 40));
     }
     changing.change({});
-    EXPECT_TRUE(changing.floods.empty());
+    EXPECT_EQ(changing.kept(), 0U);
     expect_same(changing.rows, changing.base);
 }
 
-TEST(StartsFlood, LeavesWhatStays) {
+// A vertex that many handles are near, so that whoever goes makes room for others.
+TEST(StartsFlood, FillsTheRoomThatOneLeaves) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::plane, 3000));
-    Changing changing(cloud, test::random_vertices(cloud.size(), 40, 9));
-    changing.change(starts_of_handles({100, 900}, 40));
-    EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{10}));
-    changing.change(starts_of_handles({100, 900, 2000}, 40));
-    EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{10, 5}));
-    changing.change(starts_of_handles({100, 900, 2500, 2700}, 40));
-    EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{10, 10}));
-    changing.change(starts_of_handles({100, 900}, 40));
-    EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{10}));
-    changing.change(starts_of_handles({100, 1200}, 40)); // what is left of a flood is one by itself
-    EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{5, 5}));
-    changing.change(starts_of_handles({100}, 40));
-    EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{5}));
+    Changing changing(cloud, test::random_vertices(cloud.size(), 12, 9));
+    std::vector<Index> handles = test::random_vertices(cloud.size() - 5, 30, 2);
+    changing.change(starts_of_handles(handles, 12));
+    const std::size_t all = changing.kept();
+    EXPECT_EQ(all, cloud.size()) << "there are handles everywhere";
+    const std::vector<FloodStart> starts = starts_of_handles(handles, 12);
+    for (Index gone = 0; gone < 30; ++gone) { // the oldest first, each with its number
+        SCOPED_TRACE(gone);
+        changing.change({starts.begin() + 5 * (gone + 1), starts.end()});
+    }
+    EXPECT_EQ(changing.kept(), 0U);
 }
 
-TEST(StartsFlood, DoesNotAskForTheOrder) {
-    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::plane, 3000));
-    Changing changing(cloud, test::random_vertices(cloud.size(), 40, 9));
-    const std::vector<FloodStart> late{{100, 50}, {900, 51}}, early{{2000, 45}};
-    changing.change(late);
-    std::vector<FloodStart> both = early; // a handle that is put first in the list
-    both.insert(both.end(), late.begin(), late.end());
-    changing.change(both);
-    EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{2, 1})) << "the others stay";
-    changing.change(late);
-    EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{2}));
-    changing.change({{900, 51}, {100, 50}});
-    EXPECT_EQ(changing.sizes(), (std::vector<std::size_t>{2}));
+TEST(StartsFlood, LeavesWhatItDoesNotReach) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::plane, 30'000));
+    Changing changing(cloud, test::random_vertices(cloud.size(), 400, 9));
+    const std::vector<FloodStart> two{{100, 450}, {20'000, 451}};
+    changing.change(two);
+    const auto changed_by = [&](const std::vector<FloodStart>& starts) {
+        std::vector<std::uint8_t> changed(blocks_of_rows(changing.rows.size()), 0);
+        change_starts(changing.added, starts, changing.rows, changed, cloud.graph, cloud.lengths,
+                      changing.machine.workers, changing.machine.progress);
+        return std::ranges::count(changed, 1);
+    };
+    EXPECT_EQ(changed_by({{20'000, 451}, {100, 450}}), 0) << "the order makes no difference";
+    const auto blocks = static_cast<std::ptrdiff_t>(blocks_of_rows(changing.rows.size()));
+    EXPECT_LT(changed_by({{20'000, 451}}), blocks / 5) << "the older one went";
+    EXPECT_LT(changed_by({{20'000, 451}, {20'010, 451}}), blocks / 5) << "one reaches farther";
+    changing.change({{20'010, 451}});
 }
 
 TEST(StartsFlood, TakesNarrowRowsBackFromWideOnes) {

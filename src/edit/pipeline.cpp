@@ -253,9 +253,11 @@ void Pipeline::prepare_upsampler() {
     for (std::size_t block = 0; block < changed_rows_.size(); ++block)
         if (changed_rows_[block]) note_changed_points(block);
     std::ranges::fill(changed_rows_, std::uint8_t{0});
-    const Index end = row_ends_.empty() ? 0 : std::ranges::max(row_ends_);
+    const auto largest = [](const std::vector<Index>& ends) {
+        return ends.empty() ? 0 : std::ranges::max(ends);
+    };
     upsampler_.prepare({rest.positions, rest.normals, mover_of_point_, &nearest_, input_.settings.weights,
-                        end, changed_points_},
+                        largest(row_ends_), largest(mover_ends_), changed_points_},
                        motions_.size());
     std::ranges::fill(changed_points_, std::uint8_t{0});
     seconds_.device += clock.lap();

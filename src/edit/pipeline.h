@@ -233,6 +233,7 @@ private:
     std::uint64_t samples_version_ = 0;
 
     std::vector<Index> mover_of_point_; // as influence_of() reads it
+    std::vector<Index> mover_ends_;     // one past the largest of the points of each block of vertices
     struct MoverNumbers {
         std::size_t first_handle = 0; // where every part holds one; 0: else, or there are no movers
         std::vector<bool> turning;    // at each place, whether its handle leaves rotation free

@@ -208,6 +208,7 @@ void Pipeline::prepare_influences() {
     };
     const bool only_changed = note_mover_numbers(first_handle);
     mover_of_point_.resize(order_.points());
+    mover_ends_.resize(labels_.changed.size());
     changed_points_.resize(blocks_of(order_.points()), 1);
     for (std::size_t block = 0; block < labels_.changed.size(); ++block)
         if (!only_changed || labels_.changed[block]) note_changed_points(block);
@@ -215,8 +216,11 @@ void Pipeline::prepare_influences() {
         if (only_changed && !labels_.changed[block]) return;
         labels_.changed[block] = 0;
         const std::size_t end = std::min((block + 1) * rows_in_block, order_.vertices());
-        for (Index i = order_.first_point[block * rows_in_block]; i < order_.first_point[end]; ++i)
+        Index& mover_end = mover_ends_[block] = 0;
+        for (Index i = order_.first_point[block * rows_in_block]; i < order_.first_point[end]; ++i) {
             mover_of_point_[i] = mover_of(i);
+            mover_end = std::max(mover_end, mover_of_point_[i] + 1);
+        }
     });
     motions_.assign(first_handle_motion_ + outside + 1 + carried_.size(), Motion{});
     seconds_.geodesic += clock.lap();

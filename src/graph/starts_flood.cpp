@@ -22,15 +22,20 @@ constexpr auto by_number = [](const FloodStart& a, const FloodStart& b) {
     return std::pair(a.number, a.vertex) < std::pair(b.number, b.vertex);
 };
 
-// Which numbers go: those that some start of is no longer there.
-std::vector<bool> gone_numbers(const AddedStarts& added, const Starts& starts) {
-    std::vector<bool> is_gone;
-    for (auto one = added.starts.begin(); one != added.starts.end(); ++one) {
-        if (std::ranges::binary_search(starts, *one, by_number)) continue;
-        is_gone.resize(std::max(is_gone.size(), std::size_t{one->number - added.first_number} + 1), false);
-        is_gone[one->number - added.first_number] = true;
+// Of each number from the first on, whether it goes: some start of it is no longer there. May end early.
+using Gone = std::vector<std::uint8_t>;
+Gone gone_numbers(const AddedStarts& added, const Starts& starts) {
+    Gone gone;
+    for (const FloodStart& one : added.starts) {
+        if (std::ranges::binary_search(starts, one, by_number)) continue;
+        gone.resize(std::max(gone.size(), std::size_t{one.number - added.first_number} + 1), 0);
+        gone[one.number - added.first_number] = 1;
     }
-    return is_gone;
+    return gone;
+}
+
+bool is_in(const Gone& gone, std::size_t beyond_first) {
+    return beyond_first < gone.size() && gone[beyond_first] != 0;
 }
 
 // Changes the rows of one kind.
@@ -39,25 +44,20 @@ class StartChange {
 public:
     using Number = typename decltype(Row::sample)::value_type;
 
-    StartChange(std::vector<Row>& rows, AddedStarts::Kept<Row>& without, Index first_number,
-                const std::vector<bool>& is_gone)
-        : rows_(rows), without_(without), first_(first_number), is_gone_(is_gone) {}
+    StartChange(std::vector<Row>& rows, AddedStarts::Kept<Row>& without, Index first_number, const Gone& gone)
+        : rows_(rows), without_(without), first_(first_number), gone_(gone) {}
 
     // Takes out of the rows of a block what is gone; `opened` receives the vertices of those that held any of
     // it.
     void take_out(std::size_t block, std::vector<Index>& opened) const {
         auto& kept = without_[block];
-        std::size_t stay = 0;
-        for (const OldRow<Row>& old : kept) {
+        const auto is_left_alone = [&](const OldRow<Row>& old) {
             Row& row = rows_[old.vertex];
-            const bool loses = std::ranges::any_of(row.sample, [&](Number s) { return is_gone(s); });
-            if (loses) {
-                opened.push_back(old.vertex);
-                if (!replace(row, Row{old.sample, old.distance})) continue; // nothing is left but that
-            }
-            kept[stay++] = old;
-        }
-        kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(stay), kept.end());
+            if (std::ranges::none_of(row.sample, [&](Number s) { return is_gone(s); })) return false;
+            opened.push_back(old.vertex);
+            return !replace(row, Row{old.sample, old.distance});
+        };
+        std::erase_if(kept, is_left_alone);
     }
 
     // What neighbours hold of other starts and an opened row has room for.
@@ -67,6 +67,7 @@ public:
         const Row& row = rows_[vertex];
         for (Index link = graph.first[vertex]; link < graph.first[vertex + 1]; ++link) {
             const Row& there = rows_[graph.neighbor[link]];
+            if (!holds_added(there)) continue;
             for (std::size_t k = 0; k < there.count(); ++k) {
                 if (there.sample[k] < first_) continue;
                 const std::uint64_t distance = std::uint64_t{there.distance[k]} + lengths[link];
@@ -78,8 +79,11 @@ public:
 
 private:
     bool is_added(Number number) const { return number >= first_ && number != Row::none; }
-    bool is_gone(Number number) const {
-        return is_added(number) && number - first_ < is_gone_.size() && is_gone_[number - first_];
+    bool is_gone(Number number) const { return number >= first_ && is_in(gone_, number - first_); }
+    bool holds_added(const Row& row) const { // decides nothing on the way
+        bool found = false;
+        for (const Number number : row.sample) found |= (number >= first_) & (number != Row::none);
+        return found;
     }
 
     // Makes the row the K first of `base` and of the starts in it that stay; returns whether there are any.
@@ -109,16 +113,18 @@ private:
     std::vector<Row>& rows_;
     AddedStarts::Kept<Row>& without_;
     Index first_;
-    const std::vector<bool>& is_gone_;
+    const Gone& gone_;
 };
 
 // Takes what is gone out of the rows, and adds to `starts` where the others come from to fill them again.
 template<typename Row>
-void take_out(StartChange<Row> change, std::span<std::uint8_t> changed, const Graph& graph,
+void take_out(StartChange<Row> change, std::span<std::vector<Index>> numbers, Index first_number,
+              const Gone& gone, std::span<std::uint8_t> changed, const Graph& graph,
               std::span<const std::uint8_t> lengths, Workers& workers, Starts& starts) {
     std::vector<std::vector<Index>> opened(changed.size());
     workers.for_each(changed.size(), blocks_at_once, [&](std::size_t block) {
-        change.take_out(block, opened[block]);
+        const auto is_gone = [&](Index number) { return is_in(gone, number - first_number); };
+        if (std::erase_if(numbers[block], is_gone) > 0) change.take_out(block, opened[block]);
         if (!opened[block].empty()) changed[block] = 1;
     });
     Gathered<FloodStart> found;
@@ -131,17 +137,29 @@ void take_out(StartChange<Row> change, std::span<std::uint8_t> changed, const Gr
     found.take([&](const FloodStart& one) { starts.push_back(one); });
 }
 
-// Keeps the rows of a patch that held no start before.
+// Keeps the rows of a patch that held no start before, and notes what all of them hold.
 template<typename Row>
-void keep(const OldRows<Row>& patch, Index first_number, AddedStarts::Kept<Row>& without,
-          std::span<std::uint8_t> changed) {
-    for (const auto& block : patch)
-        for (const OldRow<Row>& old : block) {
-            changed[old.vertex / rows_in_block] = 1;
-            const bool held =
-                std::ranges::any_of(old.sample, [&](auto s) { return s >= first_number && s != Row::none; });
-            if (!held) without[old.vertex / rows_in_block].push_back(old);
-        }
+void keep(const OldRows<Row>& patch, const std::vector<Row>& rows, AddedStarts& added,
+          std::span<std::uint8_t> changed, Workers& workers) {
+    auto& without = std::get<AddedStarts::Kept<Row>>(added.without);
+    const auto is_added = [&](Index number) { return number >= added.first_number && number != Row::none; };
+    const auto note = [&](const OldRow<Row>& old, std::size_t block) {
+        changed[block] = 1;
+        if (std::ranges::none_of(old.sample, is_added)) without[block].push_back(old);
+        std::vector<Index>& numbers = added.numbers[block];
+        for (const Index number : rows[old.vertex].sample)
+            if (is_added(number) && std::ranges::find(numbers, number) == numbers.end())
+                numbers.push_back(number);
+    };
+    // Each worker looks through all of them for its own blocks.
+    const std::size_t parts = workers.threads();
+    workers.for_each(parts, 1, [&](std::size_t part) {
+        for (const auto& some : patch)
+            for (const OldRow<Row>& old : some)
+                if (const std::size_t block = old.vertex / rows_in_block;
+                    block / blocks_at_once % parts == part)
+                    note(old, block);
+    });
 }
 
 void widen(AddedStarts& added) {
@@ -159,8 +177,8 @@ void widen(AddedStarts& added) {
 } // namespace
 
 AddedStarts no_starts(const InfluenceRows& nearest, Index first_number) {
-    AddedStarts added{first_number, {}, {}};
     const std::size_t blocks = blocks_of_rows(nearest.size());
+    AddedStarts added{first_number, {}, {}, std::vector<std::vector<Index>>(blocks)};
     if (nearest.are_wide())
         added.without = AddedStarts::Kept<WideRow>(blocks);
     else
@@ -175,32 +193,30 @@ void change_starts(AddedStarts& added, std::span<const FloodStart> starts, Influ
     Starts wanted(starts.begin(), starts.end());
     std::ranges::sort(wanted, by_number);
     require(wanted.empty() || wanted.front().number >= added.first_number, "starts have their own numbers");
-    const std::vector<bool> is_gone = gone_numbers(added, wanted);
+    const Gone gone = gone_numbers(added, wanted);
 
     Starts coming;
     const auto comes = [&](const FloodStart& one) {
-        const Index number = one.number - added.first_number;
-        return (number < is_gone.size() && is_gone[number]) ||
+        return is_in(gone, one.number - added.first_number) ||
                !std::ranges::binary_search(added.starts, one, by_number);
     };
     std::ranges::copy_if(wanted, std::back_inserter(coming), comes);
-    if (!is_gone.empty())
+    if (!gone.empty())
         std::visit(
             [&]<typename Row>(std::vector<Row>& rows) {
                 auto& without = std::get<AddedStarts::Kept<Row>>(added.without);
-                take_out(StartChange<Row>(rows, without, added.first_number, is_gone), changed, graph,
-                         lengths, workers, coming);
+                take_out(StartChange<Row>(rows, without, added.first_number, gone), added.numbers,
+                         added.first_number, gone, changed, graph, lengths, workers, coming);
             },
             nearest.rows);
     if (!coming.empty()) {
         const FloodPatch patch = add_starts(nearest, graph, lengths, coming, workers, progress);
         if (nearest.are_wide()) widen(added);
         std::visit(
-            [&]<typename Row>(const OldRows<Row>& blocks) {
-                keep<Row>(blocks, added.first_number, std::get<AddedStarts::Kept<Row>>(added.without),
-                          changed);
+            [&]<typename Row>(const std::vector<Row>& rows) {
+                keep<Row>(std::get<OldRows<Row>>(patch.blocks), rows, added, changed, workers);
             },
-            patch.blocks);
+            nearest.rows);
     }
     added.starts = std::move(wanted);
 }

@@ -21,6 +21,7 @@ struct AddedStarts {
     Index first_number = 0;
     std::vector<FloodStart> starts;                       // ascending by number and vertex
     std::variant<Kept<NarrowRow>, Kept<WideRow>> without; // wide if the rows are
+    std::vector<std::vector<Index>> numbers; // of each block those that its rows hold, and perhaps more
 };
 
 // Of rows that hold no starts yet.

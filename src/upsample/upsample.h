@@ -22,8 +22,8 @@
 //
 // The result has the same bits on every run and for any number of threads. Kernel and reference do the same
 // operations in the same order; the kernel fuses products and sums where it adds up motions and the device
-// can, so both agree within the rounding of these sums, and unfused to the bit on a device that rounds as IEEE
-// 754 does.
+// can, so both agree within the rounding of these sums, and unfused to the bit on a device that rounds as
+// IEEE 754 does.
 
 #include "graph/influences.h"
 
@@ -56,8 +56,9 @@ struct UpsampleInput {
     std::span<const Index> mover;     // n: what moves each point, as influence_of() reads it
     const InfluenceRows* rows = nullptr;
     InfluenceWeights weights = InfluenceWeights::smooth;
-    // One past the largest number in all rows, if it is known: prepare() reads them all to find out, else.
-    std::optional<Index> rows_end = std::nullopt;
+    // One past the largest number in all rows, and one past the largest mover, if they are known: prepare()
+    // reads them all to find out, else.
+    std::optional<Index> rows_end = std::nullopt, mover_end = std::nullopt;
     // Of each block of points (point_blocks.h) 0 if what moves it is as it was when prepare() was called
     // last, with these same arrays; empty if that is not known.
     std::span<const std::uint8_t> changed = {};

@@ -297,7 +297,7 @@ TEST_P(EveryUpsampler, RefusesRowsAndSamplesThatDoNotExist) {
     }
 }
 
-TEST_P(EveryUpsampler, TakesTheWordOfWhoKnowsTheRows) {
+TEST_P(EveryUpsampler, TakesTheWordOfWhoKnowsWhereNumbersEnd) {
     for (const auto& upsampler : all()) {
         const Scene scene = random_scene(1000, 5, 12);
         UpsampleInput input = scene.input();
@@ -305,6 +305,11 @@ TEST_P(EveryUpsampler, TakesTheWordOfWhoKnowsTheRows) {
         upsampler->prepare(input, 5);
         EXPECT_THROW(upsampler->prepare(input, 4), BrokenInvariant);
         input.rows_end = 6;
+        EXPECT_THROW(upsampler->prepare(input, 5), BrokenInvariant);
+        input.rows_end = 5;
+        input.mover_end = static_cast<Index>(scene.rows.size() + 5);
+        upsampler->prepare(input, 5);
+        input.mover_end = static_cast<Index>(scene.rows.size() + 6);
         EXPECT_THROW(upsampler->prepare(input, 5), BrokenInvariant);
     }
 }

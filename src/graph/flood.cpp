@@ -11,6 +11,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <functional>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -124,14 +125,11 @@ public:
     // rows; if not, the flood was broken off.
     bool run(std::span<const FloodStart> starts, bool keep_old, Progress& progress) {
         if (keep_old) kept_.assign(graph_.size(), 0);
-        for (const FloodStart& start : starts) {
+        for (const FloodStart& start : starts)
             require(start.number < Places::none && start.distance < Places::none,
                     "numbers of samples and their distances fit into the rows");
-            Arrived& arriving = tiles_[start.vertex / vertices_a_tile_].arriving;
-            arriving.all.push_back(
-                {start.vertex, static_cast<Number>(start.number), static_cast<Number>(start.distance)});
-            arriving.lowest = std::min<Level>(arriving.lowest, start.distance);
-        }
+        starts_.assign(starts.begin(), starts.end());
+        std::ranges::sort(starts_, std::greater{}, &FloodStart::distance);
         std::vector<OnTheWay> of_worker(workers_.threads());
         for (OnTheWay& on_the_way : of_worker) on_the_way.leaving.resize(tiles_.size());
         for (int round = 0; start_round() && !too_far_; ++round) {
@@ -196,12 +194,26 @@ private:
             tile.lowest = std::min(tile.lowest, tile.arriving.lowest);
             lowest = std::min(lowest, tile.lowest);
         }
+        if (!starts_.empty()) lowest = std::min<Level>(lowest, starts_.back().distance);
         busy_.clear();
         if (lowest == never) return false;
         end_ = lowest + levels_a_round;
+        let_start();
         for (Tile& tile : tiles_)
             if (tile.lowest < end_) busy_.push_back(&tile);
         return true;
+    }
+
+    // Brings to their tiles the starts of this round. Others would be more levels away than can wait.
+    void let_start() {
+        for (; !starts_.empty() && starts_.back().distance < end_; starts_.pop_back()) {
+            const FloodStart& start = starts_.back();
+            Tile& tile = tiles_[start.vertex / vertices_a_tile_];
+            tile.arriving.all.push_back(
+                {start.vertex, static_cast<Number>(start.number), static_cast<Number>(start.distance)});
+            tile.arriving.lowest = std::min<Level>(tile.arriving.lowest, start.distance);
+            tile.lowest = std::min(tile.lowest, tile.arriving.lowest);
+        }
     }
 
     // Floods a tile up to the last level of this round.
@@ -336,8 +348,9 @@ private:
     std::vector<std::uint8_t> kept_;    // of each vertex, whether its old row was kept; empty if none are
     const Index vertices_a_tile_;       // a power of two, by the number of all vertices
     std::vector<Tile> tiles_;
-    std::vector<Tile*> busy_; // in this round
-    Level end_ = 0;           // of the levels of this round
+    std::vector<FloodStart> starts_; // that are still to come, the nearest last
+    std::vector<Tile*> busy_;        // in this round
+    Level end_ = 0;                  // of the levels of this round
     Gathered<Old> old_rows_;
 };
 

@@ -189,6 +189,41 @@ TEST(Flood, AddsSamplesAsIfTheyHadBeenThereAndTakesThemBack) {
     }
 }
 
+// More levels between the nearest and the farthest start than can wait at a time.
+TEST(Flood, StartsAtAnyDistance) {
+    const Graph graph{{0, 0, 1, 2}, {2, 1}}; // one vertex alone, two that are linked
+    const std::vector<std::uint8_t> lengths{5, 5};
+    Machine machine;
+    for (Index distance = 0; distance < 600; ++distance) {
+        InfluenceRows nearest = flood(graph, lengths, {}, machine.workers, machine.progress);
+        const std::vector<FloodStart> starts{{0, 0, 0}, {1, 1, distance}};
+        add_starts(nearest, graph, lengths, starts, machine.workers, machine.progress);
+        expect_reached(nearest[0], {{0, 0}}, 0);
+        expect_reached(nearest[2], {{distance + 5, 1}}, 2);
+    }
+}
+
+TEST(Flood, IsASearchFromEveryStart) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::plane, 20'000)); // ten tiles
+    std::mt19937 random(7);
+    std::vector<FloodStart> starts = starts_of(test::random_vertices(cloud.size(), 30, 5), 0);
+    std::vector<std::vector<test::Reached>> expected(cloud.size());
+    for (FloodStart& start : starts) {
+        start.distance = static_cast<Index>(random() % 1000);
+        const std::vector<Index> way = test::ways_from(cloud.graph, cloud.lengths, start.vertex);
+        for (Index v = 0; v < cloud.size(); ++v)
+            if (way[v] != no_index) expected[v].push_back({start.distance + way[v], start.number});
+    }
+    InfluenceRows nearest = flooded(cloud, cloud.lengths, {});
+    Machine machine;
+    add_starts(nearest, cloud.graph, cloud.lengths, starts, machine.workers, machine.progress);
+    for (Index v = 0; v < cloud.size(); ++v) {
+        std::ranges::sort(expected[v]);
+        if (expected[v].size() > influences_per_row) expected[v].resize(influences_per_row);
+        expect_reached(nearest[v], expected[v], v);
+    }
+}
+
 TEST(Flood, AddsTerritoriesAsAllOfItWould) {
     auto clouds = test::several_clouds();
     clouds.push_back({"of several tiles", test::cloud_of(test::shape_positions(Shape::knot, 20'000))});

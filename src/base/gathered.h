@@ -23,12 +23,6 @@ public:
             for (const Item& item : block) visit(item);
     }
 
-    // All of them, as the threads handed them over.
-    std::vector<std::vector<Item>> take_blocks() {
-        size_ = 0;
-        return std::exchange(blocks_, {});
-    }
-
     // Calls visit(item) for all of them, and forgets and frees them on the way.
     template<typename Visit>
     void take(Visit&& visit) {

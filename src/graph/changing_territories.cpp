@@ -41,10 +41,11 @@ std::vector<Index> nearest_of_base(const ChangingTerritories& territories, std::
         place.set(vertices[at], at);
     }
     const auto before = [&]<typename Row>(const OldRows<Row>& blocks) {
-        workers.for_each(blocks.size(), 16, [&](std::size_t block) {
-            for (const OldRow<Row>& old : blocks[block])
+        workers.for_each(blocks.size(), 64, [&](std::size_t block) {
+            blocks[block].each([&](const OldRow<Row>& old) {
                 if (const Index at = place[old.vertex]; at != no_index)
                     samples[at] = widened(Row{old.sample, old.distance}).sample[0];
+            });
         });
     };
     for (auto flood = territories.floods.rbegin(); flood != territories.floods.rend(); ++flood)

@@ -1,6 +1,5 @@
 #include "graph/flood.h"
 
-#include "base/gathered.h"
 #include "base/locked.h"
 #include "base/prefetch.h"
 #include "base/require.h"
@@ -124,7 +123,10 @@ public:
     // Rows are kept as they were before, if `keep_old` says so. Returns whether all distances fit into the
     // rows; if not, the flood was broken off.
     bool run(std::span<const FloodStart> starts, bool keep_old, Progress& progress) {
-        if (keep_old) kept_.assign(graph_.size(), 0);
+        if (keep_old) {
+            is_kept_.assign(graph_.size() / kept_a_word + 1, 0);
+            old_rows_.resize(blocks_of_rows(graph_.size()));
+        }
         for (const FloodStart& start : starts)
             require(start.number < Places::none && start.distance < Places::none,
                     "numbers of samples and their distances fit into the rows");
@@ -136,9 +138,7 @@ public:
             progress.step("measuring along the surface", 1 - 1 / (1 + 0.05 * round));
             std::atomic<std::size_t> next = 0;
             workers_.for_each(of_worker.size(), 1, [&](std::size_t worker) {
-                typename Gathered<Old>::Block old(old_rows_);
                 OnTheWay& on_the_way = of_worker[worker];
-                on_the_way.old = keep_old ? &old : nullptr;
                 for (std::size_t t = next++; t < busy_.size() && !too_far_; t = next++) {
                     flood_tile(*busy_[t], on_the_way);
                     hand_over(on_the_way);
@@ -149,7 +149,7 @@ public:
     }
 
     // Hands over the rows as they were before.
-    OldRows<Places> take_old_rows() { return old_rows_.take_blocks(); }
+    OldRows<Places> take_old_rows() { return std::move(old_rows_); }
 
 private:
     using Arrivals = std::vector<Arrival<Number>>;
@@ -178,10 +178,9 @@ private:
 
     // What a worker has in hand.
     struct OnTheWay {
-        std::array<Arrivals, ring> waiting;           // inside a tile, by the level at which it goes on
-        std::vector<Arrivals> leaving;                // by the tile that it goes to
-        std::vector<Index> destinations;              // of what is leaving
-        typename Gathered<Old>::Block* old = nullptr; // keeps the rows as they were; null: nobody does
+        std::array<Arrivals, ring> waiting; // inside a tile, by the level at which it goes on
+        std::vector<Arrivals> leaving;      // by the tile that it goes to
+        std::vector<Index> destinations;    // of what is leaving
     };
 
     // Finds the tiles that this round floods, and up to which level. Returns whether there are any.
@@ -261,7 +260,7 @@ private:
 
     // Puts it into its row, which has room for it.
     void take_in(const Arrival<Number>& arrival, OnTheWay& on_the_way) {
-        if (on_the_way.old) keep(arrival.vertex, *on_the_way.old);
+        if (!is_kept_.empty()) keep(arrival.vertex);
         insert(rows_[arrival.vertex], arrival.sample, arrival.distance);
         on_the_way.waiting[arrival.distance % ring].push_back(arrival);
     }
@@ -334,24 +333,29 @@ private:
         on_the_way.destinations.clear();
     }
 
-    void keep(Index v, typename Gathered<Old>::Block& old) {
-        if (kept_[v]) return;
-        kept_[v] = 1;
-        old.push({v, rows_[v].sample, rows_[v].distance});
+    // Whose rows they are is a matter of the tile alone, whose blocks and words are no other's.
+    void keep(Index v) {
+        std::uint64_t& word = is_kept_[v / kept_a_word];
+        const std::uint64_t bit = std::uint64_t{1} << v % kept_a_word;
+        if ((word & bit) != 0) return;
+        word |= bit;
+        old_rows_[v / rows_in_block].push({v, rows_[v].sample, rows_[v].distance});
     }
+    static constexpr std::size_t kept_a_word = 64;
+    static_assert(smallest_tile % kept_a_word == 0 && smallest_tile % rows_in_block == 0);
 
     std::vector<Places>& rows_;
     const Graph& graph_;
     std::span<const std::uint8_t> lengths_;
     Workers& workers_;
-    std::atomic<bool> too_far_ = false; // something is farther away than its row can tell
-    std::vector<std::uint8_t> kept_;    // of each vertex, whether its old row was kept; empty if none are
-    const Index vertices_a_tile_;       // a power of two, by the number of all vertices
+    std::atomic<bool> too_far_ = false;  // something is farther away than its row can tell
+    std::vector<std::uint64_t> is_kept_; // a bit a vertex: whether its old row was kept; empty if none are
+    OldRows<Places> old_rows_;           // empty if none are kept
+    const Index vertices_a_tile_;        // a power of two, by the number of all vertices
     std::vector<Tile> tiles_;
     std::vector<FloodStart> starts_; // that are still to come, the nearest last
     std::vector<Tile*> busy_;        // in this round
     Level end_ = 0;                  // of the levels of this round
-    Gathered<Old> old_rows_;
 };
 
 // Floods narrow rows where they will do, else wide ones, and returns what use(rows) makes of them.
@@ -375,13 +379,13 @@ auto flooded(const Graph& graph, std::span<const std::uint8_t> lengths, std::spa
 template<typename Old, typename Row>
 void put_back(const OldRows<Old>& blocks, std::vector<Row>& rows) {
     for (const auto& block : blocks)
-        for (const OldRow<Old>& old : block) {
+        block.each([&](const OldRow<Old>& old) {
             const Old row{old.sample, old.distance};
             if constexpr (std::is_same_v<Old, Row>)
                 rows[old.vertex] = row;
             else
                 rows[old.vertex] = widened(row);
-        }
+        });
 }
 
 // Floods from these starts, too.

@@ -15,6 +15,7 @@
 // go by sample number, so samples should be numbered in no particular direction, and, as whatever is kept of
 // them is looked up by number, those that are near each other by near numbers (shuffle_in_runs()).
 
+#include "base/pile.h"
 #include "base/progress.h"
 #include "base/workers.h"
 #include "graph/csr.h"
@@ -48,9 +49,8 @@ std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t>
 // The first places of these rows.
 TerritoryRows territory_rows(const InfluenceRows& nearest, Workers& workers);
 
-// What add_starts() or add_territories() changed: whole rows as they were before, each vertex once, in no
-// particular order, block after block: these are many, and to put them into one array would need room for
-// both.
+// What add_starts() or add_territories() changed: whole rows as they were before, each vertex once, by block
+// of rows.
 template<typename Row>
 struct OldRow {
     Index vertex;
@@ -58,7 +58,7 @@ struct OldRow {
     decltype(Row::distance) distance;
 };
 template<typename Row>
-using OldRows = std::vector<std::vector<OldRow<Row>>>;
+using OldRows = std::vector<Pile<OldRow<Row>>>; // blocks_of_rows() of them
 
 template<std::size_t places>
 struct RowPatch {

@@ -44,7 +44,7 @@ class StartChange {
 public:
     using Number = typename decltype(Row::sample)::value_type;
 
-    StartChange(std::vector<Row>& rows, AddedStarts::Kept<Row>& without, Index first_number, const Gone& gone)
+    StartChange(std::vector<Row>& rows, OldRows<Row>& without, Index first_number, const Gone& gone)
         : rows_(rows), without_(without), first_(first_number), gone_(gone) {}
 
     // Takes out of the rows of a block what is gone; `opened` receives the vertices of those that held any of
@@ -57,7 +57,7 @@ public:
             opened.push_back(old.vertex);
             return !replace(row, Row{old.sample, old.distance});
         };
-        std::erase_if(kept, is_left_alone);
+        kept.erase_if(is_left_alone);
     }
 
     // What neighbours hold of other starts and an opened row has room for.
@@ -111,7 +111,7 @@ private:
     }
 
     std::vector<Row>& rows_;
-    AddedStarts::Kept<Row>& without_;
+    OldRows<Row>& without_;
     Index first_;
     const Gone& gone_;
 };
@@ -139,38 +139,40 @@ void take_out(StartChange<Row> change, std::span<std::vector<Index>> numbers, In
 
 // Keeps the rows of a patch that held no start before, and notes what all of them hold.
 template<typename Row>
-void keep(const OldRows<Row>& patch, const std::vector<Row>& rows, AddedStarts& added,
+void keep(OldRows<Row>&& patch, const std::vector<Row>& rows, AddedStarts& added,
           std::span<std::uint8_t> changed, Workers& workers) {
-    auto& without = std::get<AddedStarts::Kept<Row>>(added.without);
+    auto& without = std::get<OldRows<Row>>(added.without);
     const auto is_added = [&](Index number) { return number >= added.first_number && number != Row::none; };
-    const auto note = [&](const OldRow<Row>& old, std::size_t block) {
+    workers.for_each(patch.size(), blocks_at_once, [&](std::size_t block) {
+        if (patch[block].empty()) return;
         changed[block] = 1;
-        if (std::ranges::none_of(old.sample, is_added)) without[block].push_back(old);
         std::vector<Index>& numbers = added.numbers[block];
-        for (const Index number : rows[old.vertex].sample)
-            if (is_added(number) && std::ranges::find(numbers, number) == numbers.end())
-                numbers.push_back(number);
-    };
-    // Each worker looks through all of them for its own blocks.
-    const std::size_t parts = workers.threads();
-    workers.for_each(parts, 1, [&](std::size_t part) {
-        for (const auto& some : patch)
-            for (const OldRow<Row>& old : some)
-                if (const std::size_t block = old.vertex / rows_in_block;
-                    block / blocks_at_once % parts == part)
-                    note(old, block);
+        const auto note = [&](const OldRow<Row>& old) {
+            for (const Index number : rows[old.vertex].sample)
+                if (is_added(number) && std::ranges::find(numbers, number) == numbers.end())
+                    numbers.push_back(number);
+        };
+        const auto held_any = [&](const OldRow<Row>& old) {
+            return std::ranges::any_of(old.sample, is_added);
+        };
+        patch[block].each(note);
+        patch[block].erase_if(held_any);
+        if (without[block].empty())
+            without[block] = std::move(patch[block]);
+        else
+            patch[block].take([&](const OldRow<Row>& old) { without[block].push(old); });
     });
 }
 
 void widen(AddedStarts& added) {
-    const auto* narrow = std::get_if<AddedStarts::Kept<NarrowRow>>(&added.without);
+    const auto* narrow = std::get_if<OldRows<NarrowRow>>(&added.without);
     if (!narrow) return;
-    AddedStarts::Kept<WideRow> wide(narrow->size());
+    OldRows<WideRow> wide(narrow->size());
     for (std::size_t block = 0; block < wide.size(); ++block)
-        for (const auto& old : (*narrow)[block]) {
+        (*narrow)[block].each([&](const OldRow<NarrowRow>& old) {
             const WideRow row = widened(NarrowRow{old.sample, old.distance});
-            wide[block].push_back({old.vertex, row.sample, row.distance});
-        }
+            wide[block].push({old.vertex, row.sample, row.distance});
+        });
     added.without = std::move(wide);
 }
 
@@ -180,9 +182,9 @@ AddedStarts no_starts(const InfluenceRows& nearest, Index first_number) {
     const std::size_t blocks = blocks_of_rows(nearest.size());
     AddedStarts added{first_number, {}, {}, std::vector<std::vector<Index>>(blocks)};
     if (nearest.are_wide())
-        added.without = AddedStarts::Kept<WideRow>(blocks);
+        added.without = OldRows<WideRow>(blocks);
     else
-        added.without = AddedStarts::Kept<NarrowRow>(blocks);
+        added.without = OldRows<NarrowRow>(blocks);
     return added;
 }
 
@@ -204,17 +206,17 @@ void change_starts(AddedStarts& added, std::span<const FloodStart> starts, Influ
     if (!gone.empty())
         std::visit(
             [&]<typename Row>(std::vector<Row>& rows) {
-                auto& without = std::get<AddedStarts::Kept<Row>>(added.without);
+                auto& without = std::get<OldRows<Row>>(added.without);
                 take_out(StartChange<Row>(rows, without, added.first_number, gone), added.numbers,
                          added.first_number, gone, changed, graph, lengths, workers, coming);
             },
             nearest.rows);
     if (!coming.empty()) {
-        const FloodPatch patch = add_starts(nearest, graph, lengths, coming, workers, progress);
+        FloodPatch patch = add_starts(nearest, graph, lengths, coming, workers, progress);
         if (nearest.are_wide()) widen(added);
         std::visit(
             [&]<typename Row>(const std::vector<Row>& rows) {
-                keep<Row>(std::get<OldRows<Row>>(patch.blocks), rows, added, changed, workers);
+                keep<Row>(std::get<OldRows<Row>>(std::move(patch.blocks)), rows, added, changed, workers);
             },
             nearest.rows);
     }
@@ -225,11 +227,11 @@ std::vector<WideRow> rows_without(const AddedStarts& added, const InfluenceRows&
                                   std::span<const Index> vertices) {
     std::vector<WideRow> rows = rows_at(nearest, vertices);
     std::visit(
-        [&]<typename Row>(const std::vector<std::vector<OldRow<Row>>>& without) {
+        [&]<typename Row>(const OldRows<Row>& without) {
             for (std::size_t i = 0; i < rows.size(); ++i) {
-                const auto& block = without[vertices[i] / rows_in_block];
-                const auto old = std::ranges::find(block, vertices[i], &OldRow<Row>::vertex);
-                if (old != block.end()) rows[i] = widened(Row{old->sample, old->distance});
+                const auto is_it = [&](const OldRow<Row>& old) { return old.vertex == vertices[i]; };
+                if (const auto* old = without[vertices[i] / rows_in_block].find_if(is_it))
+                    rows[i] = widened(Row{old->sample, old->distance});
             }
         },
         added.without);

@@ -15,12 +15,9 @@ namespace knead {
 // A row that holds any of them is kept as it is without. Rows are the K first by (distance, number), and what
 // takes a start away can change no row but those that hold it: so each can go by itself, whoever came after.
 struct AddedStarts {
-    template<typename Row>
-    using Kept = std::vector<std::vector<OldRow<Row>>>; // by block of rows, in no order
-
     Index first_number = 0;
-    std::vector<FloodStart> starts;                       // ascending by number and vertex
-    std::variant<Kept<NarrowRow>, Kept<WideRow>> without; // wide if the rows are
+    std::vector<FloodStart> starts;                             // ascending by number and vertex
+    std::variant<OldRows<NarrowRow>, OldRows<WideRow>> without; // wide if the rows are
     std::vector<std::vector<Index>> numbers; // of each block those that its rows hold, and perhaps more
 };
 

@@ -14,6 +14,7 @@ namespace knead {
 namespace {
 
 constexpr std::size_t grain = 1 << 14;
+constexpr std::size_t blocks_at_once = 16;
 
 // How many links more, or fewer, than somewhere before cross the border of two territories.
 struct Change {
@@ -128,10 +129,11 @@ template<typename Row>
 Paged<Index> former_nearest(const std::vector<Row>& nearest, const OldRows<Row>& blocks, Workers& workers) {
     Paged<Index> former(nearest.size(), unchanged);
     for (const auto& block : blocks)
-        for (const OldRow<Row>& old : block) former.make_room(old.vertex);
-    workers.for_each(blocks.size(), 1, [&](std::size_t block) {
-        for (const OldRow<Row>& old : blocks[block])
+        block.each([&](const OldRow<Row>& old) { former.make_room(old.vertex); });
+    workers.for_each(blocks.size(), blocks_at_once, [&](std::size_t block) {
+        blocks[block].each([&](const OldRow<Row>& old) {
             if (old.sample[0] != nearest[old.vertex].sample[0]) former.set(old.vertex, old.sample[0]);
+        });
     });
     return former;
 }
@@ -140,12 +142,12 @@ template<typename Row>
 void find_changed(const std::vector<Row>& nearest, const OldRows<Row>& blocks, const Graph& points,
                   std::span<const std::uint8_t> lengths, Workers& workers, Changes& found) {
     const Paged<Index> former = former_nearest(nearest, blocks, workers);
-    workers.for_each(blocks.size(), 1, [&](std::size_t block) {
+    workers.for_chunks(blocks.size(), blocks_at_once, [&](std::size_t begin, std::size_t end) {
         Changes::Block changes(found);
         Tally tally;
-        for (const OldRow<Row>& old : blocks[block]) {
+        const auto count_of = [&](const OldRow<Row>& old) {
             const Index p = old.vertex;
-            if (former[p] == unchanged) continue;
+            if (former[p] == unchanged) return;
             for (Index link = points.first[p]; link < points.first[p + 1]; ++link) {
                 const Index q = points.neighbor[link];
                 const bool both_changed = former[q] != unchanged;
@@ -155,7 +157,8 @@ void find_changed(const std::vector<Row>& nearest, const OldRows<Row>& blocks, c
                 tally.add(former[p], both_changed ? former[q] : there, -1);
                 tally.add(nearest[p].sample[0], there, 1, way);
             }
-        }
+        };
+        for (std::size_t block = begin; block < end; ++block) blocks[block].each(count_of);
         hand_over(tally, changes);
     });
 }

@@ -29,7 +29,7 @@ std::vector<Index> vertices_of(const FloodPatch& patch) {
     std::vector<Index> vertices;
     const auto collect = [&](const auto& blocks) {
         for (const auto& block : blocks)
-            for (const auto& old : block) vertices.push_back(old.vertex);
+            block.each([&](const auto& old) { vertices.push_back(old.vertex); });
     };
     std::visit(collect, patch.blocks);
     return vertices;

@@ -73,7 +73,7 @@ struct Changing {
         std::visit(
             [&](const auto& blocks) {
                 for (const auto& block : blocks)
-                    for (const auto& old : block) vertices.insert(old.vertex), ++count;
+                    block.each([&](const auto& old) { vertices.insert(old.vertex), ++count; });
             },
             added.without);
         EXPECT_EQ(vertices.size(), count);

@@ -185,7 +185,7 @@ void Pipeline::prepare_samples(Progress& progress) {
         changed_rows_.assign(blocks_of_rows(nearest_.size()), 1);
         row_ends_.resize(changed_rows_.size());
         rows_of_base_ = rows_at(nearest_, samples_);
-        territories_ = territories_of_base(nearest_, *graph_, workers_);
+        territories_ = territories_of_base(nearest_, base_samples_, *graph_, workers_);
     } else {
         sample_graph_ = sample_graph_of_all(with_solid_links(*graph_, vertex_positions(), workers_));
     }

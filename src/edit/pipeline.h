@@ -164,7 +164,6 @@ private:
     void prepare_bridges(Progress& progress);
     void prepare_samples(Progress& progress);
     void prepare_handles(Progress& progress);
-    std::vector<std::vector<FloodStart>> added_by_handles() const;
     bool turns_freely(Index label) const;
     Index first_handle_number() const;
     std::vector<FloodStart> handle_starts(std::span<const BorderVertex> borders) const;
@@ -214,11 +213,11 @@ private:
     bool every_point_ = false;
     std::vector<Index> samples_;
     std::size_t base_samples_ = 0;
-    InfluenceRows nearest_;                  // of each vertex; empty if every point is a sample
-    AddedStarts from_handles_;               // that are in these
-    std::vector<Index> row_ends_;            // of blocks of rows: find_row_ends()
-    std::vector<std::uint8_t> changed_rows_; // since those were found
-    std::vector<WideRow> rows_of_base_;      // of the base samples, in the flood from them alone
+    InfluenceRows nearest_;                        // of each vertex; empty if every point is a sample
+    AddedStarts<influences_per_row> from_handles_; // that are in these
+    std::vector<Index> row_ends_;                  // of blocks of rows: find_row_ends()
+    std::vector<std::uint8_t> changed_rows_;       // since those were found
+    std::vector<WideRow> rows_of_base_;            // of the base samples, in the flood from them alone
     ChangingTerritories territories_;
 
     HandleSlots slots_; // by which the stages tell handles

@@ -14,9 +14,6 @@ namespace {
 // Of the samples asked for, this many more may be spent on the borders of handles.
 constexpr double handle_share = 0.2;
 
-// Each keeps a list of all borders of territories.
-constexpr std::size_t most_territory_floods = 8;
-
 constexpr std::size_t grain = 1 << 14;
 
 std::size_t handle_budget(std::size_t base_samples) {
@@ -43,13 +40,13 @@ void Pipeline::prepare_handles(Progress& progress) {
     }
     const VertexShape shape{order_.cube, vertex_positions(), *graph_, *components_};
     const HandleSamples needed = handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_,
-                                                territories_, handle_budget(base_samples_), workers_);
+                                                territories_, handle_budget(base_samples_));
     samples_.insert(samples_.end(), needed.added.begin(), needed.added.end());
     seconds_.sampling += clock.lap();
 
     stale_.samples = true; // a flood that is cancelled leaves lists that nothing can revert
-    const std::span<const TerritoryBorder> borders =
-        change_added(territories_, added_by_handles(), *graph_, link_lengths_, workers_, progress);
+    const std::vector<TerritoryBorder> borders =
+        change_added(territories_, needed.added, *graph_, link_lengths_, workers_, progress);
     nearest_.first_handle = first_handle_number();
     change_starts(from_handles_, handle_starts(needed.borders), nearest_, changed_rows_, *graph_,
                   link_lengths_, workers_, progress);
@@ -61,23 +58,6 @@ void Pipeline::prepare_handles(Progress& progress) {
     find_pulled();
     choose_coarse_samples();
     seconds_.geodesic += clock.lap();
-}
-
-// The samples that handles added, with those of each handle in a flood of their own: one that comes or goes
-// at the end of the list leaves the others as they are. Where there are many handles, so many together as
-// give few floods.
-std::vector<std::vector<FloodStart>> Pipeline::added_by_handles() const {
-    const std::size_t handles = slots_.handles.size() + 1; // and what is outside
-    const std::size_t together = (handles + most_territory_floods - 1) / most_territory_floods;
-    std::vector<std::vector<FloodStart>> floods;
-    std::size_t before = handles;
-    for (auto s = static_cast<Index>(base_samples_); s < samples_.size(); ++s) {
-        const std::size_t group = labels_.vertex[samples_[s]] / together;
-        if (group != before) floods.emplace_back();
-        floods.back().push_back({samples_[s], s});
-        before = group;
-    }
-    return floods;
 }
 
 // Handles have the numbers from here on, which stay what they are while samples come and go: so what was

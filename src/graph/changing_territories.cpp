@@ -1,55 +1,67 @@
 #include "graph/changing_territories.h"
 
-#include "base/paged.h"
+#include "graph/kept_numbers.h"
 
 #include <algorithm>
 
 namespace knead {
 
-ChangingTerritories territories_of_base(const InfluenceRows& nearest, const Graph& points, Workers& workers) {
+namespace {
+
+// Up to which numbers go: as far as narrow rows can tell, if they can tell so many.
+Index end_of_numbers(std::size_t samples) {
+    constexpr Index narrow = TerritoryRows::Narrow::none;
+    return samples < narrow ? narrow : no_index - 1;
+}
+
+// Starts of these samples, ascending.
+std::vector<FloodStart> starts_of_added(const AddedStarts<1>& before, std::span<const Index> added) {
+    std::vector<Numbered> former;
+    for (const FloodStart& start : before.starts) former.push_back({start.vertex, start.number});
+    const Index first = before.first_number;
+    const std::vector<Index> numbers =
+        kept_numbers(former, added, first, end_of_numbers(first + added.size()));
+    std::vector<FloodStart> starts;
+    for (std::size_t i = 0; i < added.size(); ++i) starts.push_back({added[i], numbers[i]});
+    return starts;
+}
+
+} // namespace
+
+ChangingTerritories territories_of_base(const InfluenceRows& nearest, std::size_t base, const Graph& points,
+                                        Workers& workers) {
     ChangingTerritories territories;
     territories.nearest = territory_rows(nearest, workers);
-    territories.borders = {territory_borders(territories.nearest, points, workers)};
+    territories.added = no_starts(territories.nearest, static_cast<Index>(base));
+    territories.borders = territory_borders(territories.nearest, points, workers);
     return territories;
 }
 
-std::span<const TerritoryBorder> change_added(ChangingTerritories& territories,
-                                              std::vector<std::vector<FloodStart>> added, const Graph& points,
-                                              std::span<const std::uint8_t> lengths, Workers& workers,
-                                              Progress& progress) {
-    auto& [nearest, borders, floods] = territories;
-    const auto last_same = std::ranges::mismatch(floods, added, {}, &TerritoryFlood::starts).in1;
-    const auto stay = static_cast<std::size_t>(last_same - floods.begin());
-    for (; floods.size() > stay; floods.pop_back(), borders.pop_back()) revert(nearest, floods.back().patch);
-    for (std::size_t f = stay; f < added.size(); ++f) {
-        TerritoryPatch patch = add_territories(nearest, points, lengths, added[f], workers, progress);
-        floods.push_back({std::move(added[f]), std::move(patch)});
-        borders.push_back(
-            territory_borders_after(borders.back(), floods.back().patch, nearest, points, lengths, workers));
+std::vector<TerritoryBorder> change_added(ChangingTerritories& territories, std::span<const Index> added,
+                                          const Graph& points, std::span<const std::uint8_t> lengths,
+                                          Workers& workers, Progress& progress) {
+    auto& [nearest, starts, borders] = territories;
+    const std::vector<FloodStart> wanted = starts_of_added(starts, added);
+    const TerritoryPatch former = change_starts(starts, wanted, nearest, points, lengths, workers, progress);
+    borders = territory_borders_after(borders, former, starts, nearest, points, lengths, workers);
+
+    std::vector<TerritoryBorder> result = borders;
+    const auto sample_of = [&](Index number) {
+        if (number < starts.first_number) return number;
+        const auto start = std::ranges::lower_bound(wanted, number, {}, &FloodStart::number);
+        return starts.first_number + static_cast<Index>(start - wanted.begin());
+    };
+    for (TerritoryBorder& border : result) {
+        border.a = sample_of(border.a);
+        border.b = sample_of(border.b);
     }
-    return borders.back();
+    return result;
 }
 
-std::vector<Index> nearest_of_base(const ChangingTerritories& territories, std::span<const Index> vertices,
-                                   Workers& workers) {
+std::vector<Index> nearest_of_base(const ChangingTerritories& territories, std::span<const Index> vertices) {
+    const auto rows = rows_without(territories.added, territories.nearest, vertices);
     std::vector<Index> samples(vertices.size());
-    std::ranges::transform(vertices, samples.begin(),
-                           [&](Index v) { return territories.nearest[v].sample[0]; });
-    Paged<Index> place(territories.nearest.size(), no_index);
-    for (Index at = 0; at < vertices.size(); ++at) {
-        place.make_room(vertices[at]);
-        place.set(vertices[at], at);
-    }
-    const auto before = [&]<typename Row>(const OldRows<Row>& blocks) {
-        workers.for_each(blocks.size(), 64, [&](std::size_t block) {
-            blocks[block].each([&](const OldRow<Row>& old) {
-                if (const Index at = place[old.vertex]; at != no_index)
-                    samples[at] = widened(Row{old.sample, old.distance}).sample[0];
-            });
-        });
-    };
-    for (auto flood = territories.floods.rbegin(); flood != territories.floods.rend(); ++flood)
-        std::visit(before, flood->patch.blocks);
+    std::ranges::transform(rows, samples.begin(), [](const auto& row) { return row.sample[0]; });
     return samples;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// The territories of samples and where they touch, while samples come and go at the end of their list.
+// The territories of samples and where they touch, while some of the samples come and go.
 
-#include "graph/flood.h"
+#include "graph/starts_flood.h"
 #include "graph/territory_borders.h"
 
 #include <span>
@@ -9,33 +9,29 @@
 
 namespace knead {
 
-// What the flood from some samples changed.
-struct TerritoryFlood {
-    std::vector<FloodStart> starts;
-    TerritoryPatch patch;
-};
-
-// Territories of base samples, and of samples that were added to them, flood upon flood.
+// Territories of base samples, and of samples that were added to them.
+//
+// Samples are numbered through, so that the numbers of all change that come after one which comes or goes.
+// Here those that were added have numbers of the same order that they keep, with room between them.
 struct ChangingTerritories {
-    TerritoryRows nearest; // of each vertex, with those that were added
-    // Between territories of base samples, then with the first of the floods, with the second, ...
-    std::vector<std::vector<TerritoryBorder>> borders;
-    std::vector<TerritoryFlood> floods;
+    TerritoryRows nearest;                // of each vertex, with those that were added
+    AddedStarts<1> added;                 // that are in these, by their own numbers
+    std::vector<TerritoryBorder> borders; // of all, by the same
 };
 
-// Those of base samples alone; `nearest`: the flood from them over the graph `points`.
-ChangingTerritories territories_of_base(const InfluenceRows& nearest, const Graph& points, Workers& workers);
+// Those of base samples alone; `nearest`: the flood from so many of them over the graph `points`.
+ChangingTerritories territories_of_base(const InfluenceRows& nearest, std::size_t base, const Graph& points,
+                                        Workers& workers);
 
-// Makes `added` the samples beside the base samples, flood upon flood, and returns the borders of all: those
-// of territory_borders_after() each. Only what follows upon the first that is another flood than before is
-// flooded. Whoever is cancelled leaves territories that are good for nothing.
-std::span<const TerritoryBorder> change_added(ChangingTerritories& territories,
-                                              std::vector<std::vector<FloodStart>> added, const Graph& points,
-                                              std::span<const std::uint8_t> lengths, Workers& workers,
-                                              Progress& progress);
+// Makes the samples at these vertices, none of which holds a base sample, those that are there beside the
+// base samples, numbered on from these. Returns all borders: territory_borders(), with the ways of those that
+// were added. Only what samples reach that come or go is flooded. Whoever is cancelled leaves territories
+// that are good for nothing.
+std::vector<TerritoryBorder> change_added(ChangingTerritories& territories, std::span<const Index> added,
+                                          const Graph& points, std::span<const std::uint8_t> lengths,
+                                          Workers& workers, Progress& progress);
 
-// The base sample that is the nearest to each of these vertices, which are different; no_index where none is.
-std::vector<Index> nearest_of_base(const ChangingTerritories& territories, std::span<const Index> vertices,
-                                   Workers& workers);
+// The base sample that is the nearest to each of these vertices; no_index where none is.
+std::vector<Index> nearest_of_base(const ChangingTerritories& territories, std::span<const Index> vertices);
 
 } // namespace knead

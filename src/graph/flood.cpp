@@ -375,54 +375,11 @@ auto flooded(const Graph& graph, std::span<const std::uint8_t> lengths, std::spa
     return use(rows);
 }
 
-// Puts old rows back, into rows that may have become wide since.
-template<typename Old, typename Row>
-void put_back(const OldRows<Old>& blocks, std::vector<Row>& rows) {
+// Puts old rows back.
+template<typename Row>
+void put_back(const OldRows<Row>& blocks, std::vector<Row>& rows) {
     for (const auto& block : blocks)
-        block.each([&](const OldRow<Old>& old) {
-            const Old row{old.sample, old.distance};
-            if constexpr (std::is_same_v<Old, Row>)
-                rows[old.vertex] = row;
-            else
-                rows[old.vertex] = widened(row);
-        });
-}
-
-// Floods from these starts, too.
-template<std::size_t places>
-RowPatch<places> patched(NearestRows<places>& nearest, const Graph& graph,
-                         std::span<const std::uint8_t> lengths, std::span<const FloodStart> starts,
-                         Workers& workers, Progress& progress) {
-    using Narrow = typename NearestRows<places>::Narrow;
-    using Wide = typename NearestRows<places>::Wide;
-    auto* narrow = std::get_if<std::vector<Narrow>>(&nearest.rows);
-    const auto is_narrow = [](const FloodStart& start) {
-        return start.number < Narrow::none && start.distance < Narrow::none;
-    };
-    if (narrow && std::ranges::all_of(starts, is_narrow)) {
-        Flood<Narrow> flood(*narrow, graph, lengths, workers);
-        const bool fits = flood.run(starts, true, progress);
-        auto old_rows = flood.take_old_rows();
-        if (fits) return {std::move(old_rows)};
-        put_back(old_rows, *narrow);
-    }
-    widen(nearest);
-    Flood<Wide> flood(std::get<std::vector<Wide>>(nearest.rows), graph, lengths, workers);
-    require(flood.run(starts, true, progress), "a way along the surface is shorter than 2^32 levels");
-    return {flood.take_old_rows()};
-}
-
-template<std::size_t places>
-void reverted(NearestRows<places>& nearest, const RowPatch<places>& patch) {
-    using Narrow = typename NearestRows<places>::Narrow;
-    std::visit(
-        []<typename Row, typename Old>(std::vector<Row>& rows, const OldRows<Old>& blocks) {
-            if constexpr (std::is_same_v<Row, Old> || std::is_same_v<Old, Narrow>)
-                put_back(blocks, rows);
-            else
-                require(false, "rows do not become narrow again");
-        },
-        nearest.rows, patch.blocks);
+        block.each([&](const OldRow<Row>& old) { rows[old.vertex] = {old.sample, old.distance}; });
 }
 
 } // namespace
@@ -479,23 +436,32 @@ TerritoryRows territory_rows(const InfluenceRows& nearest, Workers& workers) {
         nearest.rows);
 }
 
-FloodPatch add_starts(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
-                      std::span<const FloodStart> starts, Workers& workers, Progress& progress) {
-    return patched(nearest, graph, lengths, starts, workers, progress);
+template<std::size_t places>
+RowPatch<places> add_starts(NearestRows<places>& nearest, const Graph& graph,
+                            std::span<const std::uint8_t> lengths, std::span<const FloodStart> starts,
+                            Workers& workers, Progress& progress) {
+    using Narrow = typename NearestRows<places>::Narrow;
+    using Wide = typename NearestRows<places>::Wide;
+    auto* narrow = std::get_if<std::vector<Narrow>>(&nearest.rows);
+    const auto is_narrow = [](const FloodStart& start) {
+        return start.number < Narrow::none && start.distance < Narrow::none;
+    };
+    if (narrow && std::ranges::all_of(starts, is_narrow)) {
+        Flood<Narrow> flood(*narrow, graph, lengths, workers);
+        const bool fits = flood.run(starts, true, progress);
+        auto old_rows = flood.take_old_rows();
+        if (fits) return {std::move(old_rows)};
+        put_back(old_rows, *narrow);
+    }
+    widen(nearest);
+    Flood<Wide> flood(std::get<std::vector<Wide>>(nearest.rows), graph, lengths, workers);
+    require(flood.run(starts, true, progress), "a way along the surface is shorter than 2^32 levels");
+    return {flood.take_old_rows()};
 }
 
-void revert(InfluenceRows& nearest, const FloodPatch& patch) {
-    reverted(nearest, patch);
-}
-
-TerritoryPatch add_territories(TerritoryRows& nearest, const Graph& graph,
-                               std::span<const std::uint8_t> lengths, std::span<const FloodStart> starts,
-                               Workers& workers, Progress& progress) {
-    return patched(nearest, graph, lengths, starts, workers, progress);
-}
-
-void revert(TerritoryRows& nearest, const TerritoryPatch& patch) {
-    reverted(nearest, patch);
-}
+template FloodPatch add_starts(NearestRows<influences_per_row>&, const Graph&, std::span<const std::uint8_t>,
+                               std::span<const FloodStart>, Workers&, Progress&);
+template TerritoryPatch add_starts(TerritoryRows&, const Graph&, std::span<const std::uint8_t>,
+                                   std::span<const FloodStart>, Workers&, Progress&);
 
 } // namespace knead

@@ -49,7 +49,7 @@ std::vector<Index> territories(const Graph& graph, std::span<const std::uint8_t>
 // The first places of these rows.
 TerritoryRows territory_rows(const InfluenceRows& nearest, Workers& workers);
 
-// What add_starts() or add_territories() changed: whole rows as they were before, each vertex once, by block
+// What add_starts() changed: whole rows as they were before, each vertex once, by block
 // of rows.
 template<typename Row>
 struct OldRow {
@@ -82,16 +82,11 @@ std::vector<FloodStart> starts_of(std::span<const Index> samples, Index first);
 
 // Adds what starts there, as if it had been in the flood from the beginning; only what it reaches is flooded.
 // One that starts from several vertices at once, or later from more of them, is as far from any other as the
-// nearest of them is. The vertices may hold samples. Rows that have become too narrow are made wide. revert()
-// takes it back, what was added last first; wide rows stay wide. A flood that is cancelled leaves rows that
-// are good for nothing.
-FloodPatch add_starts(InfluenceRows& nearest, const Graph& graph, std::span<const std::uint8_t> lengths,
-                      std::span<const FloodStart> starts, Workers& workers, Progress& progress);
-void revert(InfluenceRows& nearest, const FloodPatch& patch);
-// The same of territories alone, which is much less to flood.
-TerritoryPatch add_territories(TerritoryRows& nearest, const Graph& graph,
-                               std::span<const std::uint8_t> lengths, std::span<const FloodStart> starts,
-                               Workers& workers, Progress& progress);
-void revert(TerritoryRows& nearest, const TerritoryPatch& patch);
+// nearest of them is. The vertices may hold samples. Rows that have become too narrow are made wide. A flood
+// that is cancelled leaves rows that are good for nothing. Of territories alone it is much less to flood.
+template<std::size_t places> // influences_per_row, or 1
+RowPatch<places> add_starts(NearestRows<places>& nearest, const Graph& graph,
+                            std::span<const std::uint8_t> lengths, std::span<const FloodStart> starts,
+                            Workers& workers, Progress& progress);
 
 } // namespace knead

@@ -39,13 +39,13 @@ struct Border {
 
 // Those of the labels, without vertices that are taken.
 std::map<Index, Border> open_borders(std::span<const BorderVertex> borders, const std::vector<bool>& taken,
-                                     const ChangingTerritories& nearest, Workers& workers) {
+                                     const ChangingTerritories& nearest) {
     std::vector<BorderVertex> open;
     std::ranges::copy_if(borders, std::back_inserter(open),
                          [&](const BorderVertex& each) { return !taken[each.vertex]; });
     std::vector<Index> vertices(open.size());
     std::ranges::transform(open, vertices.begin(), &BorderVertex::vertex);
-    const std::vector<Index> samples = nearest_of_base(nearest, vertices, workers);
+    const std::vector<Index> samples = nearest_of_base(nearest, vertices);
     std::map<Index, Border> result;
     for (std::size_t i = 0; i < open.size(); ++i) {
         Border& border = result[open[i].label];
@@ -168,7 +168,7 @@ void put_in_order(std::vector<Index>& added, const VertexLabels& labels) {
 
 HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& labels,
                              std::span<const HeldBlock> held, std::span<const Index> base,
-                             const ChangingTerritories& nearest, std::size_t budget, Workers& workers) {
+                             const ChangingTerritories& nearest, std::size_t budget) {
     require(nearest.nearest.size() == labels.label.size(), "a row and a label a vertex");
     const auto part_of = [&](Index v) { return HeldPart{labels.label[v], shape.components.component[v]}; };
     auto [borders, parts] = all_of(held);
@@ -177,7 +177,7 @@ HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& label
         taken[v] = true;
         parts.erase(part_of(v));
     }
-    const std::map<Index, Border> open = open_borders(borders, taken, nearest, workers);
+    const std::map<Index, Border> open = open_borders(borders, taken, nearest);
     const std::map<Index, std::size_t> share = shares(open, budget);
     std::vector<Index> added;
     for (const auto& [label, border] : open)

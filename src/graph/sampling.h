@@ -37,7 +37,7 @@ struct HandleSamples {
 // `held`: find_held() of all these; `base`: vertices, in any order; `nearest`: their territories.
 HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& labels,
                              std::span<const HeldBlock> held, std::span<const Index> base,
-                             const ChangingTerritories& nearest, std::size_t budget, Workers& workers);
+                             const ChangingTerritories& nearest, std::size_t budget);
 
 // The graph between samples, and how long a border the territories of two linked ones share.
 struct SampleGraph {

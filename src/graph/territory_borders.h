@@ -4,7 +4,7 @@
 
 #include "base/workers.h"
 #include "graph/csr.h"
-#include "graph/flood.h"
+#include "graph/starts_flood.h"
 
 #include <span>
 #include <vector>
@@ -12,8 +12,8 @@
 namespace knead {
 
 // Two samples whose territories touch, a < b, how many links of the point graph go from the one to the other
-// (> 0), and the shortest way from sample to sample by one of these, in levels. That is told of added samples
-// alone: where a and b are others it is no_index.
+// (> 0), and the shortest way from sample to sample by one of these, in levels. That is told of samples that
+// were added (starts_flood.h) alone: where b is another it is no_index.
 struct TerritoryBorder {
     Index a = 0, b = 0;
     Index links = 0;
@@ -21,15 +21,17 @@ struct TerritoryBorder {
     bool operator==(const TerritoryBorder&) const = default;
 };
 
-// All borders, ascending by (a, b). `nearest`: the flood from the samples over the graph `points`.
+// All borders, ascending by (a, b). `nearest`: the flood from the samples over the graph `points`, none of
+// which was added.
 std::vector<TerritoryBorder> territory_borders(const TerritoryRows& nearest, const Graph& points,
                                                Workers& workers);
 
-// The same after add_territories() made `nearest` of the rows that `before` are the borders of, and `patch`
-// with it; `lengths` are those of the links. Only vertices that another sample has become the nearest of are
-// looked at.
+// The same after change_starts(added, ...) made `nearest` of the rows that `before` are the borders of, and
+// returned `former`; `lengths` are those of the links. Looked at are vertices that another sample has become
+// the nearest of, and, where the shortest way went, the territory of the one that was added.
 std::vector<TerritoryBorder> territory_borders_after(std::span<const TerritoryBorder> before,
-                                                     const TerritoryPatch& patch,
+                                                     const TerritoryPatch& former,
+                                                     const AddedStarts<1>& added,
                                                      const TerritoryRows& nearest, const Graph& points,
                                                      std::span<const std::uint8_t> lengths, Workers& workers);
 

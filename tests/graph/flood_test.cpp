@@ -28,11 +28,29 @@ bool same_rows(const InfluenceRows& a, const InfluenceRows& b) {
 std::vector<Index> vertices_of(const FloodPatch& patch) {
     std::vector<Index> vertices;
     const auto collect = [&](const auto& blocks) {
-        for (const auto& block : blocks)
-            block.each([&](const auto& old) { vertices.push_back(old.vertex); });
+        for (const auto& block : blocks) block.each([&](const auto& old) { vertices.push_back(old.vertex); });
     };
     std::visit(collect, patch.blocks);
     return vertices;
+}
+
+// Puts the rows that a patch keeps where they were, in rows that may have become wide since.
+template<std::size_t places>
+void put_back(const RowPatch<places>& patch, NearestRows<places>& nearest) {
+    std::visit(
+        []<typename Row, typename Old>(std::vector<Row>& rows, const std::vector<Pile<OldRow<Old>>>& blocks) {
+            for (const auto& block : blocks)
+                block.each([&](const OldRow<Old>& old) {
+                    const Old row{old.sample, old.distance};
+                    if constexpr (std::is_same_v<Row, Old>)
+                        rows[old.vertex] = row;
+                    else if constexpr (sizeof(Row) > sizeof(Old))
+                        rows[old.vertex] = widened(row);
+                    else
+                        FAIL() << "rows do not become narrow again";
+                });
+        },
+        nearest.rows, patch.blocks);
 }
 
 void expect_reached(const WideRow& row, const std::vector<test::Reached>& expected, Index vertex) {
@@ -183,7 +201,7 @@ TEST(Flood, AddsSamplesAsIfTheyHadBeenThereAndTakesThemBack) {
             const std::vector<Index> patched = vertices_of(patch);
             EXPECT_EQ(std::set<Index>(patched.begin(), patched.end()).size(), patched.size())
                 << "a row was kept twice";
-            revert(nearest, patch);
+            put_back(patch, nearest);
             EXPECT_TRUE(same_rows(nearest, before));
         }
     }
@@ -241,11 +259,11 @@ TEST(Flood, AddsTerritoriesAsAllOfItWould) {
                     ASSERT_EQ(nearest[v].distance[0], rows[v].distance[0]) << v;
                 }
             };
-            const TerritoryPatch patch = add_territories(nearest, cloud.graph, cloud.lengths,
-                                                         starts_of(added, static_cast<Index>(base)),
-                                                         machine.workers, machine.progress);
+            const TerritoryPatch patch =
+                add_starts(nearest, cloud.graph, cloud.lengths, starts_of(added, static_cast<Index>(base)),
+                           machine.workers, machine.progress);
             expect_first_of(flooded(cloud, cloud.lengths, samples));
-            revert(nearest, patch);
+            put_back(patch, nearest);
             expect_first_of(flooded(cloud, cloud.lengths, old));
         }
 }
@@ -277,7 +295,7 @@ TEST(Flood, StartsFromSeveralVerticesAsFromTheNearestOfThem) {
         expected.resize(std::min(expected.size(), influences_per_row));
         expect_reached(nearest[v], expected, v);
     }
-    revert(nearest, patch);
+    put_back(patch, nearest);
     EXPECT_TRUE(same_rows(nearest, before));
 }
 
@@ -402,7 +420,7 @@ TEST(Flood, WidensRowsWhenAnAddedSampleIsTooFarForThem) {
         for (std::size_t k = 0; k < 2; ++k)
             ASSERT_EQ(row.distance.at(k), row.sample.at(k) == 0 ? v : 63 * (4999 - v));
     }
-    revert(nearest, patch);
+    put_back(patch, nearest);
     EXPECT_TRUE(same_rows(nearest, before));
     EXPECT_TRUE(nearest.are_wide());
 }
@@ -425,7 +443,7 @@ TEST(Flood, WidensRowsWhenThereAreMoreSamplesThanNarrowOnesCount) {
     EXPECT_TRUE(all.are_wide());
     EXPECT_TRUE(same_rows(nearest, all));
     EXPECT_EQ(all[65'999].sample[0], 65'535U);
-    revert(nearest, patch);
+    put_back(patch, nearest);
     EXPECT_TRUE(same_rows(nearest, before));
 }
 

@@ -74,11 +74,12 @@ SampleGraph with_added(const Cloud& cloud, const std::vector<Index>& samples, st
         flood(cloud.graph, cloud.lengths, all.first(base), machine.workers, machine.progress);
     TerritoryRows territory = territory_rows(nearest, machine.workers);
     const auto before = territory_borders(territory, cloud.graph, machine.workers);
-    const TerritoryPatch patch = add_territories(territory, cloud.graph, cloud.lengths,
-                                                 starts_of(all.subspan(base), static_cast<Index>(base)),
-                                                 machine.workers, machine.progress);
+    const auto first_added = static_cast<Index>(base);
+    AddedStarts<1> added = no_starts(territory, first_added);
+    const TerritoryPatch patch = change_starts(added, starts_of(all.subspan(base), first_added), territory,
+                                               cloud.graph, cloud.lengths, machine.workers, machine.progress);
     const auto borders =
-        territory_borders_after(before, patch, territory, cloud.graph, cloud.lengths, machine.workers);
+        territory_borders_after(before, patch, added, territory, cloud.graph, cloud.lengths, machine.workers);
     return sample_graph(rows_at(nearest, samples), borders, machine.workers);
 }
 

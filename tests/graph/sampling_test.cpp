@@ -21,7 +21,7 @@ std::vector<Index> handle_samples_of(const Cloud& cloud, std::span<const Index> 
     std::vector<HeldBlock> blocks;
     find_held({label, held}, held, cloud.graph, cloud.positions, cloud.components, machine.workers, blocks);
     return handle_samples(cloud.shape(), {label, held}, blocks, base,
-                          territories_of_base(nearest, cloud.graph, machine.workers), budget, machine.workers)
+                          territories_of_base(nearest, base.size(), cloud.graph, machine.workers), budget)
         .added;
 }
 

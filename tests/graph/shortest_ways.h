@@ -10,7 +10,8 @@
 
 namespace knead::test {
 
-// Algorithm 1 with lengths: the first k samples by (distance, sample number). `lengths`: one entry for every entry of graph.neighbor.
+// Algorithm 1 with lengths: the first k samples by (distance, sample number). `lengths`: one entry for every
+// entry of graph.neighbor.
 inline std::vector<Reached> nearest_by_length(const Graph& graph, std::span<const std::uint8_t> lengths,
                                               const std::vector<Index>& samples, Index start,
                                               std::size_t k = influences_per_row) {

@@ -34,12 +34,12 @@ struct Changing {
     const Cloud& cloud;
     InfluenceRows base;
     InfluenceRows rows = base;
-    AddedStarts added;
+    AddedStarts<influences_per_row> added;
     Machine machine;
 
     Changing(const Cloud& flooded_cloud, const std::vector<Index>& samples)
         : cloud(flooded_cloud), base(flooded(flooded_cloud, samples)),
-          added(no_starts(base, static_cast<Index>(samples.size()))) {}
+          added(no_starts<influences_per_row>(base, static_cast<Index>(samples.size()))) {}
 
     static InfluenceRows flooded(const Cloud& cloud, const std::vector<Index>& samples) {
         Machine machine;
@@ -75,7 +75,7 @@ struct Changing {
                 for (const auto& block : blocks)
                     block.each([&](const auto& old) { vertices.insert(old.vertex), ++count; });
             },
-            added.without);
+            added.without.blocks);
         EXPECT_EQ(vertices.size(), count);
         return count;
     }

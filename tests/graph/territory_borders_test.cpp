@@ -1,41 +1,21 @@
 // Borders of territories: counted link by link, and followed through a change of the samples.
 
 #include "graph/clouds.h"
+#include "graph/counted_borders.h"
 #include "graph/territory_borders.h"
 
 #include <algorithm>
-#include <map>
 
 namespace knead {
 namespace {
 
 using test::Cloud;
+using test::counted;
 using test::Machine;
 
 TerritoryRows flooded(const Cloud& cloud, const std::vector<Index>& samples, Machine& machine) {
     return territory_rows(flood(cloud.graph, cloud.lengths, samples, machine.workers, machine.progress),
                           machine.workers);
-}
-
-// Counted for every link from both ends, in the plainest way. Samples from `first_added` on were added.
-std::vector<TerritoryBorder> counted(const Cloud& cloud, const TerritoryRows& nearest,
-                                     Index first_added = no_index) {
-    std::map<std::pair<Index, Index>, TerritoryBorder> borders;
-    for (Index p = 0; p < cloud.size(); ++p)
-        for (Index link = cloud.graph.first[p]; link < cloud.graph.first[p + 1]; ++link) {
-            const TerritoryRows::Wide here = nearest[p], there = nearest[cloud.graph.neighbor[link]];
-            const Index a = here.sample[0], b = there.sample[0];
-            if (!(a < b)) continue;
-            TerritoryBorder& border = borders[{a, b}];
-            border.a = a;
-            border.b = b;
-            ++border.links;
-            if (b >= first_added)
-                border.way = std::min(border.way, here.distance[0] + cloud.lengths[link] + there.distance[0]);
-        }
-    std::vector<TerritoryBorder> result;
-    for (const auto& [pair, border] : borders) result.push_back(border);
-    return result;
 }
 
 TEST(TerritoryBorders, AreTheLinksBetweenTerritories) {
@@ -63,10 +43,11 @@ TEST(TerritoryBorders, FollowAddedSamples) {
                 TerritoryRows nearest = flooded(cloud, old, machine);
                 const auto before = territory_borders(nearest, cloud.graph, machine.workers);
                 const auto first_added = static_cast<Index>(base);
+                AddedStarts<1> starts = no_starts(nearest, first_added);
                 const TerritoryPatch patch =
-                    add_territories(nearest, cloud.graph, cloud.lengths, starts_of(added, first_added),
-                                    machine.workers, machine.progress);
-                EXPECT_EQ(territory_borders_after(before, patch, nearest, cloud.graph, cloud.lengths,
+                    change_starts(starts, starts_of(added, first_added), nearest, cloud.graph, cloud.lengths,
+                                  machine.workers, machine.progress);
+                EXPECT_EQ(territory_borders_after(before, patch, starts, nearest, cloud.graph, cloud.lengths,
                                                   machine.workers),
                           counted(cloud, flooded(cloud, samples, machine), first_added));
             }
@@ -81,12 +62,14 @@ TEST(TerritoryBorders, FollowSamplesThatMakeRowsWide) {
     TerritoryRows nearest = flooded(cloud, samples, machine);
     ASSERT_FALSE(nearest.are_wide());
     const auto before = territory_borders(nearest, cloud.graph, machine.workers);
-    const TerritoryPatch patch = add_territories(nearest, cloud.graph, cloud.lengths,
-                                                 starts_of(added, static_cast<Index>(samples.size())),
-                                                 machine.workers, machine.progress);
+    const auto first_added = static_cast<Index>(samples.size());
+    AddedStarts<1> starts = no_starts(nearest, first_added);
+    const TerritoryPatch patch = change_starts(starts, starts_of(added, first_added), nearest, cloud.graph,
+                                               cloud.lengths, machine.workers, machine.progress);
     ASSERT_TRUE(nearest.are_wide());
-    EXPECT_EQ(territory_borders_after(before, patch, nearest, cloud.graph, cloud.lengths, machine.workers),
-              counted(cloud, nearest, static_cast<Index>(samples.size())));
+    EXPECT_EQ(
+        territory_borders_after(before, patch, starts, nearest, cloud.graph, cloud.lengths, machine.workers),
+        counted(cloud, nearest, first_added));
 }
 
 TEST(TerritoryBorders, AreTheSameForAnyNumberOfThreads) {

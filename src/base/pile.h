@@ -87,12 +87,13 @@ public:
     }
 
 private:
+    static constexpr std::size_t items_a_piece = 32;
+
     struct Piece {
         std::unique_ptr<Piece> below; // which is full
         std::size_t count;
-        std::array<Item, std::max<std::size_t>(1, 496 / sizeof(Item))> items;
+        std::array<Item, items_a_piece> items;
     };
-    static constexpr std::size_t items_a_piece = std::tuple_size_v<decltype(Piece::items)>;
 
     void pop_piece() { top_ = std::move(top_->below); }
 

@@ -126,7 +126,9 @@ void overlays(const Ui& ui) {
 void up_choice(const Ui& ui) {
     inline_caption("Upwards", ui.scaled(92));
     const int up = segmented("up", {"Z", "Y"}, ui.editor.camera.up == UpAxis::z ? 0 : 1);
-    explain("Which axis of the file points upwards: for the ground, the horizon and the views 1, 3 and 7");
+    explain("Which axis of the file points upwards: for the ground, the horizon and the views 1, 3 and 7. "
+            "Where a cloud "
+            "clearly stands on something it begins with that");
     if (up >= 0) ui.wish(WishUpAxis{up == 0 ? UpAxis::z : UpAxis::y});
 }
 

@@ -11,6 +11,7 @@
 #include "app/window.h"
 #include "app/wishes.h"
 #include "base/stopwatch.h"
+#include "view/standing.h"
 
 #include <epoxy/gl.h>
 
@@ -221,7 +222,7 @@ bool take_news(Loop& loop) {
         loop.state.playback.steps = 0; // where looking began was in the document before
         loop.state.playback.wanted.reset();
         lay_out(loop);
-        set_up(editor.camera, loop.state.display.up);
+        set_up(editor.camera, standing_axis(editor.frame.positions).value_or(loop.state.display.up));
         if (loop.state.opening_demonstration) face_creature(editor);
         apply(editor, FrameView{FrameWhat::everything});
         loop.frames_to_draw = 3;

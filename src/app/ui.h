@@ -73,7 +73,7 @@ struct WishLocalAxes {
 struct WishOrbiting {
     Orbiting style = Orbiting::turntable;
 };
-struct WishUpAxis { // of the camera and the ground; remembered for the next cloud
+struct WishUpAxis { // of the camera and the ground; remembered for clouds that do not tell theirs
     UpAxis up = UpAxis::z;
 };
 struct WishChooseSamples { // or leave their number alone; remembered for the next cloud

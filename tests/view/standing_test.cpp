@@ -1,0 +1,75 @@
+#include "view/standing.h"
+
+#include "io/cloud_file.h"
+#include "shapes/shapes.h"
+#include "support/scans.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace knead {
+namespace {
+
+// The same cloud with y where z was, so that it stands along y.
+std::vector<float> turned(std::vector<float> positions) {
+    for (std::size_t i = 0; i < positions.size(); i += 3) {
+        std::swap(positions[i + 1], positions[i + 2]);
+        positions[i + 2] *= -1;
+    }
+    return positions;
+}
+
+std::vector<float> made(Shape shape, std::size_t points = 6000) {
+    Workers workers(2);
+    SilentProgress progress;
+    ShapeOptions options;
+    options.points = points;
+    return make_shape(shape, options, workers, progress).positions;
+}
+
+TEST(Standing, IsToldByTheGround) {
+    for (const std::size_t points : {6000U, 200'000U}) // of the latter not all are looked at
+        for (const Shape shape : {Shape::cylinder, Shape::plane}) {
+            const std::vector<float> positions = made(shape, points);
+            EXPECT_EQ(standing_axis(positions), UpAxis::z);
+            EXPECT_EQ(standing_axis(turned(positions)), UpAxis::y);
+        }
+}
+
+TEST(Standing, IsNotToldOfWhatStandsEitherWayOrNot) {
+    EXPECT_EQ(standing_axis({}), std::nullopt);
+    EXPECT_EQ(standing_axis(std::vector<float>{1, 2, 3}), std::nullopt);
+    EXPECT_EQ(standing_axis(std::vector<float>(300, 1)), std::nullopt);
+    EXPECT_EQ(standing_axis(made(Shape::sphere)), std::nullopt);
+    EXPECT_EQ(standing_axis(made(Shape::bar)), std::nullopt) << "a face below, whichever way";
+}
+
+TEST(Standing, IsNotChangedByStrays) {
+    std::vector<float> positions = turned(made(Shape::cylinder));
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> anywhere(-50, 50);
+    for (int i = 0; i < 3 * 15; ++i) positions.push_back(anywhere(random));
+    EXPECT_EQ(standing_axis(positions), UpAxis::y);
+}
+
+TEST(Standing, IsThatOfScans) {
+    const std::pair<const char*, std::optional<UpAxis>> scans[] = {
+        {"bunny.ply", UpAxis::y},
+        {"armadillo_86k.ply", UpAxis::y},
+        {"dragon.ply", UpAxis::y},
+        {"horse_48k.ply", UpAxis::z},
+        {"lion_takanawa_342k.ply", UpAxis::z},
+        {"pcl_room_scan1.ply", UpAxis::z},
+        {"open3d_fragment_196k.ply", std::nullopt}, // upside down
+    };
+    for (const auto& [name, up] : scans) {
+        KNEAD_SCAN_OR_SKIP(path, name);
+        SilentProgress progress;
+        EXPECT_EQ(standing_axis(read_cloud(path, progress).positions), up) << name;
+    }
+}
+
+} // namespace
+} // namespace knead

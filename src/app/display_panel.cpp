@@ -5,6 +5,7 @@
 #include "app/widgets.h"
 #include "base/counts.h"
 
+#include <algorithm>
 #include <array>
 
 namespace knead {
@@ -125,11 +126,13 @@ void overlays(const Ui& ui) {
 // The rest of the camera is in the menu "View" and on keys; this is what a new cloud may need at once.
 void up_choice(const Ui& ui) {
     inline_caption("Upwards", ui.scaled(92));
-    const int up = segmented("up", {"Z", "Y"}, ui.editor.camera.up == UpAxis::z ? 0 : 1);
-    explain("Which axis of the file points upwards: for the ground, the horizon and the views 1, 3 and 7. "
-            "Where a cloud "
-            "clearly stands on something it begins with that");
-    if (up >= 0) ui.wish(WishUpAxis{up == 0 ? UpAxis::z : UpAxis::y});
+    constexpr std::array axes = {UpAxis::z, UpAxis::y, UpAxis::minus_y};
+    const auto now = std::ranges::find(axes, ui.editor.camera.up) - axes.begin();
+    const int up = segmented("up", {"Z", "Y", "-Y"}, static_cast<int>(now));
+    explain("Which axis of the file points upwards: for the ground, the horizon and the views 1, 3 and 7. A "
+            "cloud "
+            "that clearly stands on something begins with the right one; of others the choice is remembered");
+    if (up >= 0) ui.wish(WishUpAxis{axes.at(static_cast<std::size_t>(up))});
 }
 
 } // namespace

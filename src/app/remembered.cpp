@@ -2,7 +2,9 @@
 
 #include "app/kept_text.h"
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 namespace knead {
@@ -11,6 +13,12 @@ namespace {
 
 constexpr const char* settings_name = "window";
 
+struct NamedAxis {
+    const char* name;
+    UpAxis up;
+};
+constexpr NamedAxis axes[] = {{"z", UpAxis::z}, {"y", UpAxis::y}, {"-y", UpAxis::minus_y}};
+
 } // namespace
 
 Remembered read_remembered() {
@@ -18,15 +26,18 @@ Remembered read_remembered() {
     std::ifstream in(kept_file(settings_name));
     std::string name, value;
     while (in >> name >> value) {
-        if (name == "up") choices.up = value == "y" ? UpAxis::y : UpAxis::z;
+        if (name == "up")
+            if (const auto axis = std::ranges::find(axes, value, &NamedAxis::name); axis != std::end(axes))
+                choices.up = axis->up;
         if (name == "samples") choices.choose_samples = value != "by-hand";
     }
     return choices;
 }
 
 void remember(const Remembered& choices) {
-    const std::string up = choices.up == UpAxis::y ? "up y\n" : "up z\n";
-    keep_text(settings_name, up + (choices.choose_samples ? "samples automatic\n" : "samples by-hand\n"));
+    const std::string up = std::ranges::find(axes, choices.up, &NamedAxis::up)->name;
+    keep_text(settings_name,
+              "up " + up + "\n" + (choices.choose_samples ? "samples automatic\n" : "samples by-hand\n"));
 }
 
 } // namespace knead

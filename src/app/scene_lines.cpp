@@ -17,10 +17,9 @@ constexpr std::uint32_t rgba(unsigned red, unsigned green, unsigned blue, unsign
 void add_ground(const Editor& editor, std::vector<OverlayLine>& lines) {
     const Box3 box = bulk_box(editor.opened.opened->positions); // stray points below do not lower the ground
     const glm::dvec3 middle = (box.lowest + box.highest) / 2.0;
-    const bool y_up = editor.camera.up == UpAxis::y;
-    // Across and along the ground: x and y, or x and z.
-    const glm::length_t along = y_up ? 2 : 1, upward = y_up ? 1 : 2;
-    const double ground = box.lowest[upward];
+    const auto [axis, sign] = upward(editor.camera.up);
+    const glm::length_t along = 3 - axis; // across and along the ground: x and y, or x and z
+    const double ground = sign > 0 ? box.lowest[axis] : box.highest[axis];
     const double reach = std::max(glm::distance(box.lowest, box.highest), 1e-9);
     const double step = std::pow(10.0, std::floor(std::log10(reach / 3)));
     const double fine = reach / step > 15 ? 2 * step : step;
@@ -28,12 +27,12 @@ void add_ground(const Editor& editor, std::vector<OverlayLine>& lines) {
     const auto point = [&](double x, double y) {
         glm::vec3 place(static_cast<float>(x));
         place[along] = static_cast<float>(y);
-        place[upward] = static_cast<float>(ground);
+        place[axis] = static_cast<float>(ground);
         return place;
     };
     const double x0 = std::round(middle.x / fine) * fine, y0 = std::round(middle[along] / fine) * fine;
     const double half = count * fine;
-    const std::uint32_t middle_color = y_up ? rgba(75, 125, 220, 120) : rgba(100, 165, 60, 120);
+    const std::uint32_t middle_color = along == 2 ? rgba(75, 125, 220, 120) : rgba(100, 165, 60, 120);
     for (int i = -count; i <= count; ++i) {
         // Fainter towards the ends.
         const double fade = 1 - std::abs(static_cast<double>(i)) / (count + 1);

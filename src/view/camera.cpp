@@ -26,7 +26,7 @@ glm::dquat turn(double angle, const glm::dvec3& axis) {
 
 // The world with z upwards, to the one with that axis upwards.
 glm::dquat upright(UpAxis up) {
-    return up == UpAxis::z ? glm::dquat(1, 0, 0, 0) : turn(-pi / 2, {1, 0, 0});
+    return up == UpAxis::z ? glm::dquat(1, 0, 0, 0) : turn(-upward(up).sign * pi / 2, {1, 0, 0});
 }
 
 // In a world with z upwards: turned by `azimuth` about the z axis from the front, and tipped up from looking

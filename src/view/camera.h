@@ -24,9 +24,18 @@ enum class Orbiting {
     trackball  // about the screen's two axes
 };
 
-// Which of the world's axes points upwards. With y up, x points to the right and z to the front; with z up, y
-// points to the back.
-enum class UpAxis { z, y };
+// Which of the world's axes points upwards. With z up, x points to the right and y to the back; with y up z
+// to the front; with y down, as depth cameras and photogrammetry have it, z to the back.
+enum class UpAxis { z, y, minus_y };
+
+// How high a place is: along which coordinate, and in which sense.
+struct Upward {
+    glm::length_t axis;
+    int sign; // 1 or -1
+};
+constexpr Upward upward(UpAxis up) {
+    return {up == UpAxis::z ? 2 : 1, up == UpAxis::minus_y ? -1 : 1};
+}
 
 // The eye stands at pivot + orientation · (offset, distance) and looks along -z of `orientation`, whose y is
 // up on the screen. Take eye_of() rather than this formula.

@@ -90,9 +90,11 @@ ValueRange color_values(std::span<const float> values, const std::optional<Value
     return range;
 }
 
-std::vector<float> heights(const PointsToColor& points, std::size_t axis) {
+std::vector<float> heights(const PointsToColor& points, const Upward& up) {
     std::vector<float> values(points.positions.size() / 3);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = points.positions[3 * i + axis];
+    const auto axis = static_cast<std::size_t>(up.axis);
+    const auto sign = static_cast<float>(up.sign);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = sign * points.positions[3 * i + axis];
     return values;
 }
 
@@ -125,11 +127,11 @@ void color_by_normal(const PointsToColor& points, std::span<std::uint32_t> color
 Legend color_by_height(const ColorBy& by, const PointsToColor& points, std::span<std::uint32_t> colors,
                        Workers& workers) {
     // Positions are relative to the origin; the scale is told in the file's coordinates.
-    const std::size_t axis = by.up == UpAxis::y ? 1 : 2;
-    const double origin = points.cloud->origin[static_cast<Eigen::Index>(axis)];
+    const auto [axis, sign] = upward(by.up);
+    const double origin = sign * points.cloud->origin[static_cast<Eigen::Index>(axis)];
     std::optional<ValueRange> given = by.range;
     if (given) given = ValueRange{given->low - origin, given->high - origin};
-    const ValueRange range = color_values(heights(points, axis), given, colors, workers);
+    const ValueRange range = color_values(heights(points, upward(by.up)), given, colors, workers);
     return {"height", by.range ? *by.range : ValueRange{range.low + origin, range.high + origin}};
 }
 

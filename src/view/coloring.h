@@ -27,7 +27,7 @@ struct ColorBy {
     enum class Kind {
         rgb,       // the file's own colours; where it has none, `plain`
         plain,     // `plain` for all
-        height,    // along `up`, in the file's coordinates
+        height,    // along `up`, in the file's coordinates: -y where y points down
         normal,    // the direction of the normal: x, y, z as red, green, blue; where there are none, `plain`
         attribute, // the file's column called `attribute`
         values     // numbers that the caller computed (displacement, stretch)

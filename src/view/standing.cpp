@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_points = 50'000;
 constexpr double strays = 0.002; // of the points, at either end of an axis
 constexpr double lowest = 0.03;  // of the extent
-constexpr double least_share = 0.2, clearly = 1.5;
+constexpr double least_share = 0.2, least_share_above = 0.5, clearly = 1.5;
 
 using Place = glm::dvec3;
 using Flat = std::pair<double, double>;
@@ -60,13 +60,11 @@ double area_of_hull(std::vector<Flat> points) {
 }
 
 // How much of what is below the cloud its lowest points cover, 0 … 1.
-double support_along(glm::length_t axis, const std::array<Extent, 3>& extents,
-                     const std::vector<Place>& places) {
-    const glm::length_t across = axis == 1 ? 2 : 1;
-    std::vector<Flat> all, low;
-    const double height =
-        extents[static_cast<std::size_t>(axis)].low +
-        lowest * (extents[static_cast<std::size_t>(axis)].high - extents[static_cast<std::size_t>(axis)].low);
+double support(UpAxis up, const std::array<Extent, 3>& extents, const std::vector<Place>& places) {
+    const auto [axis, sign] = upward(up);
+    const glm::length_t across = 3 - axis;
+    const auto [low, high] = extents[static_cast<std::size_t>(axis)];
+    std::vector<Flat> all, lowest_of_all;
     const auto is_stray = [&](const Place& place) {
         for (glm::length_t a = 0; a < 3; ++a) {
             const Extent& extent = extents[static_cast<std::size_t>(a)];
@@ -77,10 +75,11 @@ double support_along(glm::length_t axis, const std::array<Extent, 3>& extents,
     for (const Place& place : places) {
         if (is_stray(place)) continue;
         all.emplace_back(place.x, place[across]);
-        if (place[axis] <= height) low.push_back(all.back());
+        const double height = sign > 0 ? place[axis] - low : high - place[axis];
+        if (height <= lowest * (high - low)) lowest_of_all.push_back(all.back());
     }
     const double area = area_of_hull(std::move(all));
-    return area > 0 ? area_of_hull(std::move(low)) / area : 0;
+    return area > 0 ? area_of_hull(std::move(lowest_of_all)) / area : 0;
 }
 
 } // namespace
@@ -90,9 +89,11 @@ std::optional<UpAxis> standing_axis(std::span<const float> positions) {
     if (places.empty()) return std::nullopt;
     const std::array<Extent, 3> extents = {extent_along(0, places), extent_along(1, places),
                                            extent_along(2, places)};
-    const double y = support_along(1, extents, places), z = support_along(2, extents, places);
+    const double y = support(UpAxis::y, extents, places), z = support(UpAxis::z, extents, places);
     if (z >= least_share && z >= clearly * y) return UpAxis::z;
     if (y >= least_share && y >= clearly * z) return UpAxis::y;
+    if (std::max(y, z) < least_share && support(UpAxis::minus_y, extents, places) >= least_share_above)
+        return UpAxis::minus_y;
     return std::nullopt;
 }
 

@@ -11,8 +11,9 @@ namespace knead {
 // The axis along which the cloud stands: what a floor, a base or feet spread out at the low end of it. Files
 // do not say; surveys have z upwards, most models y. Told by the lowest 3 % along either axis: by the share
 // that their convex hull, seen from above, has of that of all points. The larger share is of the axis if it
-// is a fifth at least and half as much again as the other; else nothing can be told. Upside down is not
-// looked for. `positions`: 3n floats, finite, in any order; some 50,000 of them are looked at.
+// is a fifth at least and half as much again as the other. Where neither is that large and the highest 3 %
+// along y have half of it, y points down. Else nothing can be told. `positions`: 3n floats, finite, in any
+// order; some 50,000 of them are looked at.
 std::optional<UpAxis> standing_axis(std::span<const float> positions);
 
 } // namespace knead

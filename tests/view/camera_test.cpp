@@ -100,11 +100,15 @@ TEST(Camera, AnotherUpwardAxisKeepsTheSideAndTheLevel) {
     set_up(tipped, UpAxis::z);
     EXPECT_TRUE(near(back_of(tipped), from, 1e-12));
     EXPECT_TRUE(near(up_of(tipped), up_of(camera), 1e-12)) << "and back";
+    set_up(tipped, UpAxis::minus_y);
+    EXPECT_TRUE(near(back_of(tipped), {from.x, -from.z, from.y}, 1e-12)) << "z where -y was, and y in front";
+    EXPECT_LT(up_of(tipped).y, 0);
 }
 
 TEST(Camera, FirstViewStandsUpright) {
     const Box3 box{{-1, -2, -3}, {1, 2, 3}};
     const Camera z_up = first_view(box, screen), y_up = first_view(box, screen, UpAxis::y);
+    EXPECT_LT(up_of(first_view(box, screen, UpAxis::minus_y)).y, -0.9);
     EXPECT_GT(up_of(z_up).z, 0.9);
     EXPECT_GT(up_of(y_up).y, 0.9);
     EXPECT_EQ(y_up.up, UpAxis::y);

@@ -93,6 +93,19 @@ TEST(Coloring, tells_height_in_the_files_coordinates) {
     EXPECT_EQ(it.legend.range, by.range);
 }
 
+TEST(Coloring, tells_height_along_any_axis) {
+    Colored it(3);
+    it.cloud = make_cloud(std::vector<float>{0, 1, 5, 0, 2, 4, 0, 3, 6});
+    ColorBy by;
+    by.kind = ColorBy::Kind::height;
+    by.up = UpAxis::y;
+    by.range = ValueRange{1, 3};
+    EXPECT_EQ(it.colors(by), (std::vector<std::uint32_t>{scale(0), scale(0.5), scale(1)}));
+    by.up = UpAxis::minus_y;
+    by.range = ValueRange{-3, -1};
+    EXPECT_EQ(it.colors(by), (std::vector<std::uint32_t>{scale(1), scale(0.5), scale(0)}));
+}
+
 TEST(Coloring, shows_normals_as_colours) {
     Colored it(1);
     it.normals = {1, 0, -1};

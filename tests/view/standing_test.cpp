@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -46,6 +48,20 @@ TEST(Standing, IsNotToldOfWhatStandsEitherWayOrNot) {
     EXPECT_EQ(standing_axis(made(Shape::bar)), std::nullopt) << "a face below, whichever way";
 }
 
+// A pyramid that stands on its base, whatever is up there.
+TEST(Standing, IsToldOfWhatStandsUpsideDown) {
+    std::vector<float> positions;
+    for (int i = 0; i < 40; ++i)
+        for (int j = 0; j < 40; ++j) {
+            const float x = static_cast<float>(i) - 19.5F, z = static_cast<float>(j) - 19.5F;
+            for (const float y : {20 - std::max(std::abs(x), std::abs(z)), 0.0F})
+                positions.insert(positions.end(), {x, y, z});
+        }
+    EXPECT_EQ(standing_axis(positions), UpAxis::y);
+    for (std::size_t i = 1; i < positions.size(); i += 3) positions[i] *= -1;
+    EXPECT_EQ(standing_axis(positions), UpAxis::minus_y);
+}
+
 TEST(Standing, IsNotChangedByStrays) {
     std::vector<float> positions = turned(made(Shape::cylinder));
     std::mt19937 random(1);
@@ -62,7 +78,7 @@ TEST(Standing, IsThatOfScans) {
         {"horse_48k.ply", UpAxis::z},
         {"lion_takanawa_342k.ply", UpAxis::z},
         {"pcl_room_scan1.ply", UpAxis::z},
-        {"open3d_fragment_196k.ply", std::nullopt}, // upside down
+        {"open3d_fragment_196k.ply", UpAxis::minus_y},
     };
     for (const auto& [name, up] : scans) {
         KNEAD_SCAN_OR_SKIP(path, name);

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <sstream>
 
 namespace knead::test {
 
@@ -268,6 +269,44 @@ TEST_F(WindowTest, ASessionWhoseCloudWasMovedAsksWhereItIs) {
         wait_until([&] { return read_session(folder_ / "work.knead").cloud == "moved/elsewhere.ply"; }));
     desktop_->keys({"ctrl+q"});
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+}
+
+// A tube that stands along y: what the lasso goes round from the front is its upper end.
+TEST_F(WindowTest, ACloudThatStandsAlongYIsUpright) {
+    const std::filesystem::path made = folder_ / "made.ply", tube = folder_ / "tube.xyz";
+    ASSERT_EQ(run_knead({"make", "cylinder", "--points", "5000", "--out", made.string()}).code, 0);
+    SilentProgress silent;
+    const PointCloud along_z = read_cloud(made, silent);
+    std::ostringstream text;
+    for (std::size_t i = 0; i < along_z.size(); ++i) {
+        const Vec3d p = along_z.file_position(i);
+        text << p.x() << ' ' << p.z() << ' ' << -p.y() << '\n';
+    }
+    write_text(tube, text.str());
+    cloud_ = read_cloud(tube, silent);
+    set_up(camera_, UpAxis::y);
+    look_at_side(camera_, Side::front);
+    frame(camera_, bulk_box(cloud_.positions), viewport);
+
+    editor_ = desktop_->open_editor({tube.string()});
+    ASSERT_TRUE(desktop_->wait_for_title("tube.xyz")) << read_text(folder_ / "editor.log");
+    desktop_->focus();
+    pause(0.5);
+    desktop_->keys({"1", "Home", "t"});
+    desktop_->drag(1, {on_screen(-0.8, 1.5, 0), on_screen(0.8, 1.5, 0), on_screen(0.8, 2.8, 0),
+                       on_screen(-0.8, 2.8, 0), on_screen(-0.8, 1.5, 0)});
+    desktop_->keys({"h"});
+    ASSERT_TRUE(wait_for_act("handle", 1));
+    save("ctrl+s", folder_ / "kept.knead");
+    desktop_->keys({"ctrl+q"});
+    EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+    const Session session = read_session(folder_ / "kept.knead");
+    const auto& end = std::get<HandleLine>(session.lines.at(0).action);
+    std::size_t points = 0;
+    for (const IndexRange& range : std::get<std::vector<IndexRange>>(end.points))
+        for (std::size_t i = range.first; i <= range.last; ++i, ++points)
+            EXPECT_GT(cloud_.file_position(i).y(), 1.4);
+    EXPECT_GT(points, 500U);
 }
 
 TEST_F(WindowTest, SaysWhyAFileCannotBeOpenedAndStaysUsable) {

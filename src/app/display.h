@@ -19,7 +19,7 @@ struct Display {
     bool automatic_range = true; // of a scalar; else this one
     ValueRange range;
     PointLook look;        // its pixel_scale is the main loop's
-    UpAxis up = UpAxis::z; // that was chosen last: of clouds that do not tell (standing_axis()); see WishUpAxis
+    UpAxis up = UpAxis::z; // that was chosen last, see WishUpAxis: of clouds that do not tell theirs
     bool grid = true;
     bool axes = true;
     bool samples = false; // of the solver, once it has chosen some

@@ -17,9 +17,9 @@ constexpr std::uint32_t rgba(unsigned red, unsigned green, unsigned blue, unsign
 void add_ground(const Editor& editor, std::vector<OverlayLine>& lines) {
     const Box3 box = bulk_box(editor.opened.opened->positions); // stray points below do not lower the ground
     const glm::dvec3 middle = (box.lowest + box.highest) / 2.0;
-    const auto [axis, sign] = upward(editor.camera.up);
-    const glm::length_t along = 3 - axis; // across and along the ground: x and y, or x and z
-    const double ground = sign > 0 ? box.lowest[axis] : box.highest[axis];
+    const Upward up = upward(editor.camera.up);
+    const glm::length_t along = 3 - up.axis; // across and along the ground: x and y, or x and z
+    const double ground = up.sign > 0 ? box.lowest[up.axis] : box.highest[up.axis];
     const double reach = std::max(glm::distance(box.lowest, box.highest), 1e-9);
     const double step = std::pow(10.0, std::floor(std::log10(reach / 3)));
     const double fine = reach / step > 15 ? 2 * step : step;
@@ -27,7 +27,7 @@ void add_ground(const Editor& editor, std::vector<OverlayLine>& lines) {
     const auto point = [&](double x, double y) {
         glm::vec3 place(static_cast<float>(x));
         place[along] = static_cast<float>(y);
-        place[axis] = static_cast<float>(ground);
+        place[up.axis] = static_cast<float>(ground);
         return place;
     };
     const double x0 = std::round(middle.x / fine) * fine, y0 = std::round(middle[along] / fine) * fine;

@@ -40,12 +40,14 @@ ChangingTerritories territories_of_base(const InfluenceRows& nearest, std::size_
 std::vector<TerritoryBorder> change_added(ChangingTerritories& territories, std::span<const Index> added,
                                           const Graph& points, std::span<const std::uint8_t> lengths,
                                           Workers& workers, Progress& progress) {
-    auto& [nearest, starts, borders] = territories;
+    TerritoryRows& nearest = territories.nearest;
+    AddedStarts<1>& starts = territories.added;
     const std::vector<FloodStart> wanted = starts_of_added(starts, added);
     const TerritoryPatch former = change_starts(starts, wanted, nearest, points, lengths, workers, progress);
-    borders = territory_borders_after(borders, former, starts, nearest, points, lengths, workers);
+    territories.borders =
+        territory_borders_after(territories.borders, former, starts, nearest, points, lengths, workers);
 
-    std::vector<TerritoryBorder> result = borders;
+    std::vector<TerritoryBorder> result = territories.borders;
     const auto sample_of = [&](Index number) {
         if (number < starts.first_number) return number;
         const auto start = std::ranges::lower_bound(wanted, number, {}, &FloodStart::number);

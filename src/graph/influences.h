@@ -107,7 +107,7 @@ enum class InfluenceWeights {
     smooth, // (1 - d/d_max)² with d_max the farthest of a full row: nothing jumps where the set of the
             // nearest changes; where the row is not full the set is the same everywhere, and d_max twice as
             // far; of a handle times handle_reach · farthest/d: nothing jumps at its border, either
-    paper, // 1/d²
+    paper,  // 1/d²
 };
 
 // So far from its border, as a share of d_max, a handle weighs what a sample there would; nearer by it more,

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/whole_file.h"
 #include "view/framing.h"
+#include "view/standing.h"
 
 #include <CLI/CLI.hpp>
 
@@ -42,6 +43,12 @@ void declare_picture_options(CLI::App& command, PictureOptions& options) {
                     "front, back, left, right, top, bottom, or AZIMUTH,ELEVATION in degrees")
         ->group(group);
     command
+        .add_option(
+            "--up", options.up,
+            "Which axis points upwards: z, y, -y (as --up=-y), or auto, which tells by what the cloud "
+            "stands on (z)")
+        ->group(group);
+    command
         .add_option("--color", options.color,
                     "What the colours tell: rgb, plain, height, normal, a column of the file, or in a "
                     "replay displacement "
@@ -70,6 +77,14 @@ Viewport parse_size(const std::string& text, int largest) {
     return {size->first, size->second};
 }
 
+UpAxis parse_up(const std::string& text, std::span<const float> positions) {
+    if (text == "z") return UpAxis::z;
+    if (text == "y") return UpAxis::y;
+    if (text == "-y") return UpAxis::minus_y;
+    if (text == "auto") return standing_axis(positions).value_or(UpAxis::z);
+    refuse("--up", text, "z, y, -y or auto");
+}
+
 Camera camera_for(const PictureOptions& options, std::span<const float> positions, Viewport viewport) {
     constexpr std::array<std::pair<const char*, Side>, 6> sides = {{{"front", Side::front},
                                                                     {"back", Side::back},
@@ -95,6 +110,7 @@ Camera camera_for(const PictureOptions& options, std::span<const float> position
                    "front, back, left, right, top, bottom, or AZIMUTH,ELEVATION in degrees, as 30,20");
         }
     }
+    set_up(camera, parse_up(options.up, positions));
     frame_points(camera, positions, viewport);
     camera.distance /= options.zoom;
     return camera;

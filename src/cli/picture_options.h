@@ -11,9 +11,12 @@ namespace knead {
 // "1280x800": 1 … `largest` each.
 Viewport parse_size(const std::string& text, int largest);
 
-// "front" … "bottom", or degrees "azimuth,elevation": 0,0 is the front; a larger azimuth goes round to the
-// right, a larger elevation up. Empty: a pleasant first view.
-// Framed on the bulk of `positions` (3n floats).
+// "z", "y" or "-y"; "auto": standing_axis() of `positions`, z where nothing can be told.
+UpAxis parse_up(const std::string& text, std::span<const float> positions);
+
+// "front" … "bottom" with respect to the upward axis, or degrees "azimuth,elevation": 0,0 is the front; a
+// larger azimuth goes round to the right, a larger elevation up. Empty: a pleasant first view. Framed on the
+// bulk of `positions` (3n floats).
 Camera camera_for(const PictureOptions& options, std::span<const float> positions, Viewport viewport);
 
 ColorBy parse_color(const std::string& text);

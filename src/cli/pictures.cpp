@@ -64,6 +64,7 @@ void PictureMaker::State::begin(const PictureShape& shape) {
                     "--color rgb: the cloud has no colours of its own; leave it out to see the shape alone");
     camera = camera_for(options, shape.positions, viewport);
     camera->distance *= room;
+    color.up = camera->up;
     SilentProgress quiet;
     graph = neighbor_graph(vertex_positions(shape.order, shape.opened, workers), neighbors, workers, quiet);
     renderer.set_points(shape.positions.size() / 3, usual_spacing(shape.opened));

@@ -23,6 +23,7 @@ namespace knead {
 struct PictureOptions {
     std::string size = "1280x800";
     std::string view;       // a side, or azimuth and elevation; empty: chosen
+    std::string up = "z";   // y, -y, or auto: what the cloud stands on tells
     std::string color;      // rgb, plain, height, normal, displacement, or a column; empty: rgb, or plain
     std::string background; // "#rrggbb"; empty: a dark gradient
     double point_size = 0;  // pixels; 0: by distance

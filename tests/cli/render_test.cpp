@@ -1,5 +1,6 @@
 // knead render, and the pictures of knead replay.
 
+#include "io/cloud_file.h"
 #include "support/run_knead.h"
 #include "support/scans.h"
 #include "support/scratch_folder.h"
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace knead::test {
 namespace {
@@ -86,6 +88,8 @@ TEST_F(Render, EveryOptionChangesThePicture) {
                                                            {"--view", "top"},
                                                            {"--view", "70,40"},
                                                            {"--view=-30,-20"},
+                                                           {"--up", "y"},
+                                                           {"--up=-y"},
                                                            {"--color", "height"},
                                                            {"--zoom", "2"},
                                                            {"--point-size", "2"},
@@ -104,12 +108,35 @@ TEST_F(Render, EveryOptionChangesThePicture) {
     EXPECT_EQ(std::ranges::adjacent_find(pictures), pictures.end());
 }
 
+TEST_F(Render, SeesACloudUprightWhateverItsAxis) {
+    SilentProgress quiet;
+    ASSERT_EQ(run_knead({"make", "cylinder", "--points", "3000", "--out", "tube.xyz"}, folder.path()).code,
+              0);
+    const PointCloud tube = read_cloud(folder / "tube.xyz", quiet);
+    std::ostringstream turned;
+    for (std::size_t i = 0; i < tube.size(); ++i) {
+        const Vec3d p = tube.file_position(i);
+        turned << p.x() << ' ' << p.z() << ' ' << -p.y() << '\n';
+    }
+    write_text(folder / "turned.xyz", turned.str());
+    const auto picture = [&](const char* file, const char* up) {
+        const Outcome outcome = render(
+            {file, "--out", "a.png", "--size", "64x48", "--point-size", "3", "--no-eye-dome", "--up", up});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return read_text(folder / "a.png");
+    };
+    EXPECT_EQ(picture("tube.xyz", "auto"), picture("tube.xyz", "z"));
+    EXPECT_EQ(picture("turned.xyz", "auto"), picture("turned.xyz", "y"));
+    EXPECT_NE(picture("turned.xyz", "y"), picture("turned.xyz", "z"));
+}
+
 TEST_F(Render, RefusesWhatItCannotDraw) {
     expect_failure(render({"nowhere.ply", "--out", "a.png"}), 3, "nowhere.ply");
     for (const char* size : {"0x5", "12", "axb", "10x10x10", "9999999x3", "-3x3", "10 x 10"})
         expect_failure(render({"bar.ply", "--out", "a.png", "--size=" + std::string(size)}), 2, "--size");
     for (const char* view : {"behind", "1,2,3", "0,91", "nan,0"})
         expect_failure(render({"bar.ply", "--out", "a.png", "--view", view}), 2, "--view");
+    expect_failure(render({"bar.ply", "--out", "a.png", "--up", "x"}), 2, "--up");
     expect_failure(render({"bar.ply", "--out", "a.png", "--background", "red"}), 2, "--background");
     expect_failure(render({"bar.ply", "--out", "a.png", "--color", "heat"}), 2, "heat");
     expect_failure(render({"bar.ply", "--out", "a.png", "--color", "displacement"}), 2, "displacement");

@@ -94,8 +94,7 @@ void hand_over(const Tally& tally, Changes::Block& changes) {
 
 struct Summed {
     std::vector<TerritoryBorder> borders;
-    std::vector<std::size_t> unsure; // places of those whose way may be shorter than it is: it led where none
-                                     // leads now
+    std::vector<std::size_t> unsure; // places of those whose way may have led by a link that is gone
 };
 
 // What the borders and changes, ascending, come to.

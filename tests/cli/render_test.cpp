@@ -4,11 +4,11 @@
 #include "support/run_knead.h"
 #include "support/scans.h"
 #include "support/scratch_folder.h"
+#include "support/turned_cloud.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace knead::test {
 namespace {
@@ -112,13 +112,7 @@ TEST_F(Render, SeesACloudUprightWhateverItsAxis) {
     SilentProgress quiet;
     ASSERT_EQ(run_knead({"make", "cylinder", "--points", "3000", "--out", "tube.xyz"}, folder.path()).code,
               0);
-    const PointCloud tube = read_cloud(folder / "tube.xyz", quiet);
-    std::ostringstream turned;
-    for (std::size_t i = 0; i < tube.size(); ++i) {
-        const Vec3d p = tube.file_position(i);
-        turned << p.x() << ' ' << p.z() << ' ' << -p.y() << '\n';
-    }
-    write_text(folder / "turned.xyz", turned.str());
+    write_text(folder / "turned.xyz", turned_to_y(read_cloud(folder / "tube.xyz", quiet)));
     const auto picture = [&](const char* file, const char* up) {
         const Outcome outcome = render(
             {file, "--out", "a.png", "--size", "64x48", "--point-size", "3", "--no-eye-dome", "--up", up});

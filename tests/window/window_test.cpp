@@ -4,6 +4,7 @@
 #include "io/cloud_file.h"
 #include "support/run_knead.h"
 #include "support/scratch_folder.h"
+#include "support/turned_cloud.h"
 #include "view/framing.h"
 #include "window/desktop.h"
 
@@ -11,7 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <sstream>
 
 namespace knead::test {
 
@@ -276,13 +276,7 @@ TEST_F(WindowTest, ACloudThatStandsAlongYIsUpright) {
     const std::filesystem::path made = folder_ / "made.ply", tube = folder_ / "tube.xyz";
     ASSERT_EQ(run_knead({"make", "cylinder", "--points", "5000", "--out", made.string()}).code, 0);
     SilentProgress silent;
-    const PointCloud along_z = read_cloud(made, silent);
-    std::ostringstream text;
-    for (std::size_t i = 0; i < along_z.size(); ++i) {
-        const Vec3d p = along_z.file_position(i);
-        text << p.x() << ' ' << p.z() << ' ' << -p.y() << '\n';
-    }
-    write_text(tube, text.str());
+    write_text(tube, turned_to_y(read_cloud(made, silent)));
     cloud_ = read_cloud(tube, silent);
     set_up(camera_, UpAxis::y);
     look_at_side(camera_, Side::front);

@@ -1,4 +1,5 @@
-// `knead diff A B`: how far apart two clouds of the same points are, and which attributes differ.
+// `knead diff A B`: how far apart two clouds of the same points are, and which attributes differ, and by how
+// much.
 
 #include "base/error.h"
 #include "cli/commands.h"
@@ -39,6 +40,16 @@ Difference difference_of(const PointCloud& a, const PointCloud& b) {
     return difference;
 }
 
+nlohmann::ordered_json json_of(const AttributeDifference& difference) {
+    nlohmann::ordered_json json;
+    json["name"] = difference.name;
+    json["same_type"] = difference.same_type;
+    json["points"] = difference.points;
+    json["largest"] = difference.largest;
+    json["largest_index"] = difference.farthest_point;
+    return json;
+}
+
 std::string json_of(const Difference& difference) {
     nlohmann::ordered_json json;
     json["points"] = difference.points;
@@ -48,10 +59,24 @@ std::string json_of(const Difference& difference) {
     json["largest"] = difference.distances.largest;
     json["largest_index"] = difference.distances.largest_index;
     json["incomparable"] = difference.distances.incomparable;
-    json["attributes_differ"] = difference.attributes.differ;
+    json["attributes_differ"] = nlohmann::json::array();
+    json["attribute_differences"] = nlohmann::json::array();
+    for (const AttributeDifference& each : difference.attributes.differ) {
+        json["attributes_differ"].push_back(each.name);
+        json["attribute_differences"].push_back(json_of(each));
+    }
     json["attributes_only_in_a"] = difference.attributes.only_in_a;
     json["attributes_only_in_b"] = difference.attributes.only_in_b;
     return json_text(json);
+}
+
+// "12 points, by 0.25 at most, at point 7, of another type".
+void print(const AttributeDifference& difference, std::ostream& out) {
+    out << difference.points << (difference.points == 1 ? " point" : " points");
+    if (difference.largest > 0)
+        out << ", by " << difference.largest << " at most, at point " << difference.farthest_point;
+    if (!difference.same_type) out << ", of another type";
+    out << '\n';
 }
 
 void print(const Difference& difference, std::ostream& out) {
@@ -77,7 +102,8 @@ void print(const Difference& difference, std::ostream& out) {
         line("incomparable") << ' ' << difference.distances.incomparable
                              << " points, not finite in one of the clouds or otherwise in each\n";
     if (difference.attributes.none()) line("attributes") << "all equal\n";
-    names("differ", difference.attributes.differ);
+    for (const AttributeDifference& each : difference.attributes.differ)
+        print(each, line("differs") << each.name << ": ");
     names("only in A", difference.attributes.only_in_a);
     names("only in B", difference.attributes.only_in_b);
 }
@@ -116,7 +142,7 @@ void add_diff(CLI::App& app, Job& job) {
     };
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
-        "diff", "How far apart two clouds of the same points are, and which attributes differ");
+        "diff", "How far apart two clouds of the same points are, which attributes differ, and by how much");
     command->add_option("A", options->a, "A cloud; its diagonal is the unit of the distances")->required();
     command->add_option("B", options->b, "Another of the same points in the same order")->required();
     command->add_flag("--json", options->json, "Print one JSON object");

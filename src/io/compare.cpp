@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
@@ -66,9 +67,50 @@ bool is_coordinate(const PointCloud& cloud, std::size_t column) {
     return std::find(columns.begin(), columns.end(), column) != columns.end();
 }
 
+bool are_of_one_type(const Attribute& a, const Attribute& b) {
+    return a.type == b.type && a.is_list() == b.is_list() && (!a.is_list() || a.count_type == b.count_type);
+}
+
 bool are_equal(const Attribute& a, const Attribute& b) {
-    return a.type == b.type && a.is_list() == b.is_list() && a.first == b.first && a.values == b.values &&
-           (!a.is_list() || a.count_type == b.count_type);
+    return are_of_one_type(a, b) && a.first == b.first && a.values == b.values;
+}
+
+// The numbers of one point in a column.
+struct Row {
+    std::size_t begin, count;
+};
+
+Row row_of(const Attribute& attribute, std::size_t point) {
+    if (!attribute.is_list()) return {point, 1};
+    const std::uint64_t begin = attribute.first[point];
+    return {begin, attribute.first[point + 1] - begin};
+}
+
+// The same bits where they can be; so 0 and -0 are two, as they are in the file.
+bool are_equal(const Attribute& a, std::size_t at, const Attribute& b, std::size_t other) {
+    if (a.type != b.type) return same(value_at(a, at), value_at(b, other));
+    const std::size_t bytes = size_of(a.type);
+    return std::memcmp(&a.values[bytes * at], &b.values[bytes * other], bytes) == 0;
+}
+
+AttributeDifference difference_of(const Attribute& a, const Attribute& b, std::size_t points) {
+    AttributeDifference difference;
+    difference.name = a.name;
+    difference.same_type = are_of_one_type(a, b);
+    for (std::size_t i = 0; i < points; ++i) {
+        const Row own = row_of(a, i), other = row_of(b, i);
+        bool differs = own.count != other.count;
+        for (std::size_t k = 0; k < std::min(own.count, other.count); ++k) {
+            if (are_equal(a, own.begin + k, b, other.begin + k)) continue;
+            differs = true;
+            const double distance = std::abs(value_at(a, own.begin + k) - value_at(b, other.begin + k));
+            if (!std::isfinite(distance) || distance <= difference.largest) continue;
+            difference.largest = distance;
+            difference.farthest_point = i;
+        }
+        if (differs) ++difference.points;
+    }
+    return difference;
 }
 
 } // namespace
@@ -95,6 +137,7 @@ Distances distances_between(const PointCloud& cloud, std::span<const float> posi
 }
 
 AttributeDifferences attribute_differences(const PointCloud& a, const PointCloud& b) {
+    require(a.size() == b.size(), "attributes are of the same points");
     AttributeDifferences differences;
     const Places in_a = places_of(a), in_b = places_of(b);
     for (std::size_t column = 0; column < a.attributes.size(); ++column) {
@@ -104,7 +147,7 @@ AttributeDifferences attribute_differences(const PointCloud& a, const PointCloud
         if (other == in_b.end())
             differences.only_in_a.push_back(own.name);
         else if (!are_equal(own, b.attributes[other->second]))
-            differences.differ.push_back(own.name);
+            differences.differ.push_back(difference_of(own, b.attributes[other->second], a.size()));
     }
     for (std::size_t column = 0; column < b.attributes.size(); ++column)
         if (!is_coordinate(b, column) && !in_a.contains(b.attributes[column].name))

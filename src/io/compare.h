@@ -28,14 +28,24 @@ Distances distances_between(const PointCloud& a, const PointCloud& b);
 Distances distances_between(const PointCloud& cloud, std::span<const float> positions,
                             const PointCloud& other);
 
-// Names of attributes, the coordinates left out, in the order of the cloud that has them.
+// How far an attribute of one name differs.
+struct AttributeDifference {
+    std::string name;
+    bool same_type = true;  // of the numbers, and of lists; else numbers are compared as double
+    std::size_t points = 0; // that have another number, or another list
+    double largest = 0;     // of the distances between numbers that are finite in both, item by item of lists
+    std::size_t farthest_point = 0; // the first with that distance; 0 where there is none
+};
+
+// Attributes, the coordinates left out, in the order of the cloud that has them.
 struct AttributeDifferences {
-    std::vector<std::string> differ; // in both, but not the same type and values
+    std::vector<AttributeDifference> differ; // in both, but not with the same type and values
     std::vector<std::string> only_in_a;
     std::vector<std::string> only_in_b;
 
     bool none() const { return differ.empty() && only_in_a.empty() && only_in_b.empty(); }
 };
+// Both clouds have the same number of points.
 AttributeDifferences attribute_differences(const PointCloud& a, const PointCloud& b);
 
 } // namespace knead

@@ -16,10 +16,13 @@ namespace {
 constexpr std::size_t grain = 16384;
 constexpr std::uint32_t not_a_value = 0xff484848;
 
+// Of what is not negative. std::lround() is a call, and this is done for every point.
+std::uint32_t rounded(double value) {
+    return static_cast<std::uint32_t>(value + 0.5); // NOLINT(bugprone-incorrect-roundings)
+}
+
 std::uint32_t packed(double r, double g, double b) {
-    const auto byte = [](double c) {
-        return static_cast<std::uint32_t>(std::clamp(c, 0.0, 1.0) * 255 + 0.5);
-    };
+    const auto byte = [](double c) { return rounded(std::clamp(c, 0.0, 1.0) * 255); };
     return byte(r) | byte(g) << 8U | byte(b) << 16U | 0xff000000U;
 }
 
@@ -85,7 +88,7 @@ ValueRange color_values(std::span<const float> values, const std::optional<Value
     workers.for_each(colors.size(), grain, [&](std::size_t i) {
         const double value = values[i];
         const double at = std::clamp((value - range.low) * factor + offset, 0.0, 1.0);
-        colors[i] = std::isfinite(value) ? scale[static_cast<std::size_t>(at * 1023 + 0.5)] : not_a_value;
+        colors[i] = std::isfinite(value) ? scale[rounded(at * 1023)] : not_a_value;
     });
     return range;
 }

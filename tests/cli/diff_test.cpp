@@ -29,10 +29,16 @@ TEST(Diff, measures_in_diagonals_of_the_first_cloud) {
     EXPECT_DOUBLE_EQ(json["p95"].get<double>(), 0.1);
     EXPECT_EQ(json["incomparable"], 1);
     EXPECT_EQ(json["attributes_differ"], std::vector<std::string>{"red"});
+    const auto& red = json["attribute_differences"][0];
+    EXPECT_EQ(red["name"], "red");
+    EXPECT_EQ(red["points"], 1);
+    EXPECT_EQ(red["largest"], 1.0);
+    EXPECT_EQ(red["largest_index"], 1);
     EXPECT_EQ(json["attributes_only_in_a"], std::vector<std::string>{"mine"});
     EXPECT_EQ(json["attributes_only_in_b"], std::vector<std::string>{"other"});
     const Outcome table = run_knead({"diff", "a.ply", "b.ply"}, folder.path());
-    for (const char* words : {"largest     0.1 D  at point 0\n", "differ      red\n", "only in A   mine\n"})
+    for (const char* words : {"largest     0.1 D  at point 0\n",
+                              "differs     red: 1 point, by 1 at most, at point 1\n", "only in A   mine\n"})
         EXPECT_NE(table.out.find(words), std::string::npos) << table.out;
 }
 

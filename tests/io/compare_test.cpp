@@ -61,22 +61,64 @@ TEST(Compare, of_a_pose_agrees_with_its_saved_file) {
     EXPECT_EQ(distances_between(cloud, cloud.positions, saved).largest_index, 1U);
 }
 
+std::vector<std::string> names_of(const std::vector<AttributeDifference>& differences) {
+    std::vector<std::string> names;
+    for (const AttributeDifference& each : differences) names.push_back(each.name);
+    return names;
+}
+
 TEST(Compare, names_attributes_that_differ) {
     const std::vector<float> point{1, 2, 3};
+    const std::vector<float> value{4};
     PointCloud a = make_cloud(point);
     PointCloud b = make_cloud(point);
-    add_attribute(a, "same", point);
-    add_attribute(b, "other", point);
-    add_attribute(b, "same", point);
+    add_attribute(a, "same", value);
+    add_attribute(b, "other", value);
+    add_attribute(b, "same", value);
     add_attribute(a, "type", std::vector<float>{1});
     add_attribute(b, "type", std::vector<std::uint8_t>{1});
     add_attribute(a, "value", std::vector<std::uint8_t>{1});
     add_attribute(b, "value", std::vector<std::uint8_t>{2});
-    add_attribute(a, "mine", point);
+    add_attribute(a, "mine", value);
     const AttributeDifferences differences = attribute_differences(a, b);
-    EXPECT_EQ(differences.differ, (std::vector<std::string>{"type", "value"}));
+    EXPECT_EQ(names_of(differences.differ), (std::vector<std::string>{"type", "value"}));
     EXPECT_EQ(differences.only_in_a, std::vector<std::string>{"mine"});
     EXPECT_EQ(differences.only_in_b, std::vector<std::string>{"other"});
+}
+
+TEST(Compare, tells_by_how_much_attributes_differ) {
+    const float no_number = std::numeric_limits<float>::quiet_NaN();
+    PointCloud a = make_cloud(std::vector<float>(12, 0));
+    PointCloud b = a;
+    add_attribute(a, "heat", std::vector<float>{1, 2, no_number, 0});
+    add_attribute(b, "heat", std::vector<float>{1, 2.5F, 1, -0.0F}); // and 0 is not -0 in the file
+    add_attribute(a, "class", std::vector<std::uint8_t>{1, 2, 3, 4});
+    add_attribute(b, "class", std::vector<float>{1, 2, 3, 4});
+    const auto differ = attribute_differences(a, b).differ;
+    ASSERT_EQ(names_of(differ), (std::vector<std::string>{"heat", "class"}));
+    EXPECT_TRUE(differ[0].same_type);
+    EXPECT_EQ(differ[0].points, 3U);
+    EXPECT_EQ(differ[0].largest, 0.5);
+    EXPECT_EQ(differ[0].farthest_point, 1U);
+    EXPECT_FALSE(differ[1].same_type);
+    EXPECT_EQ(differ[1].points, 0U);
+}
+
+TEST(Compare, tells_by_how_much_lists_differ) {
+    const auto with_lists = [](std::vector<std::uint64_t> first, std::vector<std::uint8_t> values) {
+        PointCloud cloud = make_cloud(std::vector<float>(9, 0));
+        add_attribute(cloud, "list", values);
+        cloud.attributes.back().first = std::move(first);
+        return cloud;
+    };
+    const PointCloud a = with_lists({0, 2, 2, 3}, {1, 2, 9});
+    const PointCloud b = with_lists({0, 2, 3, 4}, {1, 6, 0, 8});
+    const auto differ = attribute_differences(a, b).differ;
+    ASSERT_EQ(names_of(differ), std::vector<std::string>{"list"});
+    EXPECT_EQ(differ[0].points, 3U); // another item, another length, another item
+    EXPECT_EQ(differ[0].largest, 4);
+    EXPECT_EQ(differ[0].farthest_point, 0U);
+    EXPECT_TRUE(attribute_differences(a, a).none());
 }
 
 TEST(Compare, takes_many_columns_in_no_time) {
@@ -87,7 +129,7 @@ TEST(Compare, takes_many_columns_in_no_time) {
     other.attributes[50'000].values[0] = std::byte{2};
     other.attributes[7].name = "d";
     const AttributeDifferences differences = attribute_differences(cloud, other);
-    EXPECT_EQ(differences.differ, std::vector<std::string>{"c49997"});
+    EXPECT_EQ(names_of(differences.differ), std::vector<std::string>{"c49997"});
     EXPECT_EQ(differences.only_in_a, std::vector<std::string>{"c4"});
     EXPECT_EQ(differences.only_in_b, std::vector<std::string>{"d"});
 }

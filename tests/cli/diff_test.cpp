@@ -42,6 +42,18 @@ TEST(Diff, measures_in_diagonals_of_the_first_cloud) {
         EXPECT_NE(table.out.find(words), std::string::npos) << table.out;
 }
 
+TEST(Diff, tells_another_type_of_the_same_values) {
+    const ScratchFolder folder;
+    write_text(folder / "a.ply", cloud("2", "property uchar heat\n", "0 0 0 1\n6 8 0 2\n"));
+    write_text(folder / "b.ply", cloud("2", "property float heat\n", "0 0 0 1\n6 8 0 2\n"));
+    const Outcome table = run_knead({"diff", "a.ply", "b.ply"}, folder.path());
+    EXPECT_EQ(table.code, 0);
+    EXPECT_NE(table.out.find("differs     heat: 0 points, of another type\n"), std::string::npos)
+        << table.out;
+    const Outcome outcome = run_knead({"diff", "a.ply", "b.ply", "--json"}, folder.path());
+    EXPECT_EQ(nlohmann::json::parse(outcome.out)["attribute_differences"][0]["same_type"], false);
+}
+
 TEST(Diff, of_a_cloud_with_itself_is_zero) {
     const ScratchFolder folder;
     write_text(folder / "a.ply", cloud("2", "", "0 0 0\n6 8 0\n"));

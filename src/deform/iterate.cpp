@@ -196,11 +196,15 @@ Mat3d gradient_at(const SampleSystem& system, const SampleState& state, std::siz
                        turn_of(state.rotation[system.free_sample[row]]));
 }
 
-// S of every row, of the shape as it is.
-void find_targets(SampleSystem& system, const SampleState& state, Workers& workers) {
-    workers.for_each(system.target.size(), grain, [&](std::size_t row) {
-        system.target[row] =
-            elastic_target(system.surroundings[row], gradient_at(system, state, row), system.rest.poisson);
+// S and U of every row, as far as they are asked for, of the shape as it is.
+void find_stretches(SampleSystem& system, const SampleState& state, Workers& workers) {
+    const bool targets = !system.target.empty(), stretches = !system.stretch.empty();
+    if (!targets && !stretches) return;
+    workers.for_each(system.free_sample.size(), grain, [&](std::size_t row) {
+        const Mat3d gradient = gradient_at(system, state, row);
+        if (targets)
+            system.target[row] = elastic_target(system.surroundings[row], gradient, system.rest.poisson);
+        if (stretches) system.stretch[row] = stretch_of(gradient);
     });
 }
 
@@ -222,7 +226,8 @@ void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, co
         if (s < samples) {
             body.way = state.displacement[s];
             body.turn = body.map = system.turn[s];
-            if (!body.turned) body.map = sample_gradient(system, state, static_cast<Index>(s));
+            if (!body.turned)
+                body.map = turn_of(state.rotation[s]) + state.rotation[s] * system.stretch[system.unknown[s]];
         } else {
             const HandleMotion& motion = handles[s - samples];
             body.way = motion.offset;
@@ -316,7 +321,7 @@ void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, 
 
 void follow_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
                     Workers& workers) {
-    find_targets(system, state, workers); // before the handles leave the others behind
+    find_stretches(system, state, workers); // before the handles leave the others behind
     turn_with_handles(system, handles, state, workers);
     place_handles(system, handles, state);
     solve_positions(system, handles, state, workers);
@@ -332,7 +337,7 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
     place_handles(system, handles, state);
     // Of the state alone, whatever was computed before: what is undone and done again has the same bits.
     if (system.midway > 0) {
-        find_targets(system, state, workers);
+        find_stretches(system, state, workers);
         find_turns(system, state, workers);
         find_bodies(system, handles, state, workers);
     }
@@ -343,7 +348,7 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
     system.rotations.solve(system.sides, 4, workers);
     for_solved_rotations(
         system, [&](Index s, const Quatd& rotation) { state.rotation[s] = rotation; }, workers);
-    if (system.midway == 0) find_targets(system, state, workers);
+    if (system.midway == 0) find_stretches(system, state, workers);
     return solve_positions(system, handles, state, workers);
 }
 

@@ -15,7 +15,15 @@ namespace knead {
 
 namespace {
 
-constexpr std::size_t points_a_sample = 64, fewest_points = 16384;
+// From so many samples to so many the energy of the points fades, knead evaluate: with more, a bar that is
+// twisted by two turns is farther behind its handles.
+constexpr double few_samples = 300, many_samples = 2000;
+
+// Where so many or fewer points stand for a sample links are as near on average, and less uneven, and the
+// energy fades at once.
+constexpr double enough_points = 15, too_few_points = 5, many_samples_of_them = 450;
+
+constexpr std::size_t points_a_sample = 32, fewest_points = 16384;
 
 // Points whose sums are made together, by one worker, are near each other and meet few bodies: as many as
 // around so many samples.
@@ -23,6 +31,15 @@ constexpr std::size_t samples_a_part = 8;
 
 // A blend that is flatter than this, or steeper, is not made up for.
 constexpr double least_slope = 0.55, most_slope = 1.7;
+
+// From 0 to 1 on the way between these, of which either may be the greater.
+double ramp(double at, double from, double to) {
+    return std::clamp((at - from) / (to - from), 0.0, 1.0);
+}
+
+bool hangs(const PointsBetween& between, Index vertex) {
+    return !between.hanging.empty() && between.hanging[vertex] != 0;
+}
 
 // The handle that moves a vertex alone, or no_index.
 Index holder_of(const PointsBetween& between, Index vertex) {
@@ -150,6 +167,7 @@ Mat3d add_gradients(std::span<const Index> row, const Vec3d& position, const Sur
 
 // Whether a vertex can add anything: not where one handle moves it and all its neighbours.
 bool is_between(const PointsBetween& between, Index vertex) {
+    if (hangs(between, vertex)) return false;
     const Index handle = holder_of(between, vertex);
     if (handle == no_index) return true;
     return std::ranges::any_of(between.graph.row(vertex),
@@ -183,9 +201,12 @@ std::vector<Index> spread_between(const PointsBetween& between, std::size_t want
     return chosen;
 }
 
-// What a vertex adds. Returns whether it is anything.
-bool contribution_of(const PointsBetween& between, Index vertex, Blends& blends, Contribution& result) {
-    const std::span<const Index> row = between.graph.row(vertex);
+// What a vertex adds. Returns whether it is anything. `row` is work space.
+bool contribution_of(const PointsBetween& between, Index vertex, Blends& blends, std::vector<Index>& row,
+                     Contribution& result) {
+    row.clear();
+    for (const Index other : between.graph.row(vertex))
+        if (!hangs(between, other)) row.push_back(other);
     if (row.size() < 2) return false;
     const Vec3d position = blends.position(vertex);
     Mat3d spread = Mat3d::Zero();
@@ -237,9 +258,10 @@ void add_pair(const BodyPair& other, BodyPair& pair) {
 
 // The sums over some points.
 struct Part {
-    std::vector<Index> met;      // bodies, in the order in which they were met
-    std::vector<BodyPair> pairs; // t * met.size() + s, by places in `met`; of handles t: nothing
-    std::vector<Mat3d> spread;   // of each
+    std::vector<Index> met;             // bodies, in the order in which they were met
+    std::vector<BodyPair> pairs;        // t * met.size() + s, by places in `met`; of handles t: nothing
+    std::vector<std::uint8_t> have_met; // of each of these: whether they did, at a point
+    std::vector<Mat3d> spread;          // of each
     std::vector<double> confidence;
 };
 
@@ -255,6 +277,7 @@ Part sum_up(std::span<const Contribution> contributions, std::size_t samples) {
         for (const Element& element : at.elements) places.push_back(place_of(element.body));
     const std::size_t bodies = part.met.size();
     part.pairs.resize(bodies * bodies);
+    part.have_met.assign(bodies * bodies, 0);
     part.spread.assign(bodies, Mat3d::Zero());
     part.confidence.assign(bodies, 0);
     const Index* place = places.data();
@@ -264,8 +287,11 @@ Part sum_up(std::span<const Contribution> contributions, std::size_t samples) {
             if (own.body >= samples) continue;
             part.spread[place[t]] += 2 * at.measure * own.weight * at.along;
             part.confidence[place[t]] += 2 * at.dimension * at.measure * own.weight;
-            for (std::size_t s = 0; s < at.elements.size(); ++s)
-                add_pair(at, own, at.elements[s], part.pairs[place[t] * bodies + place[s]]);
+            for (std::size_t s = 0; s < at.elements.size(); ++s) {
+                const std::size_t pair = place[t] * bodies + place[s];
+                add_pair(at, own, at.elements[s], part.pairs[pair]);
+                part.have_met[pair] = 1;
+            }
         }
         place += at.elements.size();
     }
@@ -276,10 +302,9 @@ Part sum_up(std::span<const Contribution> contributions, std::size_t samples) {
 void number_pairs(std::span<const Part> parts, PointEnergy& energy) {
     std::vector<std::vector<Index>> rows(energy.samples);
     for (const Part& part : parts)
-        for (const Index t : part.met) {
-            if (t >= energy.samples) continue;
-            rows[t].insert(rows[t].end(), part.met.begin(), part.met.end());
-        }
+        for (std::size_t t = 0; t < part.met.size(); ++t)
+            for (std::size_t s = 0; s < part.met.size(); ++s)
+                if (part.have_met[t * part.met.size() + s]) rows[part.met[t]].push_back(part.met[s]);
     energy.first.assign(1, 0);
     for (Index t = 0; t < rows.size(); ++t) {
         rows[t].push_back(t);
@@ -300,30 +325,11 @@ void add_part(const Part& part, PointEnergy& energy) {
         const auto begin = energy.body.begin() + energy.first[sample];
         const auto end = energy.body.begin() + energy.first[sample + 1];
         for (std::size_t s = 0; s < part.met.size(); ++s) {
+            if (!part.have_met[t * part.met.size() + s]) continue;
             const auto at = std::lower_bound(begin, end, part.met[s]) - energy.body.begin();
             add_pair(part.pairs[t * part.met.size() + s], energy.pair[static_cast<std::size_t>(at)]);
         }
     }
-}
-
-// Most of what a part has met has met at no point.
-void drop_strangers(PointEnergy& energy) {
-    std::size_t kept = 0;
-    Index begin = 0;
-    for (Index t = 0; t < energy.samples; ++t) {
-        const Index end = energy.first[t + 1];
-        for (Index at = begin; at < end; ++at) {
-            const BodyPair& pair = energy.pair[at];
-            const bool met = pair.way != 0 || !pair.target_spread.isZero(0) || !pair.map_slope.isZero(0);
-            if (!met && energy.body[at] != t) continue;
-            energy.body[kept] = energy.body[at];
-            energy.pair[kept++] = pair;
-        }
-        begin = end;
-        energy.first[t + 1] = static_cast<Index>(kept);
-    }
-    energy.body.resize(kept);
-    energy.pair.resize(kept);
 }
 
 } // namespace
@@ -346,15 +352,23 @@ PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
         Blends blends(between);
         std::vector<Contribution> contributions;
         Contribution contribution;
+        std::vector<Index> row;
         for (std::size_t k = part * points_a_part; k < std::min((part + 1) * points_a_part, points); ++k)
-            if (contribution_of(between, asked[k], blends, contribution))
+            if (contribution_of(between, asked[k], blends, row, contribution))
                 contributions.push_back(contribution);
         parts[part] = sum_up(contributions, energy.samples);
     });
     number_pairs(parts, energy);
     for (const Part& part : parts) add_part(part, energy);
-    drop_strangers(energy);
     return energy;
+}
+
+double share_of_points(std::size_t samples, std::size_t vertices) {
+    if (samples == 0) return 0;
+    const auto count = static_cast<double>(samples);
+    const double between = ramp(static_cast<double>(vertices) / count, too_few_points, enough_points);
+    const double soon = ramp(count, many_samples_of_them, few_samples);
+    return ramp(count, many_samples, few_samples) * std::max(between, soon);
 }
 
 void scale(PointEnergy& energy, double times) {

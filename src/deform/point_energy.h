@@ -33,6 +33,7 @@
 #include "graph/point_order.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -50,6 +51,7 @@ struct BodyPair {
 };
 
 struct PointEnergy {
+    double share = 1;        // that it has of the whole energy, 0 … 1; links have the others'
     std::size_t samples = 0; // bodies below are samples, the others handles
     std::size_t bodies = 0;
     std::vector<Index> first; // one entry a sample, and the end; empty: no energy
@@ -66,6 +68,8 @@ struct PointsBetween {
     const Numbering& point;           // of each vertex: one of its points
     const InfluenceRows& nearest;     // of each vertex
     InfluenceWeights weights;
+    std::span<const std::uint8_t> hanging; // of each vertex: 1 for an outlier, which says nothing of the
+                                           // surface; empty without any
     std::span<const Index> label;          // of each vertex: its handle, or no_index
     const std::vector<bool>& turns_freely; // of each handle: whether it moves nothing by itself but what its
                                            // samples move; may end early
@@ -73,9 +77,11 @@ struct PointsBetween {
     std::size_t handles;                   // handle h is body sample.size() + h
 };
 
-// For so many samples and fewer. More are near enough to every point a sample by links, and these hold a bar
-// straight that is twisted by two turns, where the energy of the points lets it throw a loop.
-inline constexpr std::size_t few_samples = 300;
+// How much of the energy is that of the points, 0 … 1, where so many samples are chosen among so many
+// vertices: all where samples are few, less and less of more, and nothing of many, which links are near
+// enough for; sooner where a sample stands for a few points only, as there is hardly anything to sum up
+// between them. It fades, so that some samples more make no other shape.
+double share_of_points(std::size_t samples, std::size_t vertices);
 
 // Sums up over so many points a sample that more change little, evenly spread along the order of the
 // vertices that are free or have a neighbour that another handle moves, or none; over all of those where

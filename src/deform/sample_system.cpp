@@ -18,8 +18,8 @@ constexpr double next_to_nothing = 1e-4;
 // With an energy of points, links have so much of their weight.
 constexpr double share_of_links = 0.01;
 
-// Turns that spread less far than this many ℓ², β/ℓ², are left to links.
-constexpr double least_smoothing = 0.25;
+// Turns that spread less far than so many ℓ², β/ℓ², are left to links; from the second on to points.
+constexpr double least_smoothing = 0.25, enough_smoothing = 0.3;
 
 // Of the weight of a leaf's link that is no longer than others.
 constexpr double leaf_share = 1e-3;
@@ -192,7 +192,10 @@ void weigh_energy(SampleSystem& system, double square_length) {
     SampleRest& rest = system.rest;
     PointEnergy& energy = rest.energy;
     double of_links = 0, of_points = 0;
-    if (!energy.first.empty() && system.smoothing >= least_smoothing)
+    const double share =
+        energy.share *
+        std::clamp((system.smoothing - least_smoothing) / (enough_smoothing - least_smoothing), 0.0, 1.0);
+    if (!energy.first.empty() && share > 0)
         for (std::size_t row = 0; row < system.free_sample.size(); ++row) {
             of_links += system.confidence[row] * square_length;
             of_points += energy.confidence[system.free_sample[row]];
@@ -201,11 +204,12 @@ void weigh_energy(SampleSystem& system, double square_length) {
         energy = {};
         return;
     }
-    scale(energy, of_links / of_points);
-    for (double& weight : rest.weight) weight *= share_of_links;
+    scale(energy, share * of_links / of_points);
+    const double of_them = 1 - share * (1 - share_of_links);
+    for (double& weight : rest.weight) weight *= of_them;
     for (std::size_t row = 0; row < system.free_sample.size(); ++row)
-        system.confidence[row] = share_of_links * system.confidence[row] +
-                                 energy.confidence[system.free_sample[row]] / square_length;
+        system.confidence[row] =
+            of_them * system.confidence[row] + energy.confidence[system.free_sample[row]] / square_length;
 }
 
 // The bodies of the energy: which of them are given, and a sample of each handle.
@@ -294,6 +298,7 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     find_confidence(system, square_length);
     weigh_energy(system, square_length);
     number_bodies(system);
+    system.stretch.assign(system.rest.energy.first.empty() ? 0 : system.free_sample.size(), Mat3d::Zero());
     find_weighted_edges(system, workers);
     const OrderedLaplacian of_moving = order_and_find_surroundings(system, workers);
     set_poisson(system, system.rest.poisson);

@@ -36,8 +36,9 @@
 //     2. L_ts = Σ ω ĝ_t·ĝ_s and C_t = Σ 2 dim ω w_t,
 //     3. L_ts = Σ ω g_t·g_s and b_t = -Σ_s (A_s Σ ω H_s g_t - M_s Σ ω w_s P g_t).
 //
-// That is so where turns spread over half a link or more, β ≥ ℓ²/4: the blends are too wide for a sheet that
-// is softer, and links hold it.
+// With more samples both count, points by their share and links by the rest, all sums and matrices being
+// sums of both. So they do where turns spread over half a link, β from ℓ²/4 to 0.3 ℓ²: the blends are too
+// wide for a sheet that is softer, and links hold it.
 //
 // A leaf, a free sample with one link, to a sample with more, is sent the same way whatever that link weighs:
 // along with the other end. So its link counts with a thousandth of its weight, or less if it is longer than
@@ -100,7 +101,7 @@ struct SampleState {
 // What a body of a PointEnergy does: it sends p to p + map p + way, or, a sample, about its place.
 struct Body {
     Vec3d way = Vec3d::Zero();
-    Mat3d map = Mat3d::Zero();  // A: R U - I
+    Mat3d map = Mat3d::Zero();  // A: R U - I, U as it was before the iteration or the handles turned anything
     Mat3d turn = Mat3d::Zero(); // M - I: R S - I
     bool placed = true;         // given, not to be solved for: `way` ...
     bool turned = true;         // ... and how it turns
@@ -135,6 +136,7 @@ struct SampleSystem {
     std::vector<Body> body;       // of rest.energy, samples and then handles
     std::vector<Quatd> free_turn; // of each handle that `rest.turns_freely` tells of
     std::vector<Mat3d> target;    // S - I, of each row; empty for ν = 0
+    std::vector<Mat3d> stretch;   // U - I, of each row; empty where there is no rest.energy
     std::vector<double> sides;    // right-hand sides and solutions, 4 or 3 numbers a row
 };
 

@@ -192,16 +192,24 @@ void Pipeline::prepare_samples(Progress& progress) {
     seconds_.geodesic += clock.lap();
 }
 
-// Where samples are so few that what lies between them has to be asked.
+// Where samples are few enough that what lies between them has to be asked.
 void Pipeline::find_energy(const SampleRest& rest) {
     energy_ = {};
-    if (every_point_ || samples_.size() > few_samples) return;
+    const double share = share_of_points(base_samples_, order_.vertices()); // whatever handles add
+    if (every_point_ || share == 0) return;
     const RestShape& shape = input_.rest ? *input_.rest : opened_;
-    const PointsBetween between{
-        *graph_,           shape.positions,         order_.first_point,
-        nearest_,          input_.settings.weights, labels_.vertex,
-        rest.turns_freely, rest.position,           slots_.handles.size() + 1}; // and what is outside
+    const PointsBetween between{*graph_,
+                                shape.positions,
+                                order_.first_point,
+                                nearest_,
+                                input_.settings.weights,
+                                hanging_,
+                                labels_.vertex,
+                                rest.turns_freely,
+                                rest.position,
+                                slots_.handles.size() + 1}; // and what is outside
     energy_ = point_energy(between, workers_);
+    energy_.share = share;
 }
 
 void Pipeline::prepare_systems() {

@@ -38,9 +38,10 @@ TEST(TurnsAlongZ, CountsEveryTurn) {
 TEST(Properties, HoldOnASmallSphere) {
     Workers workers(2);
     SilentProgress progress;
-    const PointCloud cloud = made_cloud(Shape::sphere, 3000, workers, progress);
+    // Of so many points that 1000 samples ask those between.
+    const PointCloud cloud = made_cloud(Shape::sphere, 12'000, workers, progress);
     const CloudProperties result = evaluate_cloud("ball", cloud, "reference", 2, progress);
-    EXPECT_EQ(result.points, 3000U);
+    EXPECT_EQ(result.points, 12'000U);
     EXPECT_EQ(result.strays, 0U);
     EXPECT_LT(result.rigid, rigid_bar);
     EXPECT_LT(result.rigid_in_turns, rigid_bar);

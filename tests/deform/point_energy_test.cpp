@@ -20,6 +20,7 @@ struct Held {
     std::vector<Vec3d> sample;
     std::vector<bool> turning;
     InfluenceRows nearest;
+    std::vector<std::uint8_t> hanging;
     Numbering point = Numbering::as_they_stand(cloud.size());
 
     Held() {
@@ -35,7 +36,7 @@ struct Held {
     }
 
     PointsBetween between(InfluenceWeights weights) const {
-        return {cloud.graph, cloud.positions, point, nearest, weights, label, turning, sample, 2};
+        return {cloud.graph, cloud.positions, point, nearest, weights, hanging, label, turning, sample, 2};
     }
 
     PointEnergy energy(InfluenceWeights weights, unsigned threads) const {
@@ -138,6 +139,49 @@ TEST(PointEnergy, IsTheSumOverThePoints) {
         for (Index at = energy.first[t]; at < energy.first[t + 1]; ++at)
             of_pairs += energy.pair[at].way * way[t].dot(way[energy.body[at]]);
     EXPECT_NEAR(of_pairs, of_points, 1e-9 * of_points);
+}
+
+Graph without_links_of(const Graph& graph, Index vertex) {
+    Graph result;
+    result.first.assign(1, 0);
+    for (Index v = 0; v < graph.size(); ++v) {
+        for (const Index other : graph.row(v))
+            if (v != vertex && other != vertex) result.neighbor.push_back(other);
+        result.first.push_back(static_cast<Index>(result.neighbor.size()));
+    }
+    return result;
+}
+
+TEST(PointEnergy, KnowsNothingOfOutliersThatHang) {
+    Held held, alone;
+    Index outlier = 0;
+    while (held.label[outlier] != no_index) ++outlier;
+    held.hanging.assign(held.cloud.size(), 0);
+    held.hanging[outlier] = 1;
+    alone.cloud.graph = without_links_of(alone.cloud.graph, outlier);
+    const PointEnergy energy = held.energy(InfluenceWeights::smooth, 2);
+    const PointEnergy expected = alone.energy(InfluenceWeights::smooth, 2);
+    ASSERT_EQ(energy.body, expected.body);
+    for (std::size_t at = 0; at < energy.pair.size(); ++at)
+        EXPECT_NEAR(energy.pair[at].way, expected.pair[at].way, 1e-12);
+    EXPECT_NE(energy.confidence, Held().energy(InfluenceWeights::smooth, 2).confidence);
+}
+
+TEST(PointEnergy, HasLessOfAShareTheMoreSamplesThereAre) {
+    EXPECT_EQ(share_of_points(0, 0), 0);
+    for (const std::size_t vertices : {1000U, 10'000U, 100'000U}) {
+        EXPECT_EQ(share_of_points(300, vertices), 1);
+        EXPECT_EQ(share_of_points(2000, vertices), 0);
+        double before = 1;
+        for (std::size_t samples = 300; samples <= 2000; ++samples) {
+            const double share = share_of_points(samples, vertices);
+            EXPECT_LE(share, before);
+            EXPECT_LT(before - share, 0.01); // no step
+            EXPECT_LE(share, share_of_points(samples, 2 * vertices));
+            before = share;
+        }
+    }
+    EXPECT_EQ(share_of_points(500, 2500), 0); // five points a sample
 }
 
 TEST(PointEnergy, IsTheSameForAnyNumberOfWorkers) {

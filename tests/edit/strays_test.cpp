@@ -2,6 +2,8 @@
 
 #include "edit/editing.h"
 
+#include <random>
+
 namespace knead {
 namespace {
 
@@ -182,12 +184,12 @@ std::size_t nearest_point(const PointCloud& cloud, const Vec3d& place) {
     return nearest;
 }
 
-// How far the points of the bar are from where they are without strays behind them.
-double farthest_apart(Desk& clean, Desk& dusty) {
-    const std::vector<float> expected = clean.shape(), shape = dusty.shape();
-    const Vec3d between = dusty.document().cloud().origin - clean.document().cloud().origin;
+// Of the points of the bar, which strays may stand behind, in two shapes of it.
+double farthest_apart(Desk& one, Desk& other, std::size_t points = bar_points) {
+    const std::vector<float> expected = one.shape(), shape = other.shape();
+    const Vec3d between = other.document().cloud().origin - one.document().cloud().origin;
     double farthest = 0;
-    for (std::size_t i = 0; i < bar_points; ++i)
+    for (std::size_t i = 0; i < points; ++i)
         farthest = std::max(farthest, (at(shape, i) + between - at(expected, i)).norm());
     return farthest;
 }
@@ -219,6 +221,26 @@ TEST(Outlier, HangsOnTheSurfaceAndLeavesItsShape) {
         const std::vector<float>& rest = dusty.document().cloud().positions;
         EXPECT_GT((at(shape, 1503) - at(rest, 1503)).norm(), 0.5); // held by the top, beside it
     }
+}
+
+// Nor do few samples, which ask the points between them, take a stray's long link for a wide piece of
+// surface.
+TEST(Outlier, LeavesTheShapeOfFewSamples) {
+    constexpr std::size_t points = 60'000, strays = 1200;
+    std::mt19937 random(1);
+    std::vector<Vec3d> around;
+    for (std::size_t k = 0; k < strays; ++k) {
+        const double turned = std::uniform_real_distribution(0.0, 2 * std::numbers::pi)(random);
+        const double far = std::uniform_real_distribution(0.7, 2.0)(random);
+        const double high = std::uniform_real_distribution(-1.8, 1.8)(random);
+        around.emplace_back(far * std::cos(turned), far * std::sin(turned), high);
+    }
+    const PointCloud cloud = with(bar(points), around);
+    Desk many(cloud), few(cloud);
+    const std::string bend = ends + drag(turn('y', 70)) + settle(300);
+    many.play(set(R"("samples":5000)") + bend);
+    few.play(set(R"("samples":200)") + bend);
+    EXPECT_LT(farthest_apart(many, few, points), 0.01 * many.diagonal()); // twice as far, otherwise
 }
 
 // A bar with a peg of one point in its side, and a stray beside that: swung by its end, about the peg.

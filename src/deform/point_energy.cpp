@@ -256,30 +256,39 @@ void add_pair(const BodyPair& other, BodyPair& pair) {
     pair.target_spread += other.target_spread;
 }
 
+// Two that have met, at a point.
+struct MetPair {
+    Index sample = 0, body = 0;
+    BodyPair sums;
+};
+
 // The sums over some points.
 struct Part {
-    std::vector<Index> met;             // bodies, in the order in which they were met
-    std::vector<BodyPair> pairs;        // t * met.size() + s, by places in `met`; of handles t: nothing
-    std::vector<std::uint8_t> have_met; // of each of these: whether they did, at a point
-    std::vector<Mat3d> spread;          // of each
+    std::vector<Index> met;    // bodies, in the order in which they were met
+    std::vector<Mat3d> spread; // of each
     std::vector<double> confidence;
+    std::vector<MetPair> pairs; // in that order, too
 };
+
+// Where each element's body stands in the part's `met`, contribution after contribution.
+std::vector<Index> places_in(Part& part, std::span<const Contribution> contributions) {
+    std::vector<Index> places;
+    for (const Contribution& at : contributions)
+        for (const Element& element : at.elements) {
+            const auto found = std::ranges::find(part.met, element.body);
+            places.push_back(static_cast<Index>(found - part.met.begin()));
+            if (found == part.met.end()) part.met.push_back(element.body);
+        }
+    return places;
+}
 
 Part sum_up(std::span<const Contribution> contributions, std::size_t samples) {
     Part part;
-    std::vector<Index> places;
-    const auto place_of = [&](Index body) {
-        const auto place = static_cast<Index>(std::ranges::find(part.met, body) - part.met.begin());
-        if (place == part.met.size()) part.met.push_back(body);
-        return place;
-    };
-    for (const Contribution& at : contributions)
-        for (const Element& element : at.elements) places.push_back(place_of(element.body));
+    const std::vector<Index> places = places_in(part, contributions);
     const std::size_t bodies = part.met.size();
-    part.pairs.resize(bodies * bodies);
-    part.have_met.assign(bodies * bodies, 0);
     part.spread.assign(bodies, Mat3d::Zero());
     part.confidence.assign(bodies, 0);
+    std::vector<Index> number(bodies * bodies, no_index); // of each pair of places: in `pairs`
     const Index* place = places.data();
     for (const Contribution& at : contributions) {
         for (std::size_t t = 0; t < at.elements.size(); ++t) {
@@ -288,9 +297,12 @@ Part sum_up(std::span<const Contribution> contributions, std::size_t samples) {
             part.spread[place[t]] += 2 * at.measure * own.weight * at.along;
             part.confidence[place[t]] += 2 * at.dimension * at.measure * own.weight;
             for (std::size_t s = 0; s < at.elements.size(); ++s) {
-                const std::size_t pair = place[t] * bodies + place[s];
-                add_pair(at, own, at.elements[s], part.pairs[pair]);
-                part.have_met[pair] = 1;
+                Index& pair = number[place[t] * bodies + place[s]];
+                if (pair == no_index) {
+                    pair = static_cast<Index>(part.pairs.size());
+                    part.pairs.push_back({own.body, at.elements[s].body, {}});
+                }
+                add_pair(at, own, at.elements[s], part.pairs[pair].sums);
             }
         }
         place += at.elements.size();
@@ -302,9 +314,7 @@ Part sum_up(std::span<const Contribution> contributions, std::size_t samples) {
 void number_pairs(std::span<const Part> parts, PointEnergy& energy) {
     std::vector<std::vector<Index>> rows(energy.samples);
     for (const Part& part : parts)
-        for (std::size_t t = 0; t < part.met.size(); ++t)
-            for (std::size_t s = 0; s < part.met.size(); ++s)
-                if (part.have_met[t * part.met.size() + s]) rows[part.met[t]].push_back(part.met[s]);
+        for (const MetPair& pair : part.pairs) rows[pair.sample].push_back(pair.body);
     energy.first.assign(1, 0);
     for (Index t = 0; t < rows.size(); ++t) {
         rows[t].push_back(t);
@@ -318,17 +328,15 @@ void number_pairs(std::span<const Part> parts, PointEnergy& energy) {
 
 void add_part(const Part& part, PointEnergy& energy) {
     for (std::size_t t = 0; t < part.met.size(); ++t) {
-        const Index sample = part.met[t];
-        if (sample >= energy.samples) continue;
-        energy.spread[sample] += part.spread[t];
-        energy.confidence[sample] += part.confidence[t];
-        const auto begin = energy.body.begin() + energy.first[sample];
-        const auto end = energy.body.begin() + energy.first[sample + 1];
-        for (std::size_t s = 0; s < part.met.size(); ++s) {
-            if (!part.have_met[t * part.met.size() + s]) continue;
-            const auto at = std::lower_bound(begin, end, part.met[s]) - energy.body.begin();
-            add_pair(part.pairs[t * part.met.size() + s], energy.pair[static_cast<std::size_t>(at)]);
-        }
+        if (part.met[t] >= energy.samples) continue;
+        energy.spread[part.met[t]] += part.spread[t];
+        energy.confidence[part.met[t]] += part.confidence[t];
+    }
+    for (const MetPair& pair : part.pairs) {
+        const auto begin = energy.body.begin() + energy.first[pair.sample];
+        const auto end = energy.body.begin() + energy.first[pair.sample + 1];
+        const auto at = std::lower_bound(begin, end, pair.body) - energy.body.begin();
+        add_pair(pair.sums, energy.pair[static_cast<std::size_t>(at)]);
     }
 }
 

@@ -230,6 +230,9 @@ bool contribution_of(const PointsBetween& between, Index vertex, Blends& blends,
     const std::vector<Blend> own(read.begin(), read.end());
     for (const Blend& blend : own) element_of(result.elements, blend.body).weight = blend.weight;
     const Mat3d slope = add_gradients(row, position, surroundings, own, blends, result.elements);
+    std::erase_if(result.elements, [](const Element& element) { // the farthest around, of smooth weights
+        return element.weight == 0 && element.gradient.isZero(0) && element.arms.isZero(0);
+    });
     const Mat3d correction = correction_of(slope, result.along);
     for (Element& element : result.elements) element.corrected = correction * element.gradient;
     return !result.elements.empty();

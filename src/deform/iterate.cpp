@@ -7,12 +7,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace knead {
 
 namespace {
 
 constexpr std::size_t grain = 256;
+
+// Stretches count as this at most, |U - I|.
+constexpr double most_stretch = std::numbers::e * std::numbers::e;
 
 // q - 1 as a vector w x y z: what the systems are solved for.
 Eigen::Vector4d beyond_one(const Quatd& q) {
@@ -204,7 +208,11 @@ void find_stretches(SampleSystem& system, const SampleState& state, Workers& wor
         const Mat3d gradient = gradient_at(system, state, row);
         if (targets)
             system.target[row] = elastic_target(system.surroundings[row], gradient, system.rest.poisson);
-        if (stretches) system.stretch[row] = stretch_of(gradient);
+        if (stretches) {
+            const Mat3d stretch = stretch_of(gradient);
+            const double most = std::max(1.0, stretch.norm() / most_stretch);
+            system.stretch[row] = system.trust[row] / most * stretch;
+        }
     });
 }
 

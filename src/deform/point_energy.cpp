@@ -111,6 +111,7 @@ private:
 struct Element {
     Index body = 0;
     double weight = 0;
+    double square_reach = 0;         // |p - p_s|² of a sample
     Vec3d gradient = Vec3d::Zero();  // g
     Mat3d arms = Mat3d::Zero();      // H
     Vec3d corrected = Vec3d::Zero(); // ĝ
@@ -228,7 +229,12 @@ bool contribution_of(const PointsBetween& between, Index vertex, Blends& blends,
     result.elements.clear();
     const std::span<const Blend> read = blends.read(vertex);
     const std::vector<Blend> own(read.begin(), read.end());
-    for (const Blend& blend : own) element_of(result.elements, blend.body).weight = blend.weight;
+    for (const Blend& blend : own) {
+        Element& element = element_of(result.elements, blend.body);
+        element.weight = blend.weight;
+        if (blend.body < between.sample.size())
+            element.square_reach = (position - between.sample[blend.body]).squaredNorm();
+    }
     const Mat3d slope = add_gradients(row, position, surroundings, own, blends, result.elements);
     std::erase_if(result.elements, [](const Element& element) { // the farthest around, of smooth weights
         return element.weight == 0 && element.gradient.isZero(0) && element.arms.isZero(0);
@@ -269,7 +275,7 @@ struct MetPair {
 struct Part {
     std::vector<Index> met;    // bodies, in the order in which they were met
     std::vector<Mat3d> spread; // of each
-    std::vector<double> confidence;
+    std::vector<double> confidence, reach;
     std::vector<MetPair> pairs; // in that order, too
 };
 
@@ -291,6 +297,7 @@ Part sum_up(std::span<const Contribution> contributions, std::size_t samples) {
     const std::size_t bodies = part.met.size();
     part.spread.assign(bodies, Mat3d::Zero());
     part.confidence.assign(bodies, 0);
+    part.reach.assign(bodies, 0);
     std::vector<Index> number(bodies * bodies, no_index); // of each pair of places: in `pairs`
     const Index* place = places.data();
     for (const Contribution& at : contributions) {
@@ -299,6 +306,7 @@ Part sum_up(std::span<const Contribution> contributions, std::size_t samples) {
             if (own.body >= samples) continue;
             part.spread[place[t]] += 2 * at.measure * own.weight * at.along;
             part.confidence[place[t]] += 2 * at.dimension * at.measure * own.weight;
+            part.reach[place[t]] += 2 * at.dimension * at.measure * own.weight * own.square_reach;
             for (std::size_t s = 0; s < at.elements.size(); ++s) {
                 Index& pair = number[place[t] * bodies + place[s]];
                 if (pair == no_index) {
@@ -334,6 +342,7 @@ void add_part(const Part& part, PointEnergy& energy) {
         if (part.met[t] >= energy.samples) continue;
         energy.spread[part.met[t]] += part.spread[t];
         energy.confidence[part.met[t]] += part.confidence[t];
+        energy.reach[part.met[t]] += part.reach[t];
     }
     for (const MetPair& pair : part.pairs) {
         const auto begin = energy.body.begin() + energy.first[pair.sample];
@@ -353,6 +362,7 @@ PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
     energy.bodies = energy.samples + between.handles;
     energy.spread.assign(energy.samples, Mat3d::Zero());
     energy.confidence.assign(energy.samples, 0);
+    energy.reach.assign(energy.samples, 0);
     if (energy.samples == 0) return energy;
     const std::vector<Index> asked =
         spread_between(between, std::max(points_a_sample * energy.samples, fewest_points), workers);
@@ -371,6 +381,8 @@ PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
     });
     number_pairs(parts, energy);
     for (const Part& part : parts) add_part(part, energy);
+    for (std::size_t s = 0; s < energy.samples; ++s)
+        energy.reach[s] = energy.confidence[s] > 0 ? std::sqrt(energy.reach[s] / energy.confidence[s]) : 0;
     return energy;
 }
 

@@ -59,6 +59,7 @@ struct PointEnergy {
     std::vector<BodyPair> pair;
     std::vector<Mat3d> spread;      // Σ 2ω w_t P, of each sample
     std::vector<double> confidence; // Σ 2 dim ω w_t, of each sample
+    std::vector<double> reach;      // of each sample: how far the points are that it moves, rms
 };
 
 // The cloud between the samples.

@@ -36,6 +36,12 @@
 //     2. L_ts = Σ ω ĝ_t·ĝ_s and C_t = Σ 2 dim ω w_t,
 //     3. L_ts = Σ ω g_t·g_s and b_t = -Σ_s (A_s Σ ω H_s g_t - M_s Σ ω w_s P g_t).
 //
+// The A_s of a sample is R (I + θ (U - I)), with U what its links say of the stretch around it before the
+// iteration turns anything, and no strain beyond a factor of e². That feeds back: where the points that a
+// sample moves lie much farther off than its links reach, errors of U would grow with every iteration. So
+// θ = min(1, 2.2/(ϱ_s Σ_j |Σ⁺ w e|))³, with ϱ_s the distance of these points, rms; Σ⁺ is that of
+// deform/stretch.h.
+//
 // With more samples both count, points by their share and links by the rest, all sums and matrices being
 // sums of both. So they do where turns spread over half a link, β from ℓ²/4 to 0.3 ℓ²: the blends are too
 // wide for a sheet that is softer, and links hold it.
@@ -101,7 +107,7 @@ struct SampleState {
 // What a body of a PointEnergy does: it sends p to p + map p + way, or, a sample, about its place.
 struct Body {
     Vec3d way = Vec3d::Zero();
-    Mat3d map = Mat3d::Zero();  // A: R U - I, U as it was before the iteration or the handles turned anything
+    Mat3d map = Mat3d::Zero();  // A - I
     Mat3d turn = Mat3d::Zero(); // M - I: R S - I
     bool placed = true;         // given, not to be solved for: `way` ...
     bool turned = true;         // ... and how it turns
@@ -136,7 +142,8 @@ struct SampleSystem {
     std::vector<Body> body;       // of rest.energy, samples and then handles
     std::vector<Quatd> free_turn; // of each handle that `rest.turns_freely` tells of
     std::vector<Mat3d> target;    // S - I, of each row; empty for ν = 0
-    std::vector<Mat3d> stretch;   // U - I, of each row; empty where there is no rest.energy
+    std::vector<Mat3d> stretch;   // θ (U - I), of each row; empty where there is no rest.energy
+    std::vector<double> trust;    // θ of each of these
     std::vector<double> sides;    // right-hand sides and solutions, 4 or 3 numbers a row
 };
 

@@ -18,7 +18,7 @@ constexpr const char* turns_name = "turns";
 constexpr const char* stiffness_name = "stiffness";
 constexpr const char* demands_name = "demands";
 
-std::string samples_name(const ScanOfThePaper& scan) {
+std::string samples_name(const NamedScan& scan) {
     return std::string("samples-") + scan.name;
 }
 
@@ -80,7 +80,7 @@ void evaluate_studies(const EvaluationOptions& options, Workers& workers, Upsamp
     if (is_chosen(options, stiffness_name))
         result.stiffnesses = evaluate_stiffness(workers, upsampler, progress);
     if (is_chosen(options, demands_name)) result.demands = evaluate_demands(workers, upsampler, progress);
-    for (const ScanOfThePaper& scan : scans_of_the_paper())
+    for (const NamedScan& scan : scans_to_sample())
         if (is_chosen(options, samples_name(scan)))
             result.scans.push_back(evaluate_scan_samples(scan, options.scans, workers, upsampler, progress));
 }
@@ -112,7 +112,7 @@ std::vector<std::string> evaluation_names(const EvaluationOptions& options) {
         if (std::ranges::find(names, made.name) == names.end()) names.emplace_back(made.name);
     for (const char* name : {elasticity_name, sampling_name, turns_name, stiffness_name, demands_name})
         names.emplace_back(name);
-    for (const ScanOfThePaper& scan : scans_of_the_paper()) names.push_back(samples_name(scan));
+    for (const NamedScan& scan : scans_to_sample()) names.push_back(samples_name(scan));
     for (const auto& path : data_files(options.scans, ".ply")) names.push_back(path.stem().string());
     return names;
 }

@@ -45,7 +45,7 @@ PointCloud clean_creature(PageStudio& studio) {
 void add_scan_rows(
     PageStudio& studio, PageSection& section,
     const std::function<PageRow(const std::string& name, PointCloud cloud, const fs::path& file)>& draw) {
-    for (const ScanOfThePaper& scan : scans_of_the_paper()) {
+    for (const NamedScan& scan : scans_of_the_paper()) {
         if (const auto path = find_data_file(studio.scans, scan.file))
             section.rows.push_back(draw(scan.name, read_cloud(*path, studio.progress), *path));
         else

@@ -10,8 +10,12 @@ namespace {
 
 constexpr double bend_degrees = 60;
 constexpr unsigned settle_limit = 300;
-constexpr ScanOfThePaper scans[] = {
-    {"bunny", "bunny.ply"}, {"armadillo", "armadillo_172974.ply"}, {"dragon", "dragon.ply"}};
+constexpr NamedScan scans[] = {{"bunny", "bunny.ply"},
+                               {"armadillo", "armadillo_172974.ply"},
+                               {"dragon", "dragon.ply"},
+                               {"lidar", "lidar_lone_star_519k.ply"},
+                               {"room", "open3d_fragment_196k.ply"}};
+constexpr std::size_t of_the_paper = 3;
 constexpr std::uint64_t sample_counts[] = {10'000, 5000, 1000, 200, 100, 50};
 
 // The settled shape, in the order of computation, which depends on the cloud alone.
@@ -31,7 +35,11 @@ std::vector<float> settled(const DeformationTask& task, ScanSampleCount& count, 
 
 } // namespace
 
-std::span<const ScanOfThePaper> scans_of_the_paper() {
+std::span<const NamedScan> scans_of_the_paper() {
+    return std::span(scans).first(of_the_paper);
+}
+
+std::span<const NamedScan> scans_to_sample() {
     return scans;
 }
 
@@ -58,7 +66,7 @@ ScanSamples evaluate_scan_samples(const DeformationTask& task, std::span<const s
     return result;
 }
 
-ScanSamples evaluate_scan_samples(const ScanOfThePaper& scan, const DataFolders& folders, Workers& workers,
+ScanSamples evaluate_scan_samples(const NamedScan& scan, const DataFolders& folders, Workers& workers,
                                   Upsampler& upsampler, Progress& progress) {
     const auto path = find_data_file(folders, scan.file);
     if (!path) {

@@ -1,6 +1,5 @@
 #pragma once
-// Whether the number of samples shows on scans: the bunny, the armadillo and the dragon, bent, with few
-// samples and with as many as can be.
+// Whether the number of samples shows on scans, which are bent, with few samples and with as many as can be.
 
 #include "bench/data_files.h"
 #include "bench/survey.h"
@@ -40,20 +39,22 @@ struct ScanSamples {
     std::vector<ScanSampleCount> counts; // the full solution first, then the most samples to the fewest
 };
 
-// The scans by name ("bunny"), each with the file it is in.
-struct ScanOfThePaper {
+// A scan by a short name ("bunny"), and the file it is in.
+struct NamedScan {
     const char* name;
     const char* file; // "bunny.ply"
 };
-std::span<const ScanOfThePaper> scans_of_the_paper();
+std::span<const NamedScan> scans_of_the_paper();
+std::span<const NamedScan>
+scans_to_sample(); // these, and two that are all rims: from the air and from inside
 
 // The task with 50, 200, … 10,000 samples, as far as those are fewer than the full solution's.
 ScanSamples evaluate_scan_samples(const DeformationTask& task, std::span<const std::uint64_t> counts,
                                   Workers& workers, Upsampler& upsampler, Progress& progress);
 
-// The scan of the paper that has this name, bent by 60° between automatic handles; where its file is not at
+// The scan, bent by 60° between automatic handles; where its file is not at
 // hand the result says so.
-ScanSamples evaluate_scan_samples(const ScanOfThePaper& scan, const DataFolders& folders, Workers& workers,
+ScanSamples evaluate_scan_samples(const NamedScan& scan, const DataFolders& folders, Workers& workers,
                                   Upsampler& upsampler, Progress& progress);
 
 } // namespace knead

@@ -275,8 +275,9 @@ struct MetPair {
 struct Part {
     std::vector<Index> met;    // bodies, in the order in which they were met
     std::vector<Mat3d> spread; // of each
-    std::vector<double> confidence, reach;
-    std::vector<MetPair> pairs; // in that order, too
+    std::vector<double> confidence;
+    std::vector<double> reach;  // Σ 2 dim ω w |p - p_s|²
+    std::vector<MetPair> pairs; // in the order in which these have met
 };
 
 // Where each element's body stands in the part's `met`, contribution after contribution.

@@ -45,8 +45,9 @@ struct NamedScan {
     const char* file; // "bunny.ply"
 };
 std::span<const NamedScan> scans_of_the_paper();
-std::span<const NamedScan>
-scans_to_sample(); // these, and two that are all rims: from the air and from inside
+
+// These, and two that are all rims and holes: one from the air, and a room from inside.
+std::span<const NamedScan> scans_to_sample();
 
 // The task with 50, 200, … 10,000 samples, as far as those are fewer than the full solution's.
 ScanSamples evaluate_scan_samples(const DeformationTask& task, std::span<const std::uint64_t> counts,

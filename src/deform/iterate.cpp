@@ -13,7 +13,10 @@ namespace knead {
 
 namespace {
 
-constexpr std::size_t grain = 256;
+// Rows that one worker takes at once: of few the fewer, so that all workers are done at the same time.
+std::size_t grain_of(std::size_t rows) {
+    return std::clamp<std::size_t>(rows / 16, 16, 256);
+}
 
 // Stretches count as this at most, |U - I|.
 constexpr double most_stretch = std::numbers::e * std::numbers::e;
@@ -50,14 +53,6 @@ constexpr std::size_t soon = 3;
     }
 }
 
-// Calls visit(s, pair) for the bodies that a sample has points in common with.
-template<typename Visit>
-void for_bodies(const PointEnergy& energy, Index sample, Visit&& visit) {
-    if (energy.first.empty()) return;
-    for (Index at = energy.first[sample]; at < energy.first[sample + 1]; ++at)
-        visit(energy.body[at], energy.pair[at]);
-}
-
 // Adds to the right-hand side of a row what `given(sample)` of the handles around it says, times `smoothing`.
 template<typename Given>
 [[gnu::always_inline]] inline void add_given(SampleSystem& system, std::size_t row, double smoothing,
@@ -69,11 +64,14 @@ template<typename Given>
         const Index j = rest.graph.neighbor[link];
         if (system.unknown[j] == no_index) side += smoothing * rest.weight[link] * beyond_one(given(j));
     }
-    for_bodies(rest.energy, i, [&](Index s, const BodyPair& pair) {
-        if (!system.body[s].turned) return;
-        const Index sample = s < rest.energy.samples ? s : system.body[s].from;
-        if (sample != no_index) side -= smoothing * pair.*coefficient * beyond_one(given(sample));
-    });
+    const PointEnergy& energy = rest.energy;
+    if (energy.first.empty()) return;
+    for (Index at = energy.first[i]; at < energy.first[i + 1]; ++at) {
+        const Index s = energy.body[at];
+        if (!system.body[s].turned) continue;
+        const Index sample = s < energy.samples ? s : system.body[s].from;
+        if (sample != no_index) side -= smoothing * energy.pair[at].*coefficient * beyond_one(given(sample));
+    }
 }
 
 // The right-hand side, four numbers a row: what own(begin, end) writes for these rows of the samples
@@ -82,7 +80,8 @@ template<typename Given>
 template<typename Own, typename Given>
 void assemble_rotations(SampleSystem& system, double smoothing, double BodyPair::*coefficient, Own&& own,
                         Given&& given, Workers& workers) {
-    workers.for_chunks(system.free_sample.size(), grain, [&](std::size_t begin, std::size_t end) {
+    const std::size_t rows = system.free_sample.size();
+    workers.for_chunks(rows, grain_of(rows), [&](std::size_t begin, std::size_t end) {
         own(begin, end);
         for (std::size_t row = begin; row < end; ++row) add_given(system, row, smoothing, coefficient, given);
     });
@@ -92,7 +91,7 @@ void assemble_rotations(SampleSystem& system, double smoothing, double BodyPair:
 template<typename Take>
 void for_solved_rotations(const SampleSystem& system, Take&& take, Workers& workers) {
     const std::size_t rows = system.free_sample.size();
-    workers.for_each(rows, grain, [&](std::size_t row) {
+    workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
         const double* side = system.sides.data() + 4 * row;
         Quatd solved(1 + side[0], side[1], side[2], side[3]);
         const double length = solved.norm();
@@ -145,13 +144,8 @@ Mat3d sum_of_edges(const SampleSystem& system, const SampleState& state, std::si
 // What the points around a sample, a body, add to step 1.
 Mat3d points_around(const SampleSystem& system, const SampleState& state, Index i) {
     const Mat3d& spread = system.rest.energy.spread[i];
-    Mat3d sum = spread + (turn_of(state.rotation[i]) - (1 - system.midway) * system.body[i].turn) * spread;
-    for_bodies(system.rest.energy, i, [&](Index s, const BodyPair& pair) {
-        const Body& body = system.body[s];
-        sum += body.way * pair.way_slope.transpose() + body.map * pair.map_slope -
-               system.midway * body.turn * pair.target_spread;
-    });
-    return sum;
+    return spread + (turn_of(state.rotation[i]) - (1 - system.midway) * system.turn[i]) * spread +
+           local_sum_of(bodies_around(system.rest.energy, system.body, i), system.midway);
 }
 
 // The sum of step 1. What is the sample's own in it, R_i e - (1 - γ/2) M_i e, is one product with Σ w e eᵀ.
@@ -204,7 +198,8 @@ Mat3d gradient_at(const SampleSystem& system, const SampleState& state, std::siz
 void find_stretches(SampleSystem& system, const SampleState& state, Workers& workers) {
     const bool targets = !system.target.empty(), stretches = !system.stretch.empty();
     if (!targets && !stretches) return;
-    workers.for_each(system.free_sample.size(), grain, [&](std::size_t row) {
+    const std::size_t rows = system.free_sample.size();
+    workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
         const Mat3d gradient = gradient_at(system, state, row);
         if (targets)
             system.target[row] = elastic_target(system.surroundings[row], gradient, system.rest.poisson);
@@ -218,28 +213,35 @@ void find_stretches(SampleSystem& system, const SampleState& state, Workers& wor
 
 // M - I of the samples that turn by themselves: R S - I.
 void find_turns(SampleSystem& system, const SampleState& state, Workers& workers) {
-    workers.for_each(system.free_sample.size(), grain, [&](std::size_t row) {
+    const std::size_t rows = system.free_sample.size();
+    workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
         const Index i = system.free_sample[row];
         system.turn[i] = turn_of(state.rotation[i]);
         if (!system.target.empty()) system.turn[i] += state.rotation[i] * system.target[row];
     });
 }
 
+// A - I of a sample that turns by itself.
+Mat3d stretched_turn(const SampleSystem& system, const SampleState& state, std::size_t s) {
+    return turn_of(state.rotation[s]) + state.rotation[s] * system.stretch[system.unknown[s]];
+}
+
 // What all bodies do, where points have an energy.
 void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state,
                  Workers& workers) {
     const std::size_t samples = system.rest.energy.samples;
-    workers.for_each(system.body.size(), grain, [&](std::size_t s) {
+    workers.for_each(system.body.size(), grain_of(system.body.size()), [&](std::size_t s) {
         Body& body = system.body[s];
         if (s < samples) {
-            body.way = state.displacement[s];
-            body.turn = body.map = system.turn[s];
-            if (!body.turned)
-                body.map = turn_of(state.rotation[s]) + state.rotation[s] * system.stretch[system.unknown[s]];
+            const Mat3d& turn = system.turn[s];
+            set_way(state.displacement[s], body);
+            set_columns(turn, body.turn);
+            set_columns(body.turned ? turn : stretched_turn(system, state, s), body.map);
         } else {
             const HandleMotion& motion = handles[s - samples];
-            body.way = motion.offset;
-            body.turn = body.map = motion.linear - Mat3d::Identity();
+            set_way(motion.offset, body);
+            set_columns(motion.linear - Mat3d::Identity(), body.turn);
+            body.map = body.turn;
         }
     });
 }
@@ -280,7 +282,7 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
     const std::size_t rows = system.moving_rows;
     find_turns(system, state, workers);
     find_bodies(system, handles, state, workers);
-    workers.for_each(rows, grain, [&](std::size_t row) {
+    workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
         look_ahead(system, state, row);
         const Index i = system.free_sample[row];
         Vec3d given = Vec3d::Zero(); // by handles: Σ w u_j; and by bodies
@@ -293,11 +295,7 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
             if (!(system.unknown[j] < rows)) given += rest.weight[link] * state.displacement[j];
         }
         turned += system.turn[i] * edges;
-        for_bodies(rest.energy, i, [&](Index s, const BodyPair& pair) {
-            const Body& body = system.body[s];
-            given -= body.map * pair.map_force - body.turn * pair.target_force;
-            if (body.placed) given -= pair.way * body.way;
-        });
+        if (!rest.energy.first.empty()) given += force_of(bodies_around(rest.energy, system.body, i));
         Eigen::Map<Vec3d>(system.sides.data() + 3 * row) = given - 0.5 * turned; // p_i - p_j = -e
     });
     add_pulls(system, handles, state);

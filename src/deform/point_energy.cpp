@@ -27,7 +27,7 @@ constexpr std::size_t points_a_sample = 32, fewest_points = 16384;
 
 // Points whose sums are made together, by one worker, are near each other and meet few bodies: as many as
 // around so many samples.
-constexpr std::size_t samples_a_part = 8;
+constexpr std::size_t samples_a_part = 16;
 
 // A blend that is flatter than this, or steeper, is not made up for.
 constexpr double least_slope = 0.55, most_slope = 1.7;
@@ -153,8 +153,10 @@ Mat3d add_gradients(std::span<const Index> row, const Vec3d& position, const Sur
     const auto add = [&](const Blend& blend, const Vec3d& along) {
         Element& element = element_of(elements, blend.body);
         element.gradient += blend.weight * along;
-        element.arms += blend.arm * along.transpose();
-        slope += blend.place * along.transpose();
+        for (int column = 0; column < 3; ++column) { // a whole product would go by way of memory
+            element.arms.col(column) += along[column] * blend.arm;
+            slope.col(column) += along[column] * blend.place;
+        }
     };
     Vec3d sum = Vec3d::Zero();
     for (const Index other : row) {
@@ -244,32 +246,42 @@ bool contribution_of(const PointsBetween& between, Index vertex, Blends& blends,
     return !result.elements.empty();
 }
 
-void add_pair(const Contribution& at, const Element& t, const Element& s, BodyPair& pair) {
-    const double measure = at.measure;
-    pair.way += measure * t.gradient.dot(s.gradient);
-    pair.turn += measure * t.corrected.dot(s.corrected);
-    pair.map_force += measure * (s.arms * t.gradient);
-    pair.target_force += measure * s.weight * (at.along * t.gradient);
-    pair.way_slope += 2 * measure * t.weight * s.gradient;
-    pair.map_slope += 2 * measure * t.weight * s.arms;
-    pair.target_spread += 2 * measure * t.weight * s.weight * at.along;
+// Two that have met, at a point.
+struct MetPair {
+    Index sample = 0, body = 0;
+    BodyPair pair;
+    PairSlopes slopes;
+};
+
+void add_pair(const Contribution& at, const Element& t, const Element& s, MetPair& sums) {
+    BodyPair& pair = sums.pair;
+    pair.way += at.measure * t.gradient.dot(s.gradient);
+    pair.turn += at.measure * t.corrected.dot(s.corrected);
+    const Vec3d pulled = at.measure * t.gradient;
+    for (int column = 0; column < 3; ++column) pair.map_force += pulled[column] * s.arms.col(column);
+    if (s.weight > 0)
+        for (int column = 0; column < 3; ++column)
+            pair.target_force += s.weight * pulled[column] * at.along.col(column);
+    if (!(t.weight > 0)) return; // a neighbour's
+    PairSlopes& slopes = sums.slopes;
+    const double twice = 2 * at.measure * t.weight;
+    slopes.way_slope += twice * s.gradient;
+    slopes.map_slope += twice * s.arms;
+    if (s.weight > 0) slopes.target_spread += twice * s.weight * at.along;
 }
 
-void add_pair(const BodyPair& other, BodyPair& pair) {
+void add_sums(const BodyPair& other, BodyPair& pair) {
     pair.way += other.way;
     pair.turn += other.turn;
     pair.map_force += other.map_force;
     pair.target_force += other.target_force;
-    pair.way_slope += other.way_slope;
-    pair.map_slope += other.map_slope;
-    pair.target_spread += other.target_spread;
 }
 
-// Two that have met, at a point.
-struct MetPair {
-    Index sample = 0, body = 0;
-    BodyPair sums;
-};
+void add_sums(const PairSlopes& other, PairSlopes& slopes) {
+    slopes.way_slope += other.way_slope;
+    slopes.map_slope += other.map_slope;
+    slopes.target_spread += other.target_spread;
+}
 
 // The sums over some points.
 struct Part {
@@ -312,9 +324,9 @@ Part sum_up(std::span<const Contribution> contributions, std::size_t samples) {
                 Index& pair = number[place[t] * bodies + place[s]];
                 if (pair == no_index) {
                     pair = static_cast<Index>(part.pairs.size());
-                    part.pairs.push_back({own.body, at.elements[s].body, {}});
+                    part.pairs.push_back({own.body, at.elements[s].body, {}, {}});
                 }
-                add_pair(at, own, at.elements[s], part.pairs[pair].sums);
+                add_pair(at, own, at.elements[s], part.pairs[pair]);
             }
         }
         place += at.elements.size();
@@ -322,34 +334,65 @@ Part sum_up(std::span<const Contribution> contributions, std::size_t samples) {
     return part;
 }
 
-// Which bodies each sample meets.
-void number_pairs(std::span<const Part> parts, PointEnergy& energy) {
-    std::vector<std::vector<Index>> rows(energy.samples);
+// The pairs of all parts, sample after sample, and in the order of the parts.
+struct PairsBySample {
+    std::vector<std::size_t> first; // one entry a sample, and the end
+    std::vector<const MetPair*> pair;
+
+    std::span<const MetPair* const> of(std::size_t sample) const {
+        return std::span(pair).subspan(first[sample], first[sample + 1] - first[sample]);
+    }
+};
+
+PairsBySample by_sample(std::span<const Part> parts, std::size_t samples) {
+    PairsBySample result;
+    result.first.assign(samples + 2, 0);
     for (const Part& part : parts)
-        for (const MetPair& pair : part.pairs) rows[pair.sample].push_back(pair.body);
+        for (const MetPair& pair : part.pairs) ++result.first[pair.sample + 2];
+    std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
+    result.pair.resize(result.first.back());
+    for (const Part& part : parts)
+        for (const MetPair& pair : part.pairs) result.pair[result.first[pair.sample + 1]++] = &pair;
+    result.first.pop_back();
+    return result;
+}
+
+// Which bodies each sample meets.
+void number_pairs(const PairsBySample& pairs, PointEnergy& energy) {
+    std::vector<Index> row;
     energy.first.assign(1, 0);
-    for (Index t = 0; t < rows.size(); ++t) {
-        rows[t].push_back(t);
-        std::ranges::sort(rows[t]);
-        rows[t].erase(std::unique(rows[t].begin(), rows[t].end()), rows[t].end());
-        energy.body.insert(energy.body.end(), rows[t].begin(), rows[t].end());
+    energy.body.reserve(pairs.pair.size());
+    for (Index t = 0; t < energy.samples; ++t) {
+        row.assign(1, t);
+        for (const MetPair* pair : pairs.of(t)) row.push_back(pair->body);
+        std::ranges::sort(row);
+        energy.body.insert(energy.body.end(), row.begin(), std::unique(row.begin(), row.end()));
         energy.first.push_back(static_cast<Index>(energy.body.size()));
     }
     energy.pair.resize(energy.body.size());
+    energy.slopes.resize(energy.body.size());
 }
 
+void add_pairs(const PairsBySample& pairs, PointEnergy& energy, Workers& workers) {
+    workers.for_each(energy.samples, 64, [&](std::size_t t) {
+        const auto begin = energy.body.begin() + energy.first[t];
+        const auto end = energy.body.begin() + energy.first[t + 1];
+        for (const MetPair* met : pairs.of(t)) {
+            const auto at =
+                static_cast<std::size_t>(std::lower_bound(begin, end, met->body) - energy.body.begin());
+            add_sums(met->pair, energy.pair[at]);
+            add_sums(met->slopes, energy.slopes[at]);
+        }
+    });
+}
+
+// What a part says of the samples themselves.
 void add_part(const Part& part, PointEnergy& energy) {
     for (std::size_t t = 0; t < part.met.size(); ++t) {
         if (part.met[t] >= energy.samples) continue;
         energy.spread[part.met[t]] += part.spread[t];
         energy.confidence[part.met[t]] += part.confidence[t];
         energy.reach[part.met[t]] += part.reach[t];
-    }
-    for (const MetPair& pair : part.pairs) {
-        const auto begin = energy.body.begin() + energy.first[pair.sample];
-        const auto end = energy.body.begin() + energy.first[pair.sample + 1];
-        const auto at = std::lower_bound(begin, end, pair.body) - energy.body.begin();
-        add_pair(pair.sums, energy.pair[static_cast<std::size_t>(at)]);
     }
 }
 
@@ -380,7 +423,9 @@ PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
                 contributions.push_back(contribution);
         parts[part] = sum_up(contributions, energy.samples);
     });
-    number_pairs(parts, energy);
+    const PairsBySample pairs = by_sample(parts, energy.samples);
+    number_pairs(pairs, energy);
+    add_pairs(pairs, energy, workers);
     for (const Part& part : parts) add_part(part, energy);
     for (std::size_t s = 0; s < energy.samples; ++s)
         energy.reach[s] = energy.confidence[s] > 0 ? std::sqrt(energy.reach[s] / energy.confidence[s]) : 0;
@@ -401,9 +446,11 @@ void scale(PointEnergy& energy, double times) {
         pair.turn *= times;
         pair.map_force *= times;
         pair.target_force *= times;
-        pair.way_slope *= times;
-        pair.map_slope *= times;
-        pair.target_spread *= times;
+    }
+    for (PairSlopes& slopes : energy.slopes) {
+        slopes.way_slope *= times;
+        slopes.map_slope *= times;
+        slopes.target_spread *= times;
     }
     for (Mat3d& spread : energy.spread) spread *= times;
     for (double& confidence : energy.confidence) confidence *= times;

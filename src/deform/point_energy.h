@@ -39,12 +39,16 @@
 
 namespace knead {
 
-// What two bodies t and s have to do with each other; t is a sample.
+// What two bodies t and s have to do with each other; t is a sample. In the matrices, and for the positions:
 struct BodyPair {
-    double way = 0;                      // Σ ω g_t·g_s
-    double turn = 0;                     // Σ ω ĝ_t·ĝ_s
-    Vec3d map_force = Vec3d::Zero();     // Σ ω H_s g_t
-    Vec3d target_force = Vec3d::Zero();  // Σ ω w_s P g_t
+    double way = 0;                     // Σ ω g_t·g_s
+    double turn = 0;                    // Σ ω ĝ_t·ĝ_s
+    Vec3d map_force = Vec3d::Zero();    // Σ ω H_s g_t
+    Vec3d target_force = Vec3d::Zero(); // Σ ω w_s P g_t
+};
+
+// And for the turns. (Each step reads but one of the two, and takes as long as reading takes.)
+struct PairSlopes {
     Vec3d way_slope = Vec3d::Zero();     // Σ 2ω w_t g_s
     Mat3d map_slope = Mat3d::Zero();     // Σ 2ω w_t H_s
     Mat3d target_spread = Mat3d::Zero(); // Σ 2ω w_t w_s P
@@ -57,6 +61,7 @@ struct PointEnergy {
     std::vector<Index> first; // one entry a sample, and the end; empty: no energy
     std::vector<Index> body;  // of each pair: s, ascending within t, which is among them
     std::vector<BodyPair> pair;
+    std::vector<PairSlopes> slopes; // of each pair
     std::vector<Mat3d> spread;      // Σ 2ω w_t P, of each sample
     std::vector<double> confidence; // Σ 2 dim ω w_t, of each sample
     std::vector<double> reach;      // of each sample: how far the points are that it moves, rms

@@ -55,6 +55,7 @@
 // nothing moves.
 
 #include "base/workers.h"
+#include "deform/bodies.h"
 #include "deform/point_energy.h"
 #include "deform/stretch.h"
 #include "graph/csr.h"
@@ -102,16 +103,6 @@ struct SampleRest {
 struct SampleState {
     std::vector<Quatd> rotation;     // r
     std::vector<Vec3d> displacement; // u
-};
-
-// What a body of a PointEnergy does: it sends p to p + map p + way, or, a sample, about its place.
-struct Body {
-    Vec3d way = Vec3d::Zero();
-    Mat3d map = Mat3d::Zero();  // A - I
-    Mat3d turn = Mat3d::Zero(); // M - I: R S - I
-    bool placed = true;         // given, not to be solved for: `way` ...
-    bool turned = true;         // ... and how it turns
-    Index from = no_index;      // of a handle: one of its samples
 };
 
 // Both systems, factorised, and the work space of an iteration.

@@ -92,9 +92,9 @@ TEST(PointEnergy, KnowsNoResidualOfTurnsWhereAllIsMovedByOneLinearMap) {
     for (Index t = 0; t < energy.samples; ++t) {
         Mat3d sum = Mat3d::Zero(), target = Mat3d::Zero();
         for (Index at = energy.first[t]; at < energy.first[t + 1]; ++at) {
-            const BodyPair& pair = energy.pair[at];
-            sum += bodies.way[energy.body[at]] * pair.way_slope.transpose() + map * pair.map_slope;
-            target += map * pair.target_spread;
+            const PairSlopes& slopes = energy.slopes[at];
+            sum += bodies.way[energy.body[at]] * slopes.way_slope.transpose() + map * slopes.map_slope;
+            target += map * slopes.target_spread;
         }
         EXPECT_LT((sum - target).norm(), 1e-4 * target.norm());
         EXPECT_LT((target - map * energy.spread[t]).norm(), 1e-5 * target.norm()); // weights sum to 1
@@ -193,7 +193,7 @@ TEST(PointEnergy, IsTheSameForAnyNumberOfWorkers) {
     for (std::size_t at = 0; at < one.pair.size(); ++at) {
         EXPECT_EQ(one.pair[at].way, two.pair[at].way);
         EXPECT_EQ(one.pair[at].turn, two.pair[at].turn);
-        EXPECT_EQ(one.pair[at].map_slope, two.pair[at].map_slope);
+        EXPECT_EQ(one.slopes[at].map_slope, two.slopes[at].map_slope);
     }
 }
 

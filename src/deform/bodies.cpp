@@ -1,0 +1,69 @@
+#include "deform/bodies.h"
+
+#include "base/new_processors.h"
+
+namespace knead {
+
+namespace {
+
+[[gnu::always_inline]] inline Vec3d vector_of(const Four& four) {
+    return {four[0], four[1], four[2]};
+}
+
+// Adds matrix · by, a column of a product or all of it.
+[[gnu::always_inline]] inline void add_product(const Columns& matrix, const Vec3d& by, Four& sum) {
+    sum += matrix.of[0] * by[0] + matrix.of[1] * by[1] + matrix.of[2] * by[2];
+}
+[[gnu::always_inline]] inline void add_product(const Columns& matrix, const Mat3d& by, Columns& sum) {
+    for (int column = 0; column < 3; ++column)
+        sum.of[column] +=
+            matrix.of[0] * by(0, column) + matrix.of[1] * by(1, column) + matrix.of[2] * by(2, column);
+}
+
+} // namespace
+
+void set_way(const Vec3d& way, Body& body) {
+    body.way = Four{way[0], way[1], way[2], 0};
+}
+
+void set_columns(const Mat3d& matrix, Columns& columns) {
+    for (int column = 0; column < 3; ++column)
+        columns.of[column] = Four{matrix(0, column), matrix(1, column), matrix(2, column), 0};
+}
+
+BodiesAround bodies_around(const PointEnergy& energy, std::span<const Body> all, Index sample) {
+    const std::size_t first = energy.first[sample], count = energy.first[sample + 1] - first;
+    return {std::span(energy.pair).subspan(first, count), std::span(energy.slopes).subspan(first, count),
+            std::span(energy.body).subspan(first, count), all};
+}
+
+KNEAD_FOR_NEW_PROCESSORS_TOO
+Mat3d local_sum_of(const BodiesAround& around, double midway) {
+    Columns moved, wanted;
+    for (std::size_t at = 0; at < around.slopes.size(); ++at) {
+        const PairSlopes& slopes = around.slopes[at];
+        const Body& body = around.all[around.body[at]];
+        for (int column = 0; column < 3; ++column) moved.of[column] += body.way * slopes.way_slope[column];
+        add_product(body.map, slopes.map_slope, moved);
+        add_product(body.turn, slopes.target_spread, wanted);
+    }
+    Mat3d sum;
+    for (int column = 0; column < 3; ++column)
+        sum.col(column) = vector_of(moved.of[column] - midway * wanted.of[column]);
+    return sum;
+}
+
+KNEAD_FOR_NEW_PROCESSORS_TOO
+Vec3d force_of(const BodiesAround& around) {
+    Four moved = {}, wanted = {};
+    for (std::size_t at = 0; at < around.pair.size(); ++at) {
+        const BodyPair& pair = around.pair[at];
+        const Body& body = around.all[around.body[at]];
+        add_product(body.map, pair.map_force, moved);
+        add_product(body.turn, pair.target_force, wanted);
+        if (body.placed) moved += body.way * pair.way;
+    }
+    return vector_of(wanted - moved);
+}
+
+} // namespace knead

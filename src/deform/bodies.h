@@ -1,0 +1,50 @@
+#pragma once
+// What the bodies of a PointEnergy do, and what those around a sample add to an iteration: sums over some
+// ten thousand pairs, so they are made by four numbers at once.
+
+#include "base/types.h"
+#include "deform/point_energy.h"
+
+#include <span>
+
+namespace knead {
+
+// The three numbers of a vector, and one more that is 0, in the vectors of GCC and Clang.
+using Four = double __attribute__((vector_size(32)));
+
+// A matrix, column by column.
+struct alignas(32) Columns { // which GCC does not see to by itself where the processor may be an old one
+    Four of[3] = {};
+};
+
+// What a body does: it sends p to p + map p + way, or, a sample, about its place.
+struct Body {
+    alignas(32) Four way = {};
+    Columns map;           // A - I
+    Columns turn;          // M - I: R S - I
+    bool placed = true;    // given, not to be solved for: `way` ...
+    bool turned = true;    // ... and how it turns
+    Index from = no_index; // of a handle: one of its samples
+};
+
+void set_way(const Vec3d& way, Body& body);
+void set_columns(const Mat3d& matrix, Columns& columns);
+
+// The pairs of one sample, and their bodies' numbers in `all`.
+struct BodiesAround {
+    std::span<const BodyPair> pair;
+    std::span<const PairSlopes> slopes;
+    std::span<const Index> body;
+    std::span<const Body> all;
+};
+BodiesAround bodies_around(const PointEnergy& energy, std::span<const Body> all, Index sample);
+
+// Σ_s u_s (Σ 2ω w_t g_s)ᵀ + (A_s - I) Σ 2ω w_t H_s - γ (M_s - I) Σ 2ω w_t w_s P: what they add to the sum of
+// step 1 of sample_system.h. γ: `midway`.
+Mat3d local_sum_of(const BodiesAround& around, double midway);
+
+// -Σ_s (A_s - I) Σ ω H_s g_t - (M_s - I) Σ ω w_s P g_t, and of those that are placed -Σ ω g_t·g_s u_s: what
+// they add to the right-hand side of step 3.
+Vec3d force_of(const BodiesAround& around);
+
+} // namespace knead

@@ -52,6 +52,8 @@ Growth measure_growth(std::size_t most_points, const Table1Options& options, Pro
     Workers workers(options.threads);
     growth.threads = workers.threads();
     growth.device = make_upsampler(options.device, workers, options.threads).upsampler->device();
+    progress.step("copying memory", 0);
+    growth.copy_bytes_per_second = memory_copy_rate(workers);
     const auto measure = [&](const PointCloud& cloud, std::size_t samples) {
         return measure_row(cloud, samples, options, workers, progress, growth.warnings);
     };

@@ -15,6 +15,7 @@ struct Growth {
     Machine machine;
     unsigned threads = 0;
     std::string device;
+    double copy_bytes_per_second = 0;   // memory_copy_rate()
     std::vector<RowFigures> by_points;  // with 1000 samples
     std::vector<RowFigures> by_samples; // on a million points, or as many as are asked for
     std::vector<std::string> warnings;

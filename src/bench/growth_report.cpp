@@ -9,11 +9,17 @@ namespace knead {
 
 namespace {
 
-void add_rows(std::span<const RowFigures> rows, std::size_t RowFigures::*size, TextTable& table) {
+std::string share_text(double share) {
+    return digits_text(100 * share, 0) + " %";
+}
+
+void add_rows(std::span<const RowFigures> rows, std::size_t RowFigures::*size, double memory_copy,
+              TextTable& table) {
     for (const RowFigures& row : rows) {
         std::vector<std::string> line{grouped(row.points), grouped(row.samples)};
         for (const Stage& stage : growth_stages()) line.push_back(duration_text((row.*stage.seconds).median));
-        line.push_back(digits_text(100 * share_of_copy(row.upsampling), 0) + " %");
+        line.push_back(share_text(share_of_copy(row.upsampling)));
+        line.push_back(share_text(share_of_memory(row.upsampling, memory_copy)));
         for (const std::uint64_t memory : {row.memory_held, row.memory_peak})
             line.push_back(
                 memory == 0 ? unknown_text
@@ -28,7 +34,7 @@ void add_rows(std::span<const RowFigures> rows, std::size_t RowFigures::*size, T
     table.push_back(exponents);
 }
 
-ReportJson json_of(std::span<const RowFigures> rows, std::size_t RowFigures::*size) {
+ReportJson json_of(std::span<const RowFigures> rows, std::size_t RowFigures::*size, double memory_copy) {
     ReportJson json{{"rows", ReportJson::array()}, {"exponents", ReportJson::object()}};
     for (const RowFigures& row : rows) {
         ReportJson seconds;
@@ -42,6 +48,7 @@ ReportJson json_of(std::span<const RowFigures> rows, std::size_t RowFigures::*si
                                 {"seconds", seconds},
                                 {"upsampling_bytes", row.upsampling.bytes},
                                 {"share_of_copy", share_of_copy(row.upsampling)},
+                                {"share_of_memory", share_of_memory(row.upsampling, memory_copy)},
                                 {"held_bytes", row.memory_held},
                                 {"peak_bytes", row.memory_peak}});
     }
@@ -57,19 +64,20 @@ ReportJson json_of(std::span<const RowFigures> rows, std::size_t RowFigures::*si
 std::string growth_text(const Growth& growth) {
     std::vector<std::string> heading{"points", "samples"};
     for (const Stage& stage : growth_stages()) heading.emplace_back(stage.name);
-    for (const char* name : {"of copy", "B/point", "at most"}) heading.emplace_back(name);
+    for (const char* name : {"copy", "memory", "B/pt", "at most"}) heading.emplace_back(name);
     TextTable table{
         {machine_text(growth.machine)},
         {std::to_string(growth.threads) + (growth.threads == 1 ? " thread" : " threads") + " and " +
-         growth.device},
-        {"Of copy: how fast points are moved beside a copy of as many bytes."},
-        {"B/point: bytes a point that set-up and frames hold, and hold at most, beyond the file's own."},
+         growth.device + "; memory copy " + digits_text(1e-9 * growth.copy_bytes_per_second, 1) + " GB/s"},
+        {"Copy, memory: how fast points are moved beside a copy of as many bytes, and beside the memory copy "
+         "above."},
+        {"B/pt: bytes a point that set-up and frames hold, and hold at most, beyond the file's own."},
         {"Exponent: of the power law that fits best."},
         {""},
         heading};
-    add_rows(growth.by_points, &RowFigures::points, table);
+    add_rows(growth.by_points, &RowFigures::points, growth.copy_bytes_per_second, table);
     table.push_back({""});
-    add_rows(growth.by_samples, &RowFigures::samples, table);
+    add_rows(growth.by_samples, &RowFigures::samples, growth.copy_bytes_per_second, table);
     return format_table(table);
 }
 
@@ -77,9 +85,10 @@ std::string growth_json(const Growth& growth) {
     ReportJson json = machine_json(growth.machine);
     json["threads"] = growth.threads;
     json["device"] = growth.device;
+    json["copy_gigabytes_per_second"] = 1e-9 * growth.copy_bytes_per_second;
     json["warnings"] = growth.warnings;
-    json["by_points"] = json_of(growth.by_points, &RowFigures::points);
-    json["by_samples"] = json_of(growth.by_samples, &RowFigures::samples);
+    json["by_points"] = json_of(growth.by_points, &RowFigures::points, growth.copy_bytes_per_second);
+    json["by_samples"] = json_of(growth.by_samples, &RowFigures::samples, growth.copy_bytes_per_second);
     return json_text(json);
 }
 

@@ -1,5 +1,6 @@
 #include "bench/machine.h"
 
+#include "base/large_pages.h"
 #include "base/stopwatch.h"
 
 #include <algorithm>
@@ -35,6 +36,20 @@ double load_average() {
     return ::getloadavg(&load, 1) == 1 ? load : 0;
 }
 
+// Of the system; 0 where it does not say.
+std::size_t system_bytes(int what, std::size_t times = 1) {
+    const long told = ::sysconf(what);
+    return told > 0 ? static_cast<std::size_t>(told) * times : 0;
+}
+
+// In and out.
+std::size_t bytes_beyond_caches() {
+    constexpr std::size_t least = std::size_t{1} << 28, times_the_cache = 4, part_of_memory = 8;
+    const std::size_t wanted = std::max(least, times_the_cache * system_bytes(_SC_LEVEL3_CACHE_SIZE));
+    const std::size_t memory = system_bytes(_SC_PHYS_PAGES, system_bytes(_SC_PAGESIZE));
+    return memory > 0 ? std::min(wanted, memory / part_of_memory) : wanted;
+}
+
 } // namespace
 
 Machine this_machine() {
@@ -44,8 +59,9 @@ Machine this_machine() {
 
 Summary copy_seconds(std::size_t bytes, std::size_t repeats, Workers& workers) {
     const std::size_t half = std::max<std::size_t>(bytes / 2, 1);
-    const std::vector<char> from(half, 1);
-    std::vector<char> to(half);
+    std::vector<char> from, to;
+    resize_in_large_pages(from, half);
+    resize_in_large_pages(to, half);
     std::vector<double> seconds;
     for (std::size_t r = 0; r <= repeats; ++r) {
         const Stopwatch clock;
@@ -55,6 +71,11 @@ Summary copy_seconds(std::size_t bytes, std::size_t repeats, Workers& workers) {
         if (r > 0) seconds.push_back(clock.seconds());
     }
     return summarize(std::move(seconds));
+}
+
+double memory_copy_rate(Workers& workers) {
+    const std::size_t bytes = bytes_beyond_caches();
+    return static_cast<double>(bytes) / copy_seconds(bytes, 5, workers).median;
 }
 
 } // namespace knead

@@ -27,4 +27,8 @@ extern const char* const build_commit;
 // costs at least. One warm-up, then `repeats`.
 Summary copy_seconds(std::size_t bytes, std::size_t repeats, Workers& workers);
 
+// The memory's own copy bandwidth: bytes a second, in and out, of a copy that is too large for any cache
+// (four times the largest, 256 MB at least, but no more than an eighth of the memory).
+double memory_copy_rate(Workers& workers);
+
 } // namespace knead

@@ -1,6 +1,7 @@
 #include "bench/table1.h"
 
 #include "base/error.h"
+#include "base/large_pages.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
 #include "bench/automatic_handles.h"
@@ -22,7 +23,6 @@ constexpr std::size_t plane_points = 1'000'000;
 constexpr std::size_t frames = 30;
 constexpr std::size_t warm_up_frames = 3;
 constexpr double bend_degrees = 30;
-constexpr std::size_t large_copy_bytes = std::size_t{1} << 28; // half in, half out
 
 // Which of the paper's figures we compare with, from its Table 1.
 constexpr FourFigures none{};
@@ -152,8 +152,8 @@ UpsampleFigures compare_upsamplers(UpsamplerProbe& probe, Workers& workers, Prog
     reference->prepare(input, probe.motions().size());
     std::vector<float> moved[2], turned[2];
     std::vector<double> seconds[2];
-    for (auto& positions : moved) positions.resize(input.positions.size());
-    for (auto& normals : turned) normals.resize(input.normals.size());
+    for (auto& positions : moved) resize_in_large_pages(positions, input.positions.size());
+    for (auto& normals : turned) resize_in_large_pages(normals, input.normals.size());
     // In turns, so that what else the machine does meets both alike.
     for (std::size_t f = 0; f < warm_up_frames + frames; ++f) {
         progress.step("comparing with the reference", static_cast<double>(f) / (warm_up_frames + frames));
@@ -213,6 +213,11 @@ double share_of_copy(const UpsampleFigures& figures) {
     return ratio(figures.copy, figures.device);
 }
 
+double share_of_memory(const UpsampleFigures& figures, double copy_bytes_per_second) {
+    const double most = copy_bytes_per_second * figures.device.median;
+    return most > 0 ? static_cast<double>(figures.bytes) / most : 0;
+}
+
 std::span<const Table1Row> table1_rows() {
     return rows_of_table;
 }
@@ -268,8 +273,7 @@ Table1 measure_table1(std::span<const Table1Row> rows, const Table1Options& opti
     UpsamplerProbe probe = make_probe(options, workers, table.warnings);
     table.device = probe.device();
     progress.step("copying memory", 0);
-    table.copy_bytes_per_second =
-        static_cast<double>(large_copy_bytes) / copy_seconds(large_copy_bytes, 5, workers).median;
+    table.copy_bytes_per_second = memory_copy_rate(workers);
 
     PointCloud cloud;
     std::string_view model; // whose cloud that is

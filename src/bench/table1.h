@@ -59,6 +59,9 @@ struct UpsampleFigures {
 // How fast the device moved these bytes beside how fast the processor copied as many: 1 for as fast.
 double share_of_copy(const UpsampleFigures& figures);
 
+// The same beside memory_copy_rate(), which no cache helps: what the bytes take if they come from memory.
+double share_of_memory(const UpsampleFigures& figures, double copy_bytes_per_second);
+
 // What one cloud and number of samples took; seconds.
 struct RowFigures {
     std::size_t points = 0;
@@ -96,7 +99,7 @@ struct Table1 {
     unsigned threads = 0;
     std::string device;
     std::size_t repeats = 0;
-    double copy_bytes_per_second = 0; // of a memory copy too large for any cache, bytes in and out
+    double copy_bytes_per_second = 0; // memory_copy_rate()
     std::vector<Table1Result> results;
     std::vector<std::string> warnings;
 };

@@ -2,6 +2,7 @@
 
 #include "base/counts.h"
 #include "base/error.h"
+#include "base/large_pages.h"
 #include "base/memory.h"
 #include "base/require.h"
 #include "base/stopwatch.h"
@@ -108,10 +109,10 @@ void Pipeline::prepare_order(Progress& progress) {
     order_ = order_points(cloud_.positions, workers_, progress);
     require(order_.points() > 0, "a pipeline needs a finite point");
     RestShape opened;
-    opened.positions.resize(3 * order_.points());
+    resize_in_large_pages(opened.positions, 3 * order_.points());
     gather(order_, cloud_.positions, 3, opened.positions, workers_);
     const std::vector<float> normals = read_normals(cloud_);
-    opened.normals.resize(normals.empty() ? 0 : 3 * order_.points());
+    resize_in_large_pages(opened.normals, normals.empty() ? 0 : 3 * order_.points());
     if (!normals.empty()) gather(order_, normals, 3, opened.normals, workers_);
     if (order_.vertices() < order_.points())
         merged_positions_ = knead::vertex_positions(order_, opened.positions, workers_);
@@ -254,8 +255,8 @@ void Pipeline::prepare_upsampler() {
             sum += point_at(rest.positions, order_.first_point[contacts_.vertex[at_contact]]);
         carried_.anchor[part] = sum / static_cast<double>(end - begin);
     }
-    posed_.positions.resize(rest.positions.size());
-    posed_.normals.resize(rest.normals.size());
+    resize_in_large_pages(posed_.positions, rest.positions.size());
+    resize_in_large_pages(posed_.normals, rest.normals.size());
     written_.resize(blocks_of(order_.points()), 0);
     find_row_ends(nearest_, changed_rows_, row_ends_, workers_);
     for (std::size_t block = 0; block < changed_rows_.size(); ++block)

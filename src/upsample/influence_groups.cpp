@@ -1,6 +1,7 @@
 #include "upsample/influence_groups.h"
 
 #include "base/error.h"
+#include "base/large_pages.h"
 #include "base/workers.h"
 #include "upsample/point_blocks.h"
 
@@ -210,8 +211,8 @@ void InfluenceGroups::make_all(const UpsampleInput& input, Workers& workers) {
     const std::size_t size = used_ + used_ / entries_for_one_spare;
     if (size > no_index)
         throw Error(Trouble::numeric, "", "these are more points than can be moved; take fewer of them");
-    number_.resize(size);
-    root_.resize(points_in_group * size);
+    resize_in_large_pages(number_, size);
+    resize_in_large_pages(root_, points_in_group * size);
     write_entries(all, input, workers);
 }
 

@@ -18,6 +18,12 @@ bool holds(const SampleQuality& count) {
     return !count.bar || count.deviation.rms <= *count.bar;
 }
 
+// How many times as uneven as with every point a sample.
+double noise_times(const SampleQuality& count, const TaskQuality& task) {
+    const double full = task.counts.front().noise;
+    return full > 0 ? count.noise / full : 1;
+}
+
 bool holds(const StretchResult& stretch) {
     return std::abs(stretch.measured - stretch.asked) <= poisson_bar;
 }
@@ -27,18 +33,22 @@ bool twist_is_kept(const TwistResult& twist, double measured) {
 }
 
 std::string tasks_text(const std::vector<TaskQuality>& tasks) {
-    TextTable table{{"Distance from every point a sample, % of D, settled after one frame"},
-                    {"shape", "points", "asked", "samples", "rms %", "bar", "", "largest %",
-                     "handle error / D", "iterations"}};
+    TextTable table{{"Distance from every point a sample, % of D, settled after one frame;"},
+                    {"noise: rms of log(length posed / at rest) of the links between neighbours, %, aim " +
+                     digits_text(noise_bar, 1) + " times the first line's"},
+                    {"shape", "points", "asked", "samples", "rms %", "bar", "", "largest %", "noise %",
+                     "times", "", "handle error / D", "iterations"}};
     for (const TaskQuality& task : tasks)
         for (const SampleQuality& count : task.counts) {
             const bool first = &count == &task.counts.front();
+            const double times = noise_times(count, task);
             table.push_back(
                 {first ? task.name : "", first ? grouped(task.points) : "", asked_text(count.asked),
                  grouped(count.samples), count.asked ? percent_text(count.deviation.rms) : unknown_text,
                  count.bar ? percent_text(*count.bar) : "", count.bar ? verdict_text(holds(count)) : "",
                  count.asked ? percent_text(count.deviation.largest) : unknown_text,
-                 power_text(count.handle_error),
+                 percent_text(count.noise), count.asked ? digits_text(times, 2) : "",
+                 count.bar ? verdict_text(times <= noise_bar) : "", power_text(count.handle_error),
                  std::to_string(count.iterations) + (count.at_rest ? "" : ", not at rest")});
         }
     return format_table(table);
@@ -133,6 +143,8 @@ ReportJson json_of(const TaskQuality& task) {
                                    {"rms", count.deviation.rms},
                                    {"largest", count.deviation.largest},
                                    {"bar", count.bar ? ReportJson(*count.bar) : ReportJson()},
+                                   {"noise", count.noise},
+                                   {"noise_times", noise_times(count, task)},
                                    {"holds", count.bar ? ReportJson(holds(count)) : ReportJson()},
                                    {"handle_error", count.handle_error},
                                    {"iterations", count.iterations},

@@ -49,6 +49,7 @@ public:
         quality.iterations = settling.iterations;
         quality.at_rest = settling.at_rest;
         quality.samples = document_->pipeline().samples().size();
+        quality.noise = link_noise(document_->pipeline(), document_->shape(progress).positions);
         quality.handle_error = document_->handle_error(progress);
         std::vector<float> positions = document_->positions(progress);
         document_->undo(task_.name);

@@ -21,6 +21,7 @@ struct SampleQuality {
     std::size_t samples = 0;            // actual
     Deviation deviation;
     std::optional<double> bar; // what `deviation.rms` must not exceed, as a fraction
+    double noise = 0;          // link_noise(); noise_bar times that of every point is aimed at, if `bar` is
     double handle_error = 0;   // over D
     std::size_t iterations = 0;
     bool at_rest = false; // before the iterations ran out

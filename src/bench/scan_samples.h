@@ -16,9 +16,6 @@ namespace knead {
 class Upsampler;
 class Workers;
 
-// How much more uneven few samples may be than the full solution (issue 4).
-inline constexpr double noise_bar = 1.2;
-
 // What stands for "every point a sample" on clouds that have more of them.
 inline constexpr std::uint64_t full_samples = 100'000;
 

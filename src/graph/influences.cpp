@@ -12,9 +12,13 @@ Influence influence_of(const InfluenceRows& rows, InfluenceWeights weights, Inde
         result.count = 1;
         return result;
     }
-    const WideRow row = rows[number];
+    return influence_of(rows[number], rows.first_handle, weights);
+}
+
+Influence influence_of(const WideRow& row, Index first_handle, InfluenceWeights weights) {
+    Influence result{};
     result.count = row.count();
-    const auto weight = weights_of(row, rows.first_handle, weights);
+    const auto weight = weights_of(row, first_handle, weights);
     const double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
     for (std::size_t k = 0; k < result.count; ++k) {
         result.motion[k] = row.sample[k];

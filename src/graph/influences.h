@@ -159,6 +159,9 @@ struct Influence {
     std::size_t count = 0;                        // places in use; the others have motion 0 and weight 0
 };
 
+// By a row. `first_handle`: of InfluenceRows.
+Influence influence_of(const WideRow& row, Index first_handle, InfluenceWeights weights);
+
 // By the number that a point or vertex has for what moves it: below rows.size() the row of that number, whose
 // samples are motions; from there on one motion alone, the one numbered `number` - rows.size().
 Influence influence_of(const InfluenceRows& rows, InfluenceWeights weights, Index number);

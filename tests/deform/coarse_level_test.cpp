@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -42,6 +43,18 @@ TEST(CoarseLevel, IsOfFewSamplesThatTheHandlesHoldAsTheyHoldTheOthers) {
         for (const float weight : bar.coarse.samples.followed[s].weight) sum += weight;
         EXPECT_NEAR(sum, 1, 1e-6); // rounding
     }
+}
+
+// One that were carried by itself alone would go otherwise than those right beside it.
+TEST(CoarseLevel, BlendsCoarseSamplesLikeTheOthers) {
+    const Bar bar;
+    std::size_t free = 0;
+    for (const Index s : bar.coarse.samples.sample) {
+        if (bar.system.rest.handle[s] != no_index) continue;
+        ++free;
+        EXPECT_LT(std::ranges::max(bar.coarse.samples.followed[s].weight), 0.99F) << s;
+    }
+    EXPECT_GT(free, 10U);
 }
 
 TEST(CoarseLevel, ComesToTheSameShapeInFewerIterations) {

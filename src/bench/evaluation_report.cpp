@@ -18,12 +18,6 @@ bool holds(const SampleQuality& count) {
     return !count.bar || count.deviation.rms <= *count.bar;
 }
 
-// How many times as uneven as with every point a sample.
-double noise_times(const SampleQuality& count, const TaskQuality& task) {
-    const double full = task.counts.front().noise;
-    return full > 0 ? count.noise / full : 1;
-}
-
 bool holds(const StretchResult& stretch) {
     return std::abs(stretch.measured - stretch.asked) <= poisson_bar;
 }
@@ -34,14 +28,13 @@ bool twist_is_kept(const TwistResult& twist, double measured) {
 
 std::string tasks_text(const std::vector<TaskQuality>& tasks) {
     TextTable table{{"Distance from every point a sample, % of D, settled after one frame;"},
-                    {"noise: rms of log(length posed / at rest) of the links between neighbours, %, aim " +
-                     digits_text(noise_bar, 1) + " times the first line's"},
+                    {noise_words()},
                     {"shape", "points", "asked", "samples", "rms %", "bar", "", "largest %", "noise %",
                      "times", "", "handle error / D", "iterations"}};
     for (const TaskQuality& task : tasks)
         for (const SampleQuality& count : task.counts) {
             const bool first = &count == &task.counts.front();
-            const double times = noise_times(count, task);
+            const double times = noise_times(count.noise, task.counts.front().noise);
             table.push_back(
                 {first ? task.name : "", first ? grouped(task.points) : "", asked_text(count.asked),
                  grouped(count.samples), count.asked ? percent_text(count.deviation.rms) : unknown_text,
@@ -137,18 +130,22 @@ ReportJson json_of(const StretchResult& stretch) {
 
 ReportJson json_of(const TaskQuality& task) {
     ReportJson json{{"name", task.name}, {"points", task.points}, {"diagonal", task.diagonal}};
-    for (const SampleQuality& count : task.counts)
+    for (const SampleQuality& count : task.counts) {
+        const double times = noise_times(count.noise, task.counts.front().noise);
         json["samples"].push_back({{"asked", asked_json(count.asked)},
                                    {"samples", count.samples},
                                    {"rms", count.deviation.rms},
                                    {"largest", count.deviation.largest},
                                    {"bar", count.bar ? ReportJson(*count.bar) : ReportJson()},
-                                   {"noise", count.noise},
-                                   {"noise_times", noise_times(count, task)},
                                    {"holds", count.bar ? ReportJson(holds(count)) : ReportJson()},
+                                   {"noise", count.noise},
+                                   {"noise_times", times},
+                                   {"noise_bar", count.bar ? ReportJson(noise_bar) : ReportJson()},
+                                   {"noise_holds", count.bar ? ReportJson(times <= noise_bar) : ReportJson()},
                                    {"handle_error", count.handle_error},
                                    {"iterations", count.iterations},
                                    {"at_rest", count.at_rest}});
+    }
     for (const Convergence& convergence : task.convergence) {
         ReportJson steps = ReportJson::array();
         for (const auto& step : convergence.steps) {

@@ -9,10 +9,6 @@ namespace knead {
 
 namespace {
 
-std::string share_text(double share) {
-    return digits_text(100 * share, 0) + " %";
-}
-
 void add_rows(std::span<const RowFigures> rows, std::size_t RowFigures::*size, double memory_copy,
               TextTable& table) {
     for (const RowFigures& row : rows) {

@@ -9,6 +9,19 @@ std::string asked_text(const std::optional<std::uint64_t>& samples) {
     return samples ? grouped(*samples) : "every point";
 }
 
+std::string share_text(double fraction) {
+    return digits_text(100 * fraction, 0) + " %";
+}
+
+double noise_times(double noise, double full) {
+    return full > 0 ? noise / full : 1;
+}
+
+std::string noise_words() {
+    return "noise: rms of log(length posed / at rest) of the links between neighbours, %, aim " +
+           digits_text(noise_bar, 1) + " times the first line's";
+}
+
 std::string percent_text(double fraction) {
     return digits_text(100 * fraction, 2);
 }

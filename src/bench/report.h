@@ -19,6 +19,11 @@ using ReportJson = nlohmann::ordered_json;
 std::string asked_text(const std::optional<std::uint64_t>& samples); // "1,000", "every point"
 std::string percent_text(double fraction);                           // two digits, without the sign
 std::string verdict_text(bool holds);                                // "pass", "FAIL"
+std::string share_text(double fraction);                             // "46 %"
+
+// link_noise() over that of the full solution, 1 where that has none; and what a table says of both.
+double noise_times(double noise, double full);
+std::string noise_words();
 
 struct Machine;
 std::string machine_text(const Machine& machine); // in one line

@@ -4,26 +4,17 @@
 
 namespace knead {
 
-namespace {
-
-double noise_ratio(const ScanSampleCount& count, const ScanSampleCount& full) {
-    return full.noise > 0 ? count.noise / full.noise : 1;
-}
-
-} // namespace
-
 std::string scan_samples_text(std::span<const ScanSamples> scans) {
     TextTable table{
         {"Samples on scans: two automatic handles, bent by 60°, settled after one frame; distance from the "
          "first line's shape, % of D;"},
-        {"noise: rms of log(length posed / at rest) of the links between neighbours, %, aim " +
-         digits_text(noise_bar, 1) + " times the first line's"},
+        {noise_words()},
         {"scan", "points", "asked", "samples", "rms %", "largest %", "noise %", "times", "", "iterations"}};
     for (const ScanSamples& scan : scans) {
         if (!scan.missing.empty()) table.push_back({scan.name + ": " + scan.missing});
         for (const ScanSampleCount& count : scan.counts) {
             const bool first = &count == &scan.counts.front();
-            const double times = noise_ratio(count, scan.counts.front());
+            const double times = noise_times(count.noise, scan.counts.front().noise);
             table.push_back(
                 {first ? scan.name : "", first ? grouped(scan.points) : "", asked_text(count.asked),
                  grouped(count.samples), first ? unknown_text : percent_text(count.rms),
@@ -43,7 +34,7 @@ ReportJson scan_samples_json(std::span<const ScanSamples> scans) {
                          {"points", scan.points},
                          {"samples", ReportJson::array()}};
         for (const ScanSampleCount& count : scan.counts) {
-            const double times = noise_ratio(count, scan.counts.front());
+            const double times = noise_times(count.noise, scan.counts.front().noise);
             entry["samples"].push_back({{"asked", asked_json(count.asked)},
                                         {"samples", count.samples},
                                         {"rms", count.rms},

@@ -232,11 +232,13 @@ std::vector<Table1Row> rows_named(std::span<const std::string> names) {
     };
     std::string known;
     for (const Table1Row& row : rows_of_table) known.append(known.empty() ? "" : ", ").append(name_of(row));
-    for (const std::string& name : names)
-        if (std::ranges::none_of(rows_of_table, [&](const Table1Row& row) { return is_meant(row, name); }))
-            throw Error(Trouble::usage, "",
-                        "there is no row \"" + name + "\" in the table; there are " + known +
-                            ", and a model's name means all of its rows");
+    for (const std::string& name : names) {
+        if (std::ranges::any_of(rows_of_table, [&](const Table1Row& row) { return is_meant(row, name); }))
+            continue;
+        std::string words = "there is no row \"";
+        words.append(name).append("\" in the table; there are ").append(known);
+        throw Error(Trouble::usage, "", words.append(", and a model's name means all of its rows"));
+    }
     std::vector<Table1Row> rows;
     for (const Table1Row& row : rows_of_table)
         if (names.empty() ||

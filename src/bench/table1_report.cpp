@@ -73,8 +73,8 @@ void add_upsampling(const Table1Result& result, double memory_copy, TextTable& t
                      spread_text(ours.device), duration_text(ours.reference.median),
                      factor_text(ratio(ours.reference, ours.device)), power_text(ours.largest_difference),
                      digits_text(1e-6 * static_cast<double>(ours.bytes), 1), digits_text(moved, 1),
-                     digits_text(copied, 1), digits_text(100 * share_of_copy(ours), 0) + " %",
-                     digits_text(100 * share_of_memory(ours, memory_copy), 0) + " %"});
+                     digits_text(copied, 1), share_text(share_of_copy(ours)),
+                     share_text(share_of_memory(ours, memory_copy))});
 }
 
 Json json_of(const Summary& summary) {

@@ -43,8 +43,8 @@ BodiesAround bodies_around(const PointEnergy& energy, std::span<const Body> all,
 // step 1 of sample_system.h. γ: `midway`.
 Mat3d local_sum_of(const BodiesAround& around, double midway);
 
-// -Σ_s (A_s - I) Σ ω H_s g_t - (M_s - I) Σ ω w_s P g_t, and of those that are placed -Σ ω g_t·g_s u_s: what
-// they add to the right-hand side of step 3.
+// Σ_s (M_s - I) Σ ω w_s P g_t - (A_s - I) Σ ω H_s g_t, and for those that are placed less u_s Σ ω g_t·g_s:
+// what they add to the right-hand side of step 3.
 Vec3d force_of(const BodiesAround& around);
 
 } // namespace knead

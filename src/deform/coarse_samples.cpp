@@ -95,20 +95,13 @@ std::vector<Index> choose(const Graph& graph, std::span<const Index> handle, con
     return shuffled(std::move(chosen));
 }
 
-// As points follow samples, but that a coarse sample is blended like others, as if it were a level away:
-// alone it would stick out of those around it, and iterations of all samples would have to smooth that.
-Influence followed_by(WideRow row) {
-    if (row.distance[0] == 0 && row.count() > 1) row.distance[0] = 1;
-    return influence_of(row, no_index, InfluenceWeights::smooth);
-}
-
 void find_followed(const OrderedSamples& ordered, const InfluenceRows& nearest, CoarseSamples& coarse,
                    Workers& workers) {
     coarse.followed.resize(nearest.size());
     coarse.nearest.resize(nearest.size());
     workers.for_each(nearest.size(), grain, [&](std::size_t at) {
         const Index s = ordered.sample[at];
-        coarse.followed[s] = followed_by(nearest[at]);
+        coarse.followed[s] = influence_of(nearest[at], no_index, InfluenceWeights::smooth);
         coarse.nearest[s] = coarse.followed[s].count > 0 ? coarse.followed[s].motion[0] : no_index;
     });
 }

@@ -121,10 +121,20 @@ float growth_of_handle(Number distance, Number farthest) {
     return handle_reach * static_cast<float>(farthest) / static_cast<float>(distance);
 }
 
+// The place of a row that is all there is at d = 0: of the paper's weights whichever is there, of smooth ones
+// a handle. No place: the number of places. A sample's own point is a blend like those around it, with smooth
+// weights: alone it would stick out of them.
+template<typename Number>
+std::size_t place_of_all(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights) {
+    for (std::size_t k = 0; k < influences_per_row && row.distance[k] == 0; ++k)
+        if (weights == InfluenceWeights::paper || row.sample[k] >= first_handle) return k;
+    return influences_per_row;
+}
+
 // The weight of each place of a row, times the same for all: they are to be divided by their sum, which is 0
-// only for an empty row. Empty places have 0. A sample at d = 0 is taken alone, and a full row of equal
-// distances shares evenly. Smooth is (d_max - d)², distances being whole numbers, and exact where that is
-// below 2^24. `first_handle`: of InfluenceRows.
+// only for an empty row. Empty places have 0. A handle at d = 0 is taken alone (with the weights of the paper
+// a sample, too), and a full row of equal distances shares evenly. Smooth is (d_max - d)², distances being
+// whole numbers, and exact where that is below 2^24. `first_handle`: of InfluenceRows.
 template<typename Number>
 std::array<float, influences_per_row> weights_of(const SampleRow<Number>& row, Index first_handle,
                                                  InfluenceWeights weights) {
@@ -132,9 +142,9 @@ std::array<float, influences_per_row> weights_of(const SampleRow<Number>& row, I
     const std::size_t count = row.count();
     if (count == 0) return weight;
     const Number nearest = row.distance[0], farthest = row.distance[count - 1];
-    if (nearest == 0) {
-        weight[0] = 1;
-    } else if (count == influences_per_row && nearest == farthest) {
+    if (const std::size_t all = place_of_all(row, first_handle, weights); all < influences_per_row) {
+        weight[all] = 1;
+    } else if (nearest == farthest && (count == influences_per_row || farthest == 0)) {
         std::fill_n(weight.begin(), count, 1.0F);
     } else if (weights == InfluenceWeights::paper) {
         for (std::size_t k = 0; k < count; ++k) {

@@ -74,7 +74,7 @@ Lane moved_by(const SampleRow<Number>& row, Index first_handle, InfluenceWeights
     Number last = 0;
     for (const Number sample : row.sample) last = std::max(last, sample);
     if (weights != InfluenceWeights::smooth || last >= first_handle || row.sample.back() == row.none ||
-        nearest == 0 || nearest == farthest || farthest - nearest > static_cast<Number>(largest_root))
+        nearest == farthest || farthest - nearest > static_cast<Number>(largest_root))
         return moved_by_weights(row, first_handle, weights);
     Lane lane;
     for (std::size_t k = 0; k < influences_per_row; ++k)

@@ -141,6 +141,26 @@ TEST(PointEnergy, IsTheSumOverThePoints) {
     EXPECT_NEAR(of_pairs, of_points, 1e-9 * of_points);
 }
 
+// Though smooth weights blend it when it is moved: so the energy knows of turns that blends hide.
+TEST(PointEnergy, LetsASamplesOwnPointGoWithTheSampleAlone) {
+    Held held, beside;
+    for (NarrowRow& row : std::get<0>(beside.nearest.rows))
+        if (row.distance[0] == 0) row.distance[0] = 1; // no point is at a sample then
+    const PointEnergy energy = held.energy(InfluenceWeights::smooth, 2);
+    const PointEnergy blended = beside.energy(InfluenceWeights::smooth, 2);
+    std::mt19937 random(3);
+    std::vector<Vec3d> turn(energy.bodies, Vec3d::Zero());
+    for (Index s = 0; s < energy.samples; ++s) turn[s] = test::random_vector(random);
+    const auto seen = [&](const PointEnergy& of) { // Σ 2ω dim |Σ_s w_s turn_s|²
+        double sum = 0;
+        for (Index t = 0; t < of.samples; ++t)
+            for (Index at = of.first[t]; at < of.first[t + 1]; ++at)
+                sum += of.slopes[at].target_spread.trace() * turn[t].dot(turn[of.body[at]]);
+        return sum;
+    };
+    EXPECT_GT(seen(energy), 1.03 * seen(blended));
+}
+
 Graph without_links_of(const Graph& graph, Index vertex) {
     Graph result;
     result.first.assign(1, 0);

@@ -59,9 +59,30 @@ TEST(Influences, AreWeightsThatSumToOne) {
     }
 }
 
-TEST(Influences, TakeTheSampleThatAPointIs) {
+TEST(Influences, OfThePaperTakeTheSampleThatAPointIs) {
+    EXPECT_EQ(weights_of({0, 1, 1, 2, 3, 4, 5, 6}, InfluenceWeights::paper),
+              (std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0}));
+}
+
+// Alone it would stick out of the points around it, which are blends.
+TEST(Influences, ThatAreSmoothBlendASamplesOwnPointLikeThoseBesideIt) {
+    const std::vector<float> own = weights_of({0, 40, 40, 50, 60, 70, 80, 90}, InfluenceWeights::smooth);
+    const std::vector<float> beside = weights_of({1, 40, 40, 50, 60, 70, 80, 90}, InfluenceWeights::smooth);
+    for (std::size_t place = 0; place < 8; ++place) EXPECT_NEAR(own[place], beside[place], 0.01) << place;
+    EXPECT_LT(own[0], 0.6F);
+    EXPECT_EQ(weights_of({0}, InfluenceWeights::smooth)[0], 1.0F) << "but where it is the only one";
+}
+
+TEST(Influences, TakeAHandleWhereItIs) {
     for (const InfluenceWeights kind : both_kinds)
-        EXPECT_EQ(weights_of({0, 1, 1, 2, 3, 4, 5, 6}, kind), (std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0}));
+        for (const std::vector<std::uint32_t>& distances :
+             {std::vector<std::uint32_t>{0, 0, 3, 4, 5, 6, 7, 8}, std::vector<std::uint32_t>{0, 0}}) {
+            InfluenceRows rows{std::vector{row_of<std::uint16_t>(distances)}};
+            std::get<0>(rows.rows)[0].sample[1] = 90; // behind a sample that is there, too
+            rows.first_handle = 90;
+            const Influence influence = influence_of(rows, kind, 0);
+            EXPECT_EQ(influence.weight[kind == InfluenceWeights::paper ? 0 : 1], 1.0F);
+        }
 }
 
 TEST(Influences, GiveALoneSampleEverything) {

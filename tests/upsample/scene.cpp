@@ -53,7 +53,8 @@ std::vector<double> exact_weights(const WideRow& row, Index first_handle, Influe
         const double grows = of_handle ? static_cast<double>(handle_reach) * farthest / d : 1;
         weight.push_back(kind == InfluenceWeights::paper ? 1 / (d * d) : grows * nearness * nearness);
     }
-    if (row.distance[0] == 0) weight = {1};
+    const bool alone = kind == InfluenceWeights::paper || row.sample[0] >= first_handle;
+    if (row.distance[0] == 0 && (alone || farthest == 0)) weight = {1};
     double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
     if (sum == 0) weight.assign(row.count(), 1), sum = static_cast<double>(row.count());
     for (double& w : weight) w /= sum;

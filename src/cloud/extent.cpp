@@ -13,11 +13,12 @@ namespace {
 constexpr double kept_part = 0.95;
 constexpr std::size_t grain = 1 << 14;
 
-std::vector<Vec3f> finite_points(const PointCloud& cloud) {
+std::vector<Vec3f> finite_points(std::span<const float> positions) {
     std::vector<Vec3f> points;
-    points.reserve(cloud.size());
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-        if (is_finite(cloud, i)) points.push_back(cloud.position(i));
+    points.reserve(positions.size() / 3);
+    for (std::size_t i = 0; i < positions.size(); i += 3)
+        if (const Vec3f p(positions[i], positions[i + 1], positions[i + 2]); p.allFinite())
+            points.push_back(p);
     return points;
 }
 
@@ -67,7 +68,11 @@ std::vector<Vec3f> nearest(const std::vector<Vec3f>& points, std::size_t count, 
 } // namespace
 
 double cloud_size(const PointCloud& cloud, Workers& workers) {
-    std::vector<Vec3f> points = finite_points(cloud);
+    return cloud_size(cloud.positions, workers);
+}
+
+double cloud_size(std::span<const float> positions, Workers& workers) {
+    std::vector<Vec3f> points = finite_points(positions);
     if (points.empty()) return 1;
     const auto count = std::lround(kept_part * static_cast<double>(points.size()));
     points = nearest(points, std::max<std::size_t>(1, static_cast<std::size_t>(count)), workers);

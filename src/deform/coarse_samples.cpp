@@ -4,6 +4,7 @@
 #include "base/require.h"
 #include "graph/flood.h"
 #include "graph/link_lengths.h"
+#include "graph/neighbors.h"
 #include "graph/point_order.h"
 #include "graph/relaxing.h"
 
@@ -59,20 +60,26 @@ OrderedSamples ordered(const Graph& graph, std::span<const Vec3d> position, Work
     return result;
 }
 
-// The samples of each handle that a free one is linked to, in scrambled order.
-std::map<Index, std::vector<Index>> border_samples(const Graph& graph, std::span<const Index> handle) {
-    std::map<Index, std::vector<Index>> border;
+// What a handle holds of one component.
+using HeldPart = std::pair<Index, Index>; // handle, component
+
+// The samples of each of these that a free one is linked to, in scrambled order.
+std::map<HeldPart, std::vector<Index>> border_samples(const Graph& graph, std::span<const Index> handle,
+                                                      Workers& workers) {
+    const Components components = find_components(graph, workers);
+    std::map<HeldPart, std::vector<Index>> border;
     std::vector<Index> held;
     for (Index s = 0; s < handle.size(); ++s)
         if (handle[s] != no_index) held.push_back(s);
     for (const Index s : shuffled(std::move(held)))
         if (std::ranges::any_of(graph.row(s), [&](Index j) { return handle[j] == no_index; }))
-            border[handle[s]].push_back(s);
+            border[{handle[s], components.component[s]}].push_back(s);
     return border;
 }
 
 // The places of the coarse samples: evenly spread among the free samples, and along the borders of the
-// handles as densely as that.
+// handles as densely as that. Each part that a handle reaches into has one of its: a part without would be
+// held by nobody and stay behind.
 std::vector<Index> choose(const Graph& graph, std::span<const Index> handle, const OrderedSamples& ordered,
                           std::span<const std::uint8_t> lengths, Workers& workers) {
     const std::size_t count = std::max(fewest_coarse, handle.size() / samples_a_coarse);
@@ -86,7 +93,7 @@ std::vector<Index> choose(const Graph& graph, std::span<const Index> handle, con
     chosen = relaxed(std::move(chosen), ordered.graph, lengths, ordered.positions, {}, relaxing_rounds,
                      workers, progress);
     const double spacing = std::sqrt(static_cast<double>(handle.size()) / static_cast<double>(count));
-    for (const auto& [whose, samples] : border_samples(graph, handle)) {
+    for (const auto& [whose, samples] : border_samples(graph, handle, workers)) {
         const auto share = static_cast<std::size_t>(std::ceil(static_cast<double>(samples.size()) / spacing));
         for (std::size_t i = 0; i < share; ++i) chosen.push_back(ordered.place[samples[i]]);
     }

@@ -114,8 +114,10 @@ void Pipeline::prepare_order(Progress& progress) {
     const std::vector<float> normals = read_normals(cloud_);
     resize_in_large_pages(opened.normals, normals.empty() ? 0 : 3 * order_.points());
     if (!normals.empty()) gather(order_, normals, 3, opened.normals, workers_);
-    if (order_.vertices() < order_.points())
+    if (order_.vertices() < order_.points()) {
         merged_positions_ = knead::vertex_positions(order_, opened.positions, workers_);
+        cloud_size_ = knead::cloud_size(merged_positions_, workers_);
+    }
     opened_ = std::move(opened);
     seconds_.order += clock.seconds();
 }
@@ -233,7 +235,8 @@ void Pipeline::prepare_systems() {
     rest.poisson = input_.settings.poisson;
     for (const Handle& handle : slots_.handles) rest.turns_freely.push_back(handle.free_rotation);
     rest.pulled = soft_holds(slots_.handles, pulled_, rest);
-    if (std::exchange(stale_.energy, false)) find_energy(rest);
+    if (stale_.energy) find_energy(rest);
+    stale_.energy = false;
     rest.energy = energy_;
     const FactorOutcome outcome = build_system(std::move(rest), system_, workers_);
     has_coarse_ = outcome.solved && !coarse_.samples.sample.empty() &&

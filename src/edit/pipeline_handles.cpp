@@ -38,7 +38,7 @@ void Pipeline::prepare_handles(Progress& progress) {
         seconds_.geodesic += clock.lap();
         return;
     }
-    const VertexShape shape{order_.cube, vertex_positions(), *graph_, *components_};
+    const VertexShape shape{order_.cube, vertex_positions(), *graph_, *components_, hanging_};
     const HandleSamples needed = handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_,
                                                 territories_, handle_budget(base_samples_));
     samples_.insert(samples_.end(), needed.added.begin(), needed.added.end());

@@ -91,6 +91,14 @@ std::map<Index, std::size_t> shares(const std::map<Index, Border>& borders, std:
     return share;
 }
 
+// Those that are no outliers, if there are any.
+std::vector<Index> on_surface(const VertexShape& shape, const std::vector<Index>& vertices) {
+    if (shape.hanging.empty()) return vertices;
+    std::vector<Index> kept;
+    std::ranges::copy_if(vertices, std::back_inserter(kept), [&](Index v) { return !shape.hanging[v]; });
+    return kept.empty() ? vertices : kept;
+}
+
 // One vertex of each of these parts.
 std::vector<Index> one_of_each(const std::set<HeldPart>& parts, const VertexShape& shape,
                                const VertexLabels& labels) {
@@ -103,7 +111,7 @@ std::vector<Index> one_of_each(const std::set<HeldPart>& parts, const VertexShap
     std::vector<Index> chosen;
     chosen.reserve(vertices.size());
     for (const auto& [part, among] : vertices)
-        chosen.push_back(octree_samples(shape.cube, shape.positions, among, 1).front());
+        chosen.push_back(octree_samples(shape.cube, shape.positions, on_surface(shape, among), 1).front());
     return chosen;
 }
 

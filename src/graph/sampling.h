@@ -7,6 +7,7 @@
 #include "graph/neighbors.h"
 #include "graph/point_order.h"
 
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,6 +20,8 @@ struct VertexShape {
     std::span<const float> positions; // 3 floats a vertex
     const Graph& graph;
     const Components& components;
+    std::span<const std::uint8_t> hanging = {}; // 1 for an outlier, which is not chosen where there is
+                                                // another one to choose; empty without any
 };
 
 // What a set of handles needs beside the base samples.

@@ -1,12 +1,15 @@
 #include "deform/coarse_level.h"
 
 #include "deform/bent_bar.h"
+#include "graph/neighbors.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <set>
 
 namespace knead {
 namespace {
@@ -43,6 +46,33 @@ TEST(CoarseLevel, IsOfFewSamplesThatTheHandlesHoldAsTheyHoldTheOthers) {
         for (const float weight : bar.coarse.samples.followed[s].weight) sum += weight;
         EXPECT_NEAR(sum, 1, 1e-6); // rounding
     }
+}
+
+// A bar and a dozen rows of points beside it, each a part of its own, which both handles hold the ends of.
+SampleRest bar_and_rows() {
+    std::vector<float> positions = test::shape_positions(Shape::bar, 1200);
+    for (int row = 0; row < 12; ++row)
+        for (int k = 0; k <= 50; ++k) {
+            const float place[] = {5 + 3 * static_cast<float>(row), 0, -2.5F + 0.1F * static_cast<float>(k)};
+            positions.insert(positions.end(), std::begin(place), std::end(place));
+        }
+    return test::rest_of(test::cloud_of(std::move(positions)), test::both_ends(-2, 2));
+}
+
+TEST(CoarseLevel, HoldsEveryPartThatAHandleReachesInto) {
+    SampleRest rest = bar_and_rows();
+    for (Index s = 0; s < rest.handle.size(); ++s) // as with a falloff
+        if (rest.handle[s] == no_index && rest.position[s].z() > 1.5)
+            rest.pulled.push_back({s, 1, 0.5, rest.position[s]});
+    const Bar bar(std::move(rest));
+    for (std::size_t c = 0; c < bar.coarse.samples.sample.size(); ++c)
+        EXPECT_FALSE(bar.coarse.system.left_out[c]) << c;
+    const Components parts = find_components(bar.coarse.system.rest.graph, *std::make_unique<Workers>(1));
+    std::set<std::pair<Index, Index>> held;
+    for (std::size_t c = 0; c < bar.coarse.samples.sample.size(); ++c)
+        if (const Index handle = bar.coarse.system.rest.handle[c]; handle != no_index)
+            held.insert({handle, parts.component[c]});
+    EXPECT_EQ(held.size(), 2U * 13U);
 }
 
 // One that were carried by itself alone would go otherwise than those right beside it.

@@ -294,6 +294,20 @@ TEST(Pipeline, SmallAndFlatCloudsNeitherCrashNorTurnToNothing) {
         }
 }
 
+// Some scanners write all that they did not see to one place.
+TEST(Pipeline, CopiesOfAPointChangeNothing) {
+    const std::vector<float> positions = bar().positions;
+    std::vector<float> twins = positions;
+    for (int i = 0; i < 3000; ++i) twins.insert(twins.end(), positions.begin(), positions.begin() + 3);
+    Desk one{make_cloud(positions)}, many{make_cloud(twins)};
+    for (Desk* desk : {&one, &many}) desk->play(ends + drag(turn('y', 60, "[0.5,0,0]")) + settle(30));
+    std::vector<float> shape = many.shape();
+    shape.resize(positions.size());
+    const std::vector<float> expected = one.shape();
+    for (std::size_t i = 0; i < positions.size() / 3; ++i) // sums are rounded in another order
+        ASSERT_LT((at(shape, i) - at(expected, i)).norm(), 1e-6 * one.diagonal()) << i;
+}
+
 TEST(Pipeline, CloudsOfAnySizeAndPlaceAreTheSame) {
     Desk plain(bar());
     plain.play(ends + drag(turn('y', 60, "[0.5,0,0]")) + settle(30));

@@ -14,13 +14,16 @@ using test::Machine;
 using test::octree_of;
 
 std::vector<Index> handle_samples_of(const Cloud& cloud, std::span<const Index> label,
-                                     std::span<const Index> base, std::size_t budget) {
+                                     std::span<const Index> base, std::size_t budget,
+                                     std::span<const std::uint8_t> hanging = {}) {
     Machine machine;
     const InfluenceRows nearest = flood(cloud.graph, cloud.lengths, base, machine.workers, machine.progress);
     const std::vector<std::uint8_t> held(blocks_of_rows(label.size()), 1);
     std::vector<HeldBlock> blocks;
     find_held({label, held}, held, cloud.graph, cloud.positions, cloud.components, machine.workers, blocks);
-    return handle_samples(cloud.shape(), {label, held}, blocks, base,
+    VertexShape shape = cloud.shape();
+    shape.hanging = hanging;
+    return handle_samples(shape, {label, held}, blocks, base,
                           territories_of_base(nearest, base.size(), cloud.graph, machine.workers), budget)
         .added;
 }
@@ -73,6 +76,21 @@ TEST(HandleSamples, GiveEveryHandleOneHoweverThin) {
             EXPECT_EQ(parts_of(cloud, label, samples), parts_of(cloud, label, everything(cloud)))
                 << "budget " << budget << ", base " << base_count;
         }
+    }
+}
+
+// An outlier belongs to the handle that it hangs on; the middle of both is as near to either.
+TEST(HandleSamples, AreNoOutliersWhereThereIsAnotherVertex) {
+    const Cloud cloud = test::cloud_of(test::grid_positions(20, 20));
+    for (Index outlier = 0; outlier < cloud.size(); outlier += 37) {
+        std::vector<Index> label(cloud.size(), no_index);
+        std::vector<std::uint8_t> hanging(cloud.size(), 0);
+        const Index host = cloud.graph.row(outlier).front();
+        label[outlier] = label[host] = 0;
+        hanging[outlier] = 1;
+        EXPECT_EQ(handle_samples_of(cloud, label, {}, 0, hanging), std::vector<Index>{host});
+        label[host] = no_index;
+        EXPECT_EQ(handle_samples_of(cloud, label, {}, 0, hanging), std::vector<Index>{outlier});
     }
 }
 

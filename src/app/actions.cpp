@@ -130,6 +130,7 @@ void choose_next_handle(const Ui& ui) {
 void rename_chosen(const Ui& ui) {
     ui.state.renaming = ui.state.name_text = ui.editor.chosen;
     ui.state.renaming_begins = true;
+    ui.state.show_panels = true; // the name is typed there
 }
 
 template<int direction>

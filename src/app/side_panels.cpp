@@ -59,11 +59,14 @@ void draw_side_panels(const Ui& ui, Rectangle where) {
     const struct {
         const char* title;
         void (*panel)(const Ui&);
-    } parts[] = {{"Handles", handles_panel}, {"Shape", shape_panel}, {"Display", display_panel}};
+        bool is_needed = false;
+    } parts[] = {{"Handles", handles_panel, ui.state.renaming_begins},
+                 {"Shape", shape_panel},
+                 {"Display", display_panel}};
     bool first = true;
     for (const auto& part : parts) {
         if (!std::exchange(first, false)) divider(ui);
-        if (!section(part.title, ui.state.fonts.bold)) continue;
+        if (!section(part.title, ui.state.fonts.bold, part.is_needed)) continue;
         ImGui::PushID(part.title);
         part.panel(ui);
         ImGui::PopID();

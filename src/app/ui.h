@@ -127,9 +127,11 @@ struct Measured {
 
 // What to do once the user has said what becomes of the unsaved work.
 struct AfterSaving {
-    std::optional<Wish> then;      // what replaces the document
-    bool waiting_for_save = false; // `then` comes when a save has succeeded
-    bool save_was_posted = false;  // that save
+    std::optional<Wish> then;                    // what replaces the document
+    bool waiting_for_save = false;               // `then` comes when a save has succeeded
+    bool save_was_posted = false;                // that save
+    bool waiting_for_file = false;               // `then` comes when what is being written is there
+    std::optional<std::uint64_t> discarded = {}; // the state (DocumentView) that need not be saved
 };
 
 struct UiState {

@@ -147,9 +147,10 @@ bool bar_slider(const char* name, int& value, int lowest, int highest, const cha
     return slide(name, ImGuiDataType_S32, value, lowest, highest, format, flags);
 }
 
-bool section(const char* title, ImFont* font) {
+bool section(const char* title, ImFont* font, bool unfold) {
     ImGuiStorage& storage = *ImGui::GetStateStorage();
     const ImGuiID id = ImGui::GetID(title);
+    if (unfold) storage.SetBool(id, true);
     bool open = storage.GetBool(id, true);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight());

@@ -26,8 +26,8 @@ bool bar_slider(const char* name, float& value, float lowest, float highest, con
                 int flags = 0);
 bool bar_slider(const char* name, int& value, int lowest, int highest, const char* format, int flags = 0);
 
-// The heading of a part of a panel, which folds it. Returns whether it is open.
-bool section(const char* title, ImFont* font);
+// The heading of a part of a panel, which folds it. Returns whether it is open. `unfold`: opens it.
+bool section(const char* title, ImFont* font, bool unfold = false);
 
 // A label over the next item, in the second rank's colour.
 void caption(const char* words);

@@ -13,6 +13,8 @@ namespace knead {
 
 namespace {
 
+constexpr const char* demonstration_session = "creature-wave.knead";
+
 void begin_opening(Work& work, OpenRequest request) {
     request.journal_folder = default_journal_folder();
     request.device = work.options.device;
@@ -28,6 +30,15 @@ bool has_to_ask(Work& work, const Wish& wish) {
     if (!has_unsaved_session(work.editor)) return false;
     work.state.after = {.then = wish};
     work.state.ask_unsaved = true;
+    return true;
+}
+
+// Lets a file be finished that is being written; `wish` comes afterwards.
+bool has_to_finish_saving(Work& work, const Wish& wish) {
+    if (!work.editor.saving) return false;
+    if (!work.state.after.waiting_for_file)
+        add_toast(work.state, {Notice::Kind::information, "What is being saved is finished first."});
+    work.state.after = {.then = wish, .waiting_for_file = true};
     return true;
 }
 
@@ -116,16 +127,22 @@ void fulfil(Work& work, const WishBrowse& wish) {
 
 void save(Work& work, const WishSaveTo& wish) {
     if (wish.purpose == BrowseFor::save_session) {
-        work.editor.live->save_session(wish.file, wish.anyway);
+        save_session(work.editor, wish.file, wish.anyway);
         remember_file(work.state.recent, wish.file);
     } else
-        work.editor.live->save_cloud(wish.file, wish.columns, wish.anyway);
+        save_cloud(work.editor, wish.file, wish.columns, wish.anyway);
     if (work.state.after.waiting_for_save) work.state.after.save_was_posted = true;
+}
+
+// The demonstration is knead's own, and there for the next one who wants to see it.
+bool has_session_of_its_own(const Editor& editor) {
+    const std::filesystem::path& session = editor.document->session;
+    return !session.empty() && session != data_file(demonstration_session);
 }
 
 void fulfil(Work& work, const WishSaveSession&) {
     if (!work.editor.document) return;
-    if (work.editor.document->session.empty())
+    if (!has_session_of_its_own(work.editor))
         fulfil(work, WishBrowse{BrowseFor::save_session});
     else
         save(work, {BrowseFor::save_session, work.editor.document->session, false});
@@ -143,7 +160,7 @@ void fulfil(Work& work, const WishSaveTo& wish) {
 }
 
 void fulfil(Work& work, const WishDemonstration& wish) {
-    const char* name = wish.posed ? "creature-wave.knead" : "creature.ply";
+    const char* name = wish.posed ? demonstration_session : "creature.ply";
     if (const auto file = data_file(name)) {
         fulfil(work, WishOpen{*file});
         work.state.opening_demonstration = true;
@@ -157,8 +174,7 @@ void fulfil(Work& work, const WishPress& wish) {
     handle_input(work.editor, wish.press);
 }
 void fulfil(Work& work, const WishSelectTool& wish) {
-    work.editor.tools.select = wish.tool;
-    work.editor.tools.band.clear();
+    take_select_tool(work.editor, wish.tool);
 }
 void fulfil(Work& work, const WishThrough& wish) {
     work.editor.tools.through = wish.through;
@@ -202,15 +218,21 @@ void fulfil(Work& work, const WishClose&) {
     work.closing = true;
 }
 
-void fulfil(Work& work, const WishDiscard&) {
-    const std::optional<Wish> then = work.state.after.then;
-    work.state.after = {};
-    if (!then) return;
+void fulfil_what_waited(Work& work, const Wish& waited) {
     std::visit(
         [&]<typename Other>(const Other& wish) {
             if constexpr (!std::is_same_v<Other, WishDiscard>) fulfil(work, wish);
         },
-        *then);
+        waited);
+}
+
+void fulfil(Work& work, const WishDiscard&) {
+    const std::optional<Wish> then = std::exchange(work.state.after, {}).then;
+    if (!then) return;
+    if (has_to_finish_saving(work, *then))
+        work.state.after.discarded = work.editor.document->state;
+    else
+        fulfil_what_waited(work, *then);
 }
 
 bool replaces_document(const Wish& wish) {
@@ -222,7 +244,7 @@ bool replaces_document(const Wish& wish) {
 } // namespace
 
 void grant(Work& work, const Wish& wish) {
-    if (replaces_document(wish) && has_to_ask(work, wish)) return;
+    if (replaces_document(wish) && (has_to_ask(work, wish) || has_to_finish_saving(work, wish))) return;
     std::visit([&](const auto& wanted) { fulfil(work, wanted); }, wish);
 }
 
@@ -233,10 +255,20 @@ void ask_about(Work& work, const HeldSave& held) {
                               .columns = held.columns.value_or(SaveColumns{}),
                               .anyway = true};
     work.state.after.save_was_posted = false;
+    if (work.state.after.waiting_for_file) work.state.after = {}; // it was not written, and is asked about
 }
 
 void go_on_after_saving(Work& work) {
     AfterSaving& after = work.state.after;
+    if (work.editor.saving) return;
+    if (after.waiting_for_file) {
+        const AfterSaving waited = std::exchange(after, {});
+        if (waited.discarded == work.editor.document->state)
+            fulfil_what_waited(work, *waited.then);
+        else
+            grant(work, *waited.then); // which asks about what was done meanwhile
+        return;
+    }
     if (!after.waiting_for_save) return;
     if (work.state.overwriting || !work.editor.held_saves.empty()) return; // a save waits for an answer
     if (!has_unsaved_session(work.editor)) {

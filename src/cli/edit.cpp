@@ -70,7 +70,7 @@ void add_edit(CLI::App& app, Job& job) {
     command->add_option("FILE", arguments->file, "A cloud or a session; none: an empty window");
     command->add_option("--cloud", arguments->cloud,
                         "Another cloud than the session's; of as many points, if it says how many");
-    command->add_option("--set", arguments->settings, "A setting of a cloud, key=value; may be repeated")
+    command->add_option("--set", arguments->settings, "A setting, key=value; may be repeated")
         ->allow_extra_args(false);
     command->add_option("--samples", arguments->samples, "Short for --set samples=N, or all");
     add_device_options(*command, arguments->device, arguments->threads);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <utility>
 
 namespace knead {
@@ -127,6 +128,7 @@ bool refresh(Editor& editor) {
     if (!editor.live) return changed;
     const auto playing = editor.status.playing;
     if (!editor.opening) editor.status = editor.live->status();
+    editor.saving = editor.live->status().saving; // before its words are taken
     changed |= playing != editor.status.playing;
     forget_refused(editor);
     changed |= refresh_view(editor);
@@ -158,7 +160,7 @@ template<typename Change>
 void change_marks(Editor& editor, Change&& change) {
     auto before = snapshot(editor);
     std::forward<Change>(change)();
-    if (*before == editor.marks) return;
+    if (*before == *snapshot(editor)) return;
     marks_changed(editor);
     add_step(editor, 0, std::move(before));
 }
@@ -297,6 +299,7 @@ void carry_out(Editor& editor, const FrameView& command) {
     if (!editor.document) return;
     std::optional<Box3> box;
     if (command.what == FrameWhat::selection) box = box_of_selection(editor);
+    if (command.what == FrameWhat::selection && !box) box = box_of_chosen(editor);
     frame(editor.camera, box ? *box : bulk_box(editor.frame.positions), editor.viewport);
 }
 
@@ -333,30 +336,51 @@ void decline(Editor& editor, const char* words) {
     say(editor, Notice::Kind::information, words);
 }
 
-void keep_later_steps(Editor& editor) {
-    decline(
-        editor,
-        "This is an earlier step, and what was done later would be lost. Esc goes back to where you were. To "
-        "go on from an earlier one, undo to it (Ctrl+Z).");
-}
-
-// Whoever opens another file was asked what becomes of this one, as it was then.
-void keep_what_was_asked_about(Editor& editor) {
-    decline(editor,
-            "Another file is being opened and takes the place of this one: what you do here now would "
-            "be lost. Wait for it, or cancel it.");
-}
-
 } // namespace
+
+bool may_act(Editor& editor) {
+    // Whoever opens another file was asked what becomes of this one, as it was then.
+    if (editor.opening && editor.live) {
+        decline(editor,
+                "Another file is being opened and takes the place of this one: what you do here now would "
+                "be lost. Wait for it, or cancel it.");
+        return false;
+    }
+    if (editor.looks_back && !editor.future.empty()) {
+        decline(editor,
+                "This is an earlier step, and what was done later would be lost. Esc goes back to where you "
+                "were. To go on from an earlier one, undo to it (Ctrl+Z).");
+        return false;
+    }
+    return true;
+}
 
 void apply(Editor& editor, const Command& command) {
     try {
-        if (editor.opening && editor.live && is_act(command)) return keep_what_was_asked_about(editor);
-        if (editor.looks_back && !editor.future.empty() && is_act(command)) return keep_later_steps(editor);
+        if (is_act(command) && !may_act(editor)) return;
         std::visit([&](const auto& c) { carry_out(editor, c); }, command);
     } catch (const Error& error) {
         say(editor, Notice::Kind::error, error.what());
+    } catch (const std::bad_alloc&) {
+        say(editor, Notice::Kind::error, "There is not enough memory for this.");
     }
+}
+
+void save_cloud(Editor& editor, std::filesystem::path target, SaveColumns columns, bool anyway) {
+    editor.live->save_cloud(std::move(target), columns, anyway);
+    editor.saving = true;
+}
+
+void save_session(Editor& editor, std::filesystem::path target, bool anyway) {
+    editor.live->save_session(std::move(target), anyway);
+    editor.saving = true;
+}
+
+void take_select_tool(Editor& editor, SelectTool tool) {
+    std::vector<Command> commands;
+    drop_everything(editor.tools, commands);
+    for (const Command& command : commands) apply(editor, command);
+    editor.tools.select = tool;
 }
 
 bool handle_input(Editor& editor, const Input& input) {

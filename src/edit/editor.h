@@ -34,7 +34,7 @@ inline constexpr StepNumber step_of_opened_session = 1;
 struct EditorStep {
     StepNumber document = 0; // 0: none
     std::shared_ptr<const std::vector<std::uint8_t>> before =
-        {}; // marks, of a step that changed them; else null
+        {}; // marks of selection and hiding, of a step that changed them; else null
     std::shared_ptr<const std::vector<std::uint8_t>> after = {};
     // Of settings: when they were changed last. Those that change within a second join it.
     std::optional<std::chrono::steady_clock::time_point> settings_changed = {};
@@ -74,6 +74,7 @@ struct Editor {
     PosedFrame frame;                             // the points as they are now
     LiveDocument::Status status;                  // of `live`, or of `opening` while there is one
     LiveDocument::Saved saved;
+    bool saving = false; // a file of `live` is being written; what comes of it is among the notices then
     bool chooses_samples = false; // by itself, as the document was told last
     std::vector<Index> ordered;   // of each point of the file: its place in the order; no_index: left out
 
@@ -116,13 +117,21 @@ void apply(Editor& editor, const Command& command);
 // Takes in what the live document has made since; call it once a frame. Returns whether anything changed.
 bool refresh(Editor& editor);
 
+// Write the shape as it is, or the session so far, as LiveDocument does; until they are done, `saving`.
+void save_cloud(Editor& editor, std::filesystem::path target, SaveColumns columns, bool anyway);
+void save_session(Editor& editor, std::filesystem::path target, bool anyway);
+
 // Feeds one input of the hand to the tools and applies what they say. Returns whether it was used.
 bool handle_input(Editor& editor, const Input& input);
+
+// Takes another of the tools that select; what the hand was doing is dropped.
+void take_select_tool(Editor& editor, SelectTool tool);
 
 // --- What follows from the state ---
 
 Box3 box_of(const Editor& editor); // of all points as they are now, relative to the cloud's origin
 std::optional<Box3> box_of_selection(const Editor& editor); // nothing when nothing is selected
+std::optional<Box3> box_of_chosen(const Editor& editor);    // nothing when no handle is chosen
 const Handle* chosen_handle(const Editor& editor);          // null: none
 // The middle of a handle's points as they are now; nothing for one without a finite point.
 std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle);

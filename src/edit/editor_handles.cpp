@@ -38,14 +38,50 @@ std::vector<IndexRange> ranges_of(const std::vector<Index>& points) {
     return ranges;
 }
 
+bool is_free(const Editor& editor, const std::string& name) {
+    return !number_of(editor, name) && std::ranges::none_of(editor.posted_names, [&](const auto& posted) {
+        return posted.second == name;
+    });
+}
+
+// As the session file declares it.
+HandleLine line_of(const Handle& handle) {
+    HandleLine line;
+    line.name = handle.name;
+    line.role = handle.role;
+    line.points = ranges_of(*handle.points);
+    line.free_rotation = handle.free_rotation;
+    line.falloff = handle.falloff;
+    return line;
+}
+
+bool share_points(const Handle& a, const Handle& b) {
+    auto at = a.points->begin();
+    for (const Index point : *b.points) { // both ascend
+        at = std::lower_bound(at, a.points->end(), point);
+        if (at == a.points->end()) return false;
+        if (*at == point) return true;
+    }
+    return false;
+}
+
+// Declares a handle anew. That makes it the last one, and the last one has what several hold: so those that
+// came later and share points with it come again after it, and with them all that came later.
+void change_handle(Editor& editor, std::size_t number, HandleLine line) {
+    const std::span<const Handle> handles = editor.document->handles;
+    const std::span<const Handle> later = handles.subspan(number + 1);
+    std::vector<SessionAction> lines{std::move(line)};
+    if (std::ranges::any_of(later, [&](const Handle& one) { return share_points(handles[number], one); }))
+        for (const Handle& handle : later) lines.emplace_back(line_of(handle));
+    post_step(editor, std::move(lines));
+}
+
 } // namespace
 
 std::string free_name(const Editor& editor, HandleRole role) {
     for (unsigned number = 1;; ++number) {
         std::string name = std::string(word_for(role)) + " " + std::to_string(number);
-        const bool is_posted = std::ranges::any_of(editor.posted_names,
-                                                   [&](const auto& posted) { return posted.second == name; });
-        if (!number_of(editor, name) && !is_posted) return name;
+        if (is_free(editor, name)) return name;
     }
 }
 
@@ -87,15 +123,13 @@ void carry_out(Editor& editor, const ChangeRole& command) {
     if (!number) return;
     const Handle& handle = editor.document->handles[*number];
     if (handle.role == command.role) return;
-    HandleLine line;
-    line.name = handle.name;
+    HandleLine line = line_of(handle);
     line.role = command.role;
-    line.points = ranges_of(*handle.points);
-    if (command.role != HandleRole::region_of_interest) {
-        line.free_rotation = handle.free_rotation;
-        line.falloff = handle.falloff;
+    if (command.role == HandleRole::region_of_interest) {
+        line.free_rotation = false;
+        line.falloff = 0;
     }
-    post_step(editor, {std::move(line)});
+    change_handle(editor, *number, std::move(line));
 }
 
 void carry_out(Editor& editor, const ChangeHold& command) {
@@ -104,13 +138,10 @@ void carry_out(Editor& editor, const ChangeHold& command) {
     const Handle& handle = editor.document->handles[*number];
     const bool is_new = handle.free_rotation != command.free_rotation || handle.falloff != command.falloff;
     if (!is_new || handle.role == HandleRole::region_of_interest) return;
-    HandleLine line;
-    line.name = handle.name;
-    line.role = handle.role;
-    line.points = ranges_of(*handle.points);
+    HandleLine line = line_of(handle);
     line.free_rotation = command.free_rotation;
     line.falloff = command.falloff;
-    post_step(editor, {std::move(line)});
+    change_handle(editor, *number, std::move(line));
 }
 
 void carry_out(Editor& editor, const DeleteHandle& command) {
@@ -125,7 +156,7 @@ void carry_out(Editor& editor, const SelectHandlePoints& command) {
         if (editor.ordered[i] != no_index) inside[editor.ordered[i]] = 1;
     auto before = snapshot(editor);
     select(editor.marks, inside, command.mode, editor.workers);
-    if (*before == editor.marks) return;
+    if (*before == *snapshot(editor)) return;
     marks_changed(editor);
     add_step(editor, 0, std::move(before));
 }
@@ -240,6 +271,16 @@ std::vector<Index> points_across(const Editor& editor, const Handle& handle, int
     return points;
 }
 
+// Mirrored once more to where it was mirrored before, it takes the place of what that made.
+std::string name_of_mirrored(const Editor& editor, const Handle& handle, const std::vector<Index>& points) {
+    for (unsigned number = 1;; ++number) {
+        std::string name = handle.name + " mirrored" + (number > 1 ? " " + std::to_string(number) : "");
+        const auto there = number_of(editor, name);
+        if (is_free(editor, name) || (there && *editor.document->handles[*there].points == points))
+            return name;
+    }
+}
+
 Vec3d rest_middle(const Editor& editor, const std::vector<Index>& points) {
     Vec3d sum = Vec3d::Zero();
     std::size_t count = 0;
@@ -273,12 +314,9 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
         return say(editor, Notice::Kind::error,
                    "There is nothing across the middle of the cloud where \"" + handle.name +
                        "\" would be mirrored to.");
-    HandleLine line;
-    line.name = handle.name + " mirrored";
-    line.role = handle.role;
+    HandleLine line = line_of(handle);
+    line.name = name_of_mirrored(editor, handle, points);
     line.points = ranges_of(points);
-    line.free_rotation = handle.free_rotation;
-    line.falloff = handle.falloff;
     const std::string name = line.name;
     std::vector<SessionAction> lines{std::move(line)};
     const HandleMotion& pose = editor.document->motions[*number];

@@ -3,12 +3,21 @@
 #include "edit/editor_steps.h"
 #include "edit/selecting.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace knead {
 
 std::shared_ptr<const std::vector<std::uint8_t>> snapshot(const Editor& editor) {
-    return std::make_shared<const std::vector<std::uint8_t>>(editor.marks);
+    std::vector<std::uint8_t> marks(editor.marks.size());
+    std::ranges::transform(editor.marks, marks.begin(), [](std::uint8_t mark) {
+        return static_cast<std::uint8_t>(mark & marks_of_selection);
+    });
+    const auto last = std::ranges::find_if(
+        editor.past.rbegin(), editor.past.rend(), [](const auto& after) { return after != nullptr; },
+        &EditorStep::after);
+    if (last != editor.past.rend() && *last->after == marks) return last->after;
+    return std::make_shared<const std::vector<std::uint8_t>>(std::move(marks));
 }
 
 void add_step(Editor& editor, StepNumber document, std::shared_ptr<const std::vector<std::uint8_t>> before) {

@@ -98,6 +98,19 @@ std::optional<Box3> box_of_selection(const Editor& editor) {
     return box;
 }
 
+std::optional<Box3> box_of_chosen(const Editor& editor) {
+    const Handle* handle = chosen_handle(editor);
+    if (!handle) return std::nullopt;
+    Box3 box = nowhere();
+    bool is_anywhere = false;
+    for (const Index i : *handle->points) {
+        if (editor.ordered[i] == no_index) continue;
+        extend(box, editor.frame.positions.data() + 3 * std::size_t{editor.ordered[i]});
+        is_anywhere = true;
+    }
+    return is_anywhere ? std::optional(box) : std::nullopt;
+}
+
 bool has_unsaved_session(const Editor& editor) {
     if (!editor.document) return false;
     // Steps that were posted and not carried out yet, a drag under way among them.

@@ -12,7 +12,7 @@ Vec3d to_eigen(const glm::dvec3& v);
 
 void say(Editor& editor, Notice::Kind kind, std::string words);
 
-// A copy of the marks, to go back to.
+// A copy of the marks of selection and hiding, to go back to; that of the last step where it is the same.
 std::shared_ptr<const std::vector<std::uint8_t>> snapshot(const Editor& editor);
 
 // Puts a step on the history; what could be redone is forgotten. `before`: the marks before it, if it changed
@@ -41,6 +41,10 @@ void mark_handles(Editor& editor);
 
 // Whether a document is open; tells the user if not.
 bool needs_document(Editor& editor);
+
+// Whether something may be added to what was done: not while another file is being opened, nor while an
+// earlier step is looked at. Tells the user why not.
+bool may_act(Editor& editor);
 
 void carry_out(Editor& editor, const UndoStep& command);
 void carry_out(Editor& editor, const RedoStep& command);

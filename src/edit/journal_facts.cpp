@@ -18,6 +18,17 @@ bool is_act(const SessionLine& line) {
            !std::holds_alternative<CheckLine>(line.action);
 }
 
+nlohmann::ordered_json json_of(const FileStamp& stamp) {
+    return {stamp.device, stamp.inode, stamp.size, stamp.seconds, stamp.nanoseconds};
+}
+
+std::optional<FileStamp> stamp_in(const nlohmann::json& facts, const char* key) {
+    const auto stamp = facts.find(key);
+    if (stamp == facts.end()) return std::nullopt;
+    return FileStamp{stamp->at(0).get<dev_t>(), stamp->at(1).get<ino_t>(), stamp->at(2).get<off_t>(),
+                     stamp->at(3).get<time_t>(), stamp->at(4).get<long>()};
+}
+
 } // namespace
 
 std::filesystem::path journal_facts_file(const std::filesystem::path& journal) {
@@ -32,9 +43,8 @@ void write_journal_facts(const std::filesystem::path& journal, const JournalFact
     json["session"] = named ? facts.session.string() : "";
     json["saved_lines"] = facts.saved_lines;
     json["chooses_samples"] = facts.chooses_samples;
-    if (facts.stamp)
-        json["stamp"] = {facts.stamp->device, facts.stamp->inode, facts.stamp->size, facts.stamp->seconds,
-                         facts.stamp->nanoseconds};
+    if (facts.stamp) json["stamp"] = json_of(*facts.stamp);
+    if (facts.cloud) json["cloud"] = json_of(*facts.cloud);
     FileInTheMaking file(journal_facts_file(journal));
     file.write(json_text(json) + "\n");
     file.commit();
@@ -50,10 +60,8 @@ JournalFacts read_journal_facts(const std::filesystem::path& journal) {
         facts.session = json.at("session").get<std::string>();
         facts.saved_lines = json.at("saved_lines").get<std::size_t>();
         facts.chooses_samples = json.at("chooses_samples").get<bool>();
-        if (const auto stamp = json.find("stamp"); stamp != json.end())
-            facts.stamp =
-                FileStamp{stamp->at(0).get<dev_t>(), stamp->at(1).get<ino_t>(), stamp->at(2).get<off_t>(),
-                          stamp->at(3).get<time_t>(), stamp->at(4).get<long>()};
+        facts.stamp = stamp_in(json, "stamp");
+        facts.cloud = stamp_in(json, "cloud");
         return facts;
     } catch (const std::exception&) {
         return {};

@@ -17,6 +17,7 @@ struct JournalFacts {
     std::optional<FileStamp> stamp; // of that file then
     std::size_t saved_lines = 0;    // so many of the journal's lines are in that file, too
     bool chooses_samples = false;   // whether their number is chosen by itself
+    std::optional<FileStamp> cloud; // of the file that the cloud was read from, before it was
     bool operator==(const JournalFacts&) const = default;
 };
 

@@ -27,6 +27,7 @@ LiveDocument::Status LiveDocument::status() const {
         Status status = shared.status;
         const bool plays = status.playing && (!shared.pace.held || shared.pace.frames != 0);
         status.busy |= plays || !shared.inbox.empty();
+        status.saving = shared.saves > 0;
         return status;
     });
 }
@@ -45,6 +46,13 @@ namespace {
 
 void put(Locked<LiveShared>& shared, LiveTask task) {
     shared.change([&](LiveShared& s) { s.inbox.push_back(std::move(task)); });
+}
+
+void put_save(Locked<LiveShared>& shared, LiveTask task) {
+    shared.change([&](LiveShared& s) {
+        ++s.saves;
+        s.inbox.push_back(std::move(task));
+    });
 }
 
 } // namespace
@@ -106,11 +114,11 @@ void LiveDocument::advance_play(int frames) {
 }
 
 void LiveDocument::save_cloud(std::filesystem::path target, SaveColumns columns, bool anyway) {
-    put(*shared_, task::SaveCloud{std::move(target), columns, anyway});
+    put_save(*shared_, task::SaveCloud{std::move(target), columns, anyway});
 }
 
 void LiveDocument::save_session(std::filesystem::path target, bool anyway) {
-    put(*shared_, task::SaveSession{std::move(target), anyway});
+    put_save(*shared_, task::SaveSession{std::move(target), anyway});
 }
 
 std::shared_ptr<const DocumentView> LiveDocument::view() const {

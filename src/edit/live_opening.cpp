@@ -30,6 +30,14 @@ Session session_to_open(const OpenRequest& request, Progress& progress, std::str
     return session;
 }
 
+void refuse_changed_cloud(const std::filesystem::path& cloud, const std::filesystem::path& journal) {
+    const std::optional<FileStamp> now = stamp_of(cloud), then = read_journal_facts(journal).cloud;
+    if (now && then && *now != *then)
+        throw Error(Trouble::input, cloud.string(),
+                    "was written to after it was opened for what is to be restored now. Choose a copy of it "
+                    "as it was then; or this very file, if its points are the same");
+}
+
 PointCloud cloud_to_open(const OpenRequest& request, Session& session, Progress& progress) {
     const bool is_plain = session.file.empty();
     PointCloud cloud =

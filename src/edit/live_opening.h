@@ -16,6 +16,10 @@ Session session_to_open(const OpenRequest& request, Progress& progress, std::str
 // (input).
 PointCloud cloud_to_open(const OpenRequest& request, Session& session, Progress& progress);
 
+// Throws Error (input) where the file of the cloud is not the one any more that was edited, as far as is
+// known of what that journal recorded.
+void refuse_changed_cloud(const std::filesystem::path& cloud, const std::filesystem::path& journal);
+
 // Any act but undo and redo; a check is none. Throws what the document throws.
 void carry_out_act(Document& document, const SessionAction& action, const std::string& place,
                    Progress& progress);

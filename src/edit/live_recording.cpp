@@ -10,9 +10,28 @@ namespace knead {
 
 namespace {
 
+bool are_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code ignored;
+    return std::filesystem::equivalent(a, b, ignored);
+}
+
+// Absolute and without "..", but where that leads elsewhere because a folder on the way is a link.
+std::filesystem::path plain_path(const std::filesystem::path& path) {
+    const std::filesystem::path whole = std::filesystem::absolute(path), plain = whole.lexically_normal();
+    std::error_code ignored;
+    const bool leads_elsewhere = std::filesystem::exists(whole, ignored) && !are_one_file(whole, plain);
+    return leads_elsewhere ? std::filesystem::weakly_canonical(whole, ignored) : plain;
+}
+
+// The way from a folder to a path: as they are named, or where that leads elsewhere, by their real names. A
+// path that is nowhere keeps its name.
 std::filesystem::path relative_to(const std::filesystem::path& path, const std::filesystem::path& folder) {
+    std::error_code ignored;
     const std::filesystem::path way = path.lexically_relative(folder);
-    return way.empty() ? path : way;
+    if (way.empty() || !std::filesystem::exists(path, ignored)) return way.empty() ? path : way;
+    if (are_one_file(folder / way, path)) return way;
+    const std::filesystem::path real = std::filesystem::weakly_canonical(path, ignored);
+    return real.lexically_relative(std::filesystem::weakly_canonical(folder, ignored));
 }
 
 std::string words_about(const SessionAction& act) {
@@ -51,7 +70,7 @@ Session recovered_session(const std::filesystem::path& journal, bool& dropped) {
 }
 
 LiveRecording::LiveRecording(const Session& session, const std::optional<std::filesystem::path>& restored)
-    : header_(session), cloud_(std::filesystem::absolute(session.resolve(session.cloud)).lexically_normal()) {
+    : header_(session), cloud_(plain_path(session.resolve(session.cloud))) {
     header_.lines.clear();
     if (restored) {
         journal_ = Journal::take_over(*restored);
@@ -76,6 +95,11 @@ void LiveRecording::is_in(const std::filesystem::path& session) {
 
 void LiveRecording::chooses_samples(bool by_itself) {
     if (std::exchange(facts_.chooses_samples, by_itself) == by_itself) return;
+    if (journal_) write_journal_facts(journal_->file(), facts_);
+}
+
+void LiveRecording::is_on(const std::optional<FileStamp>& cloud) {
+    if (std::exchange(facts_.cloud, cloud) == cloud) return;
     if (journal_) write_journal_facts(journal_->file(), facts_);
 }
 
@@ -127,17 +151,21 @@ std::size_t LiveRecording::redoable_steps() const {
     return count_steps(future_);
 }
 
-void LiveRecording::save(const std::filesystem::path& target) {
-    undo_what_was_looked_back();
-    const std::filesystem::path folder = std::filesystem::absolute(target).lexically_normal().parent_path();
+// Acts that are looked back from wait last among those to be redone, the newest first.
+std::uint64_t LiveRecording::state() const {
+    if (looked_back_ > 0) return future_[future_.size() - looked_back_].number;
+    return past_.empty() ? 0 : past_.back().number;
+}
+
+void LiveRecording::save(const std::filesystem::path& target) const {
+    const std::filesystem::path folder = plain_path(std::filesystem::absolute(target).parent_path());
     Session header = header_;
     header.cloud = relative_to(cloud_, folder);
     FileInTheMaking file(target);
     file.write(header_text(header) + "\n");
     for (SessionAction line : lines_) {
         if (auto* check = std::get_if<CheckLine>(&line))
-            check->positions =
-                relative_to(std::filesystem::absolute(check->positions).lexically_normal(), folder);
+            check->positions = relative_to(plain_path(check->positions), folder);
         file.write(to_text(line) + "\n");
     }
     file.commit();

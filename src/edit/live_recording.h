@@ -38,6 +38,8 @@ public:
     // All that was recorded so far is in that file.
     void is_in(const std::filesystem::path& session);
     void chooses_samples(bool by_itself);
+    // The file that the cloud was read from, as it was before it was read.
+    void is_on(const std::optional<FileStamp>& cloud);
 
     // An act that the document has carried out: of the step before it, or the first of a new one. What could
     // be redone is forgotten.
@@ -65,15 +67,16 @@ public:
     std::size_t undoable_steps() const;
     std::size_t redoable_steps() const;
 
-    // Names what the acts that were not undone make: the number of the last of them; 0 at the beginning.
-    std::uint64_t state() const { return past_.empty() ? 0 : past_.back().number; }
+    // Names what is recorded: the number of the last act that is not undone, 0 at the beginning. What is
+    // undone only to look at it is as good as done.
+    std::uint64_t state() const;
 
     std::size_t acts() const { return lines_.size(); }
     const std::filesystem::path& cloud() const { return cloud_; } // absolute
 
-    // Writes all of it as a session file, with paths relative to it. What was undone to look at it is undone
-    // for good. Throws Error (output).
-    void save(const std::filesystem::path& target);
+    // Writes all of it as a session file, with paths relative to it; what was undone only to look at it is in
+    // it as done. Throws Error (output).
+    void save(const std::filesystem::path& target) const;
     // The digest by which a session knows its cloud again, which saved ones and journals to come carry.
     const std::optional<std::string>& sha256() const { return header_.sha256; }
     void set_sha256(std::string digest) { header_.sha256 = std::move(digest); }

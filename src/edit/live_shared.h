@@ -72,6 +72,7 @@ struct LiveShared {
     std::deque<LiveTask> inbox;
     std::optional<WantedPose> wanted; // the newest pose of the drag that was begun last
     PlayPace pace;
+    std::size_t saves = 0; // that were asked for and are not done with
     bool stop = false;
     bool keep_journal = true;
 

@@ -30,6 +30,10 @@ bool ends_drag(const LiveTask& task) {
     return std::holds_alternative<task::EndDrag>(task) || std::holds_alternative<task::CancelDrag>(task);
 }
 
+bool is_save(const LiveTask& task) {
+    return std::holds_alternative<task::SaveCloud>(task) || std::holds_alternative<task::SaveSession>(task);
+}
+
 } // namespace
 
 LiveWork::LiveWork(OpenRequest request, Locked<LiveShared>& shared)
@@ -63,8 +67,23 @@ void LiveWork::open() {
     if (!request_.restore) saved_.session_state = recording_->state();
     if (!request_.restore && !is_plain_cloud) recording_->is_in(session_file_);
     recording_->chooses_samples(choosing_);
+    recording_->is_on(cloud_stamp_);
+    if (!is_plain_cloud && !request_.restore) take_settings();
     publish_opened();
     if (!request_.restore) recording_->keep_journal(request_.journal_folder);
+}
+
+// Those that were asked for with a session, as if the user had set them first of all.
+void LiveWork::take_settings() {
+    const SetLine line{request_.settings};
+    if (changed(document_->settings(), line.change) == document_->settings()) return;
+    const bool commits = needs_commit(line) && document_->is_posed();
+    if (commits) {
+        carry_out_act(*document_, CommitLine{}, "", progress_);
+        add_act(CommitLine{}, false);
+    }
+    carry_out_act(*document_, line, "", progress_);
+    add_act(line, commits);
 }
 
 PointCloud LiveWork::read_cloud_of(Session& session) {
@@ -72,6 +91,7 @@ PointCloud LiveWork::read_cloud_of(Session& session) {
     take_note(known_files_, file);
     cloud_stamp_ = stamp_of(file);
     try {
+        if (request_.restore && !request_.cloud) refuse_changed_cloud(file, *request_.restore);
         return cloud_to_open(request_, session, progress_);
     } catch (const Error&) {
         shared_.with([&](LiveShared& s) { s.status.wants_cloud = !session.file.empty(); });
@@ -153,6 +173,7 @@ bool LiveWork::turn() {
     else if (task) {
         guarded([&] { finish_playing(); });
         guarded([&] { std::visit([&](auto& t) { carry_out(t); }, *task); });
+        if (is_save(*task)) shared_.with([](LiveShared& s) { --s.saves; });
         if (since_look_.seconds() > between_looks) look_for_others();
     } else
         guarded([&] { go_on(); });

@@ -29,6 +29,7 @@ private:
 
     PointCloud read_cloud_of(Session& session);
     void belong_to_session_of(const JournalFacts& facts);
+    void take_settings();
     void publish_opened();
     void wait_for_next_frame();
     bool something_to_do() const;

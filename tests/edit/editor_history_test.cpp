@@ -2,6 +2,7 @@
 // is reset.
 
 #include "edit/editor_bar.h"
+#include "edit/editor_import.h"
 
 namespace knead::test {
 
@@ -114,6 +115,26 @@ TEST_F(BarEditor, NothingIsDoneThatAFileBeingOpenedWouldTakeAway) {
     ASSERT_FALSE(editor_.notices.empty());
     EXPECT_NE(editor_.notices.back().words.find("being opened"), std::string::npos);
     cancel_opening(editor_);
+}
+
+TEST_F(BarEditor, HandlesOfAnotherSessionAreNoWayRoundThat) {
+    make_handles();
+    save_session(editor_, folder_ / "a.knead", false);
+    EXPECT_TRUE(editor_.saving);
+    calm();
+    EXPECT_FALSE(editor_.saving);
+    turn_chosen("40");
+    calm();
+    apply(editor_, UndoStep{.to_look = true});
+    calm();
+    handles_from_session(editor_, folder_ / "a.knead");
+    EXPECT_TRUE(can_redo(editor_));
+    EXPECT_NE(editor_.notices.back().words.find("earlier step"), std::string::npos);
+    apply(editor_, RedoStep{});
+    calm();
+    const std::size_t steps = editor_.past.size();
+    handles_from_session(editor_, folder_ / "a.knead");
+    EXPECT_EQ(editor_.past.size(), steps + 1);
 }
 
 TEST_F(BarEditor, WhoeverLooksBackLosesNothingByAnAct) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace knead::test {
 
@@ -191,6 +192,80 @@ TEST_F(BarEditor, AHandleIsToldHowItHoldsAndKeepsItThroughItsRole) {
     calm();
     EXPECT_FALSE(high().free_rotation);
     EXPECT_EQ(high().falloff, 0);
+}
+
+TEST_F(BarEditor, MirroringElsewhereMakesAnotherHandle) {
+    make_handles();
+    const auto names = [&] {
+        std::vector<std::string> all;
+        for (const Handle& handle : editor_.document->handles) all.push_back(handle.name);
+        return all;
+    };
+    for (const int axis : {0, 2, 2}) { // on itself; across; and there again
+        apply(editor_, MirrorHandle{"high", axis});
+        calm();
+    }
+    EXPECT_EQ(names(), (std::vector<std::string>{"low", "high", "high mirrored", "high mirrored 2"}));
+}
+
+// What is declared anew comes last, and the last one has what several hold.
+TEST_F(BarEditor, AChangedHandleLeavesLaterOnesTheirPoints) {
+    make_handles();
+    for (const auto& [from, to, name] : {std::tuple{2.2, 2.4, "ring"}, {-1.0, 0.0, "belt"}}) {
+        select_heights(from, to);
+        apply(editor_, MakeHandle{HandleRole::moving, name});
+        calm();
+    }
+    const std::vector<std::uint8_t> marks = editor_.marks;
+    const std::vector<float> rest = editor_.frame.positions;
+    apply(editor_, ChangeHold{"high", false, 0.25});
+    calm();
+    std::vector<std::string> order;
+    for (const Handle& handle : editor_.document->handles) order.push_back(handle.name);
+    EXPECT_EQ(order, (std::vector<std::string>{"low", "high", "ring", "belt"}));
+    EXPECT_EQ(editor_.marks, marks);
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(chosen_handle(editor_)->name, "belt");
+    EXPECT_EQ(editor_.document->handles[1].falloff, 0) << "all of it is one step";
+    apply(editor_, ChangeRole{"low", HandleRole::moving}); // which shares points with nobody
+    calm();
+    EXPECT_EQ(editor_.document->handles.back().name, "low");
+}
+
+TEST_F(BarEditor, AnotherSelectToolDropsWhatWasBegun) {
+    editor_.tools.select = SelectTool::polygon;
+    const auto click = [&](glm::dvec2 at) {
+        handle_input(editor_, MousePress{MouseButton::left, at, {}, 1});
+        handle_input(editor_, MouseRelease{MouseButton::left, at, {}});
+    };
+    for (const SelectTool next : {SelectTool::polygon, SelectTool::lasso, SelectTool::brush}) {
+        editor_.tools.select = SelectTool::polygon;
+        click({300, 300});
+        ASSERT_EQ(editor_.tools.band.size(), 1U);
+        take_select_tool(editor_, next);
+        EXPECT_EQ(editor_.tools.select, next);
+        EXPECT_EQ(editor_.tools.doing, Tools::Doing::nothing);
+        press(Key::backspace);
+        move({350, 350});
+        EXPECT_TRUE(editor_.tools.band.empty());
+    }
+}
+
+TEST_F(BarEditor, FramesTheChosenHandleWhereNothingIsSelected) {
+    make_handles();
+    apply(editor_, FrameView{FrameWhat::selection});
+    const double near = pixel_size_at(editor_.camera, editor_.viewport, editor_.handle_middle);
+    apply(editor_, ChooseHandle{});
+    apply(editor_, FrameView{FrameWhat::selection});
+    EXPECT_GT(pixel_size_at(editor_.camera, editor_.viewport, editor_.handle_middle), 2 * near);
+}
+
+TEST_F(BarEditor, StepsOfSelectionShareWhatIsTheSame) {
+    for (int i = 0; i < 4; ++i) select_heights(-0.5 * i, 2);
+    ASSERT_EQ(editor_.past.size(), 4U);
+    for (std::size_t step = 1; step < 4; ++step)
+        EXPECT_EQ(editor_.past[step].before, editor_.past[step - 1].after);
 }
 
 TEST_F(BarEditor, AFailedOpeningLeavesThePresentDocument) {

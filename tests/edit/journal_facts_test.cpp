@@ -24,7 +24,8 @@ TEST(JournalFacts, AreReadAsTheyWereWritten) {
     const ScratchFolder folder;
     const std::filesystem::path journal = folder / "2026-j.knead";
     EXPECT_EQ(read_journal_facts(journal), JournalFacts{});
-    JournalFacts facts{folder / "schön \"1\".knead", stamp_of("/proc/self/exe"), 17, true};
+    JournalFacts facts{folder / "schön \"1\".knead", stamp_of("/proc/self/exe"), 17, true,
+                       stamp_of("/proc/self/exe")};
     ASSERT_TRUE(facts.stamp);
     write_journal_facts(journal, facts);
     EXPECT_EQ(read_journal_facts(journal), facts);

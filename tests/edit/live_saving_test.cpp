@@ -220,6 +220,77 @@ TEST_F(LiveBar, ASavedSessionKnowsItsCloudAgain) {
     EXPECT_EQ(read_session(folder_ / "b.knead").cloud, "elsewhere.ply");
 }
 
+// Otherwise what was done would be done to what it had made already.
+TEST_F(LiveBar, WorkIsNotRestoredOnACloudThatWasWrittenToSince) {
+    const std::filesystem::path state = folder_ / "state", copy = folder_ / "copy.ply";
+    std::filesystem::copy_file(folder_ / "bar.ply", copy);
+    OpenRequest request = request_for(folder_ / "bar.ply");
+    request.journal_folder = state;
+    {
+        LiveDocument live(request);
+        wait_until_open(live);
+        for (const SessionAction& handle : bar_handles()) live.post(++step_, {handle});
+        live.save_cloud(folder_ / "bar.ply");
+        wait_until_idle(live);
+    }
+    OpenRequest restore = request_for({});
+    restore.restore = find_lost_work(state).at(0).journal;
+    {
+        LiveDocument live(restore);
+        wait_until_open(live);
+        EXPECT_EQ(live.status().stage, LiveDocument::Stage::failed);
+        EXPECT_TRUE(live.status().wants_cloud);
+    }
+    restore.cloud = copy;
+    LiveDocument live(restore);
+    wait_until_open(live);
+    ASSERT_EQ(live.status().stage, LiveDocument::Stage::open);
+    EXPECT_EQ(live.view()->handles.size(), 2U);
+}
+
+TEST_F(LiveBar, FindsItsCloudThroughFoldersThatAreLinks) {
+    const std::filesystem::path real = folder_ / "disk" / "deep" / "work", link = folder_ / "work";
+    std::filesystem::create_directories(real);
+    std::filesystem::create_directory_symlink(real, link);
+    live_->save_session(link / "a.knead"); // "../bar.ply" from there is disk/deep/bar.ply
+    settle_down();
+    for (const std::filesystem::path& session : {link / "a.knead", real / "a.knead"}) {
+        LiveDocument live(request_for(session));
+        wait_until_open(live);
+        ASSERT_EQ(live.status().stage, LiveDocument::Stage::open) << session;
+        EXPECT_TRUE(std::filesystem::equivalent(live.opened().file, folder_ / "bar.ply"));
+    }
+    live_->save_session(folder_ / "b.knead");
+    settle_down();
+    EXPECT_EQ(read_session(folder_ / "b.knead").cloud, "bar.ply");
+}
+
+TEST_F(LiveBar, SettingsThatASessionIsOpenedWithAreAStep) {
+    live_->save_session(folder_ / "a.knead");
+    settle_down();
+    OpenRequest request = request_for(folder_ / "a.knead");
+    request.settings.samples = 77U;
+    LiveDocument live(request);
+    wait_until_open(live);
+    EXPECT_EQ(live.view()->settings.samples, 77U);
+    EXPECT_EQ(live.view()->undoable_steps, 3U);
+    EXPECT_NE(live.view()->state, live.saved().session_state);
+    live.undo(0);
+    wait_until_idle(live);
+    EXPECT_NE(live.view()->settings.samples, 77U);
+    EXPECT_EQ(live.view()->state, live.saved().session_state);
+}
+
+TEST_F(LiveBar, TellsThatItSavesUntilItHas) {
+    live_->save_cloud(folder_ / "out.ply");
+    EXPECT_TRUE(live_->status().saving);
+    ASSERT_TRUE(wait_until([&] { return !live_->status().saving; }));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out.ply"));
+    EXPECT_FALSE(live_->take_notices().empty());
+    live_->save_cloud("/proc/nowhere/out.ply");
+    ASSERT_TRUE(wait_until([&] { return !live_->status().saving; })) << "nor when it could not";
+}
+
 TEST_F(LiveBar, OnlyASessionTakesAnotherCloud) {
     OpenRequest request = request_for(bar_file(folder_));
     request.cloud = request.file;
@@ -252,11 +323,14 @@ TEST_F(LiveBar, LookingAtEarlierStepsIsNoWorkToRestore) {
     { // saved there
         LiveDocument live(request);
         look_back(live);
+        EXPECT_EQ(live.view()->state, live.saved().session_state);
         live.save_session(folder_ / "b.knead");
         wait_until_idle(live);
+        EXPECT_EQ(live.view()->handles.size(), 1U) << "and it is looked at still";
+        EXPECT_EQ(live.view()->state, live.saved().session_state);
     }
     const std::string undo = to_text(UndoLine{});
-    EXPECT_EQ(lines_in(folder_ / "b.knead"), (std::vector{handles[0], handles[1], undo}));
+    EXPECT_EQ(lines_in(folder_ / "b.knead"), handles) << "whatever was looked at";
     { // goes on from there
         LiveDocument live(request);
         look_back(live);

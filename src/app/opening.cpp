@@ -49,6 +49,7 @@ std::string sentence(std::string words) {
 } // namespace
 
 void draw_opening(const Ui& ui) {
+    ui.state.long_stage = {};
     if (ui.editor.opening) {
         const LiveDocument::Status status = ui.editor.opening->status();
         const OpenRequest& request = ui.editor.opening_request;
@@ -74,6 +75,8 @@ void draw_opening(const Ui& ui) {
     begin_card(ui, "stage", 300, 0.97f);
     faint_text(sentence(status.doing));
     bar(ui, status.fraction);
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    state.long_stage = {at.x, at.y, size.x, size.y};
     end_card();
 }
 

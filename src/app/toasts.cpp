@@ -46,13 +46,17 @@ Icon icon_of(Notice::Kind kind) {
     }
 }
 
+float toast_width(const Ui& ui) {
+    return std::min(ui.scaled(400), ui.state.view.width - ui.scaled(32));
+}
+
 // Draws one with its lower right corner at `corner`; returns its height and whether it was clicked away.
 struct Drawn {
     float height = 0;
     bool clicked = false, hovered = false;
 };
 Drawn draw_toast(const Ui& ui, const Toast& toast, int number, ImVec2 corner) {
-    const float width = std::min(ui.scaled(400), ui.state.view.width - ui.scaled(32));
+    const float width = toast_width(ui);
     const float inset = ui.scaled(44);
     ImGui::SetNextWindowPos(corner, ImGuiCond_Always, {1, 1});
     ImGui::SetNextWindowSize({width, 0});
@@ -104,6 +108,10 @@ void add_toast(UiState& state, Notice notice) {
 void draw_toasts(const Ui& ui) {
     const Rectangle& view = ui.state.view;
     ImVec2 corner(view.x + view.width - ui.scaled(16), view.y + view.height - ui.scaled(16));
+    // Above the card of a long stage, where both are not side by side.
+    const Rectangle& card = ui.state.long_stage;
+    if (card.height > 0 && corner.x - toast_width(ui) < card.x + card.width)
+        corner.y = std::min(corner.y, card.y - ui.scaled(8));
     const float step = std::min(ImGui::GetIO().DeltaTime, 0.1f);
     int number = 0;
     std::deque<Toast>& toasts = ui.state.toasts;

@@ -170,6 +170,7 @@ struct UiState {
 
     bool opening_demonstration = false; // which is then looked at from where the creature looks best
     double long_stage_since = 0;        // ImGui's time; of draw_opening()
+    Rectangle long_stage = {};          // the card that tells of it; empty: none is shown
 
     Rectangle view;              // the part of the window that shows the cloud
     float pixel_ratio = 1;       // framebuffer pixels to one of ImGui's

@@ -59,6 +59,11 @@ std::string date_words(std::filesystem::file_time_type when) {
     return text;
 }
 
+// Of what is below the list: a caption, or two lines about what is wrong, and the name.
+float bottom_height(const Ui& ui) {
+    return ui.scaled(92) + (ui.state.browser.trouble.empty() ? 0 : ImGui::GetTextLineHeight());
+}
+
 // Whether a file can be saved there; if not, `trouble` says why, and the name stays to be mended.
 bool can_save(FileBrowser& browser, const std::filesystem::path& file) {
     try {
@@ -163,7 +168,7 @@ void place(const Ui& ui, Icon icon, const std::filesystem::path& folder, const s
 
 // Home, the folder that the program was started in, and those of the files that were opened last.
 void places(const Ui& ui) {
-    ImGui::BeginChild("places", {ui.scaled(180), -ui.scaled(92)});
+    ImGui::BeginChild("places", {ui.scaled(180), -bottom_height(ui)});
     std::error_code ignored;
     if (const char* home = std::getenv("HOME"); home && std::filesystem::is_directory(home, ignored))
         place(ui, Icon::home, home, "Home");
@@ -221,7 +226,7 @@ void entry_table(const Ui& ui) {
     FileBrowser& browser = ui.state.browser;
     ImGui::PushStyleColor(ImGuiCol_ChildBg, palette::rgb(0x000000, 46));
     if (ImGui::BeginTable("entries", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg,
-                          {0, -ui.scaled(92)})) {
+                          {0, -bottom_height(ui)})) {
         ImGui::TableSetupScrollFreeze(0, 1);
         ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed, ui.scaled(80));
@@ -276,7 +281,9 @@ void bottom_row(const Ui& ui) {
         caption(reads_file(browser.purpose) ? "A name in this folder, or a path" : "File name, or a path");
     else {
         ImGui::PushStyleColor(ImGuiCol_Text, palette::error);
+        ImGui::PushTextWrapPos(0);
         ImGui::TextUnformatted(browser.trouble.c_str());
+        ImGui::PopTextWrapPos();
         ImGui::PopStyleColor();
     }
     // The field keeps its own copy while it is active; typing another name from outside needs it to let go.

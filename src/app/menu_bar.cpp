@@ -75,10 +75,13 @@ void draw_menu_bar(const Ui& ui) {
         const std::string name = (session.empty() ? ui.editor.opened.file : session).filename().string() +
                                  (has_unsaved_session(ui.editor) ? " *" : "");
         const float width = ImGui::CalcTextSize(name.c_str()).x;
-        ImGui::SameLine(ImGui::GetWindowWidth() - width - ui.scaled(22));
-        ImGui::PushStyleColor(ImGuiCol_Text, palette::faint);
-        ImGui::TextUnformatted(name.c_str());
-        ImGui::PopStyleColor();
+        const float left = ImGui::GetWindowWidth() - width - ui.scaled(22);
+        if (left > ImGui::GetCursorPosX()) { // the window's title has it, too
+            ImGui::SameLine(left);
+            ImGui::PushStyleColor(ImGuiCol_Text, palette::faint);
+            ImGui::TextUnformatted(name.c_str());
+            ImGui::PopStyleColor();
+        }
     }
     ImGui::EndMainMenuBar();
     ImGui::PopStyleVar();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 namespace knead {
 
@@ -43,6 +44,20 @@ void play_step(const Ui& ui) {
         if (is_of_document(*step)) return ui.tell(PlayStep{});
         ui.tell(RedoStep{});
     }
+}
+
+// From where a step of the document ends to the frame before it; without frames, to where it began.
+void step_back(const Ui& ui) {
+    const std::size_t frames = ui.editor.document->last_frames;
+    if (frames < 2 || ui.editor.status.playing) return play_to(ui, playback_position(ui.editor) - 1);
+    const auto& past = ui.editor.past;
+    for (auto step = past.rbegin(); step != past.rend(); ++step) {
+        ui.tell(UndoStep{.to_look = true});
+        if (is_of_document(*step)) break;
+    }
+    ui.tell(PlayStep{});
+    ui.tell(
+        AdvancePlaying{static_cast<int>(std::min<std::size_t>(frames - 1, std::numeric_limits<int>::max()))});
 }
 
 // Whether someone did something else in the middle of it.
@@ -108,7 +123,7 @@ void play_frame(const Ui& ui, int direction) {
     const std::size_t position = playback_position(ui.editor);
     const auto& playing = ui.editor.status.playing;
     if (playing && (direction > 0 || playing->frame > 1)) return ui.tell(AdvancePlaying{direction});
-    if (direction < 0) return position > 0 ? play_to(ui, position - 1) : void();
+    if (direction < 0) return position > 0 ? step_back(ui) : void();
     if (position == playback_steps(ui.editor)) return;
     playback.position = position + 1;
     play_step(ui);
@@ -226,9 +241,7 @@ void play_buttons(const Ui& ui, float side) {
         play_to(ui, 0);
     }
     ImGui::SameLine();
-    if (icon_button("back", Icon::frame_back, side, false,
-                    "One frame back; between two steps, one step (Left)"))
-        play_frame(ui, -1);
+    if (icon_button("back", Icon::frame_back, side, false, "One frame back (Left)")) play_frame(ui, -1);
     ImGui::SameLine();
     if (icon_button("play", playback.playing ? Icon::pause : Icon::play, side, false,
                     playback.playing ? "Hold it here (Space)"

@@ -244,25 +244,27 @@ void Document::rename(const RenameLine& line, const std::string& place) {
 
 std::vector<float> Document::positions(Progress& progress) {
     std::vector<float> result = cloud_.positions;
-    if (mode_ == Mode::rehearsal || (!now().rest && !is_posed())) return result;
-    const RestShape& now = shape(progress);
+    if (mode_ == Mode::rehearsal || is_as_opened()) return result;
+    const RestShape& now = shown(progress);
     scatter(pipeline_.order(), now.positions, 3, result, workers_);
     return result;
 }
 
 std::vector<float> Document::normals(Progress& progress) {
     std::vector<float> result = read_normals(cloud_);
-    if (mode_ == Mode::rehearsal || result.empty() || (!now().rest && !is_posed())) return result;
-    const RestShape& now = shape(progress);
+    if (mode_ == Mode::rehearsal || result.empty() || is_as_opened()) return result;
+    const RestShape& now = shown(progress);
     scatter(pipeline_.order(), now.normals, 3, result, workers_);
     return result;
 }
 
 std::vector<float> Document::rotations(Progress& progress) {
-    if (mode_ == Mode::rehearsal || !holds_splats_ || (!now().rest && !is_posed())) return {};
+    if (mode_ == Mode::rehearsal || !holds_splats_ || is_as_opened()) return {};
     std::vector<float> posed;
     std::shared_ptr<const RestShape> rest;
-    if (is_posed()) {
+    if (under_way_) {
+        posed = pipeline_.rotations(under_way_->motions, under_way_->samples);
+    } else if (is_posed()) {
         const auto samples = samples_of(now(), progress);
         shape(progress);
         posed = pipeline_.rotations(motions_, *samples);
@@ -386,6 +388,15 @@ void Document::upsample(const std::vector<HandleMotion>& motions, const SampleSt
 
 // The posed shape, or the rest shape where nothing is posed. After an undo it is computed again from the
 // samples.
+// Nothing was ever moved, as far as is shown.
+bool Document::is_as_opened() const {
+    return !now().rest && !is_posed() && !under_way_;
+}
+
+const RestShape& Document::shown(Progress& progress) {
+    return under_way_ ? pipeline_.posed() : shape(progress);
+}
+
 const RestShape& Document::shape(Progress& progress) {
     if (!now().rest && !is_posed()) pipeline_.prepare_order(progress);
     if (!is_posed()) return now().rest ? *rest_of(now(), progress) : pipeline_.opened();

@@ -94,6 +94,8 @@ public:
 
     // In the order of computation (pipeline().order()), good until the next act.
     const RestShape& shape(Progress& progress);
+    // The same, but in the middle of a drag or a settling what its last frame made.
+    const RestShape& shown(Progress& progress);
     // Of each handle in this edit, as it was at the last finished act.
     const std::vector<HandleMotion>& motions() const { return motions_; }
     // Every pose that a handle was given in this edit, the first one first.
@@ -115,7 +117,8 @@ public:
     void keep_at_most(const Memory& memory) { memory_ = memory; }
     std::size_t kept_bytes() const; // of those shapes and states
 
-    // 3n floats in the order of the file, relative to cloud().origin; and normals, empty without.
+    // Of what is shown: 3n floats in the order of the file, relative to cloud().origin; and normals, empty
+    // without.
     std::vector<float> positions(Progress& progress);
     std::vector<float> normals(Progress& progress);
     // How each point turned since the cloud was opened: 4n floats in the order of the file, w x y z, unit
@@ -173,6 +176,7 @@ private:
         FrameMemory memory = {};
     };
 
+    bool is_as_opened() const;
     Index find_handle(const std::string& name, const std::string& place) const;
     void refuse_while_posed(const std::string& what, const std::string& place) const;
     State next_state() const; // for an act to change

@@ -1,12 +1,12 @@
 // What the editor does to handles: making, changing, mirroring and dragging them.
 
 #include "edit/editor_steps.h"
+#include "edit/mirroring.h"
 #include "edit/way_back.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <unordered_map>
+#include <cstdio>
 
 namespace knead {
 
@@ -185,90 +185,11 @@ DragLine drag_towards(const std::string& handle, const HandleMotion& motion, con
     return line;
 }
 
-// The motion seen in a mirror: p → F M(F p), with F the reflection across a plane x_axis = at.
-HandleMotion mirrored(const HandleMotion& motion, int axis, double at) {
-    Mat3d flip = Mat3d::Identity();
-    flip(axis, axis) = -1;
-    Vec3d shift = Vec3d::Zero();
-    shift[axis] = 2 * at;
-    HandleMotion result;
-    result.linear = flip * motion.linear * flip;
-    result.offset = flip * (motion.linear * shift + motion.offset) + shift;
-    Vec3d turn = -(flip * motion.rotation.vec()); // an axial vector
-    result.rotation = Quatd(motion.rotation.w(), turn.x(), turn.y(), turn.z());
-    return result;
-}
-
-using Cell = std::array<std::int64_t, 3>;
-struct CellHash {
-    std::size_t operator()(const Cell& cell) const {
-        std::size_t hash = 0;
-        for (const std::int64_t c : cell) hash = hash * 0x9e3779b97f4a7c15U + static_cast<std::size_t>(c);
-        return hash;
-    }
-};
-
-// Points of the shape as opened in cells of the size `reach`, with whether they belong to a handle.
-struct PointGrid {
-    struct Entry {
-        Vec3d place;
-        bool in_handle = false;
-    };
-    double reach = 1;
-    std::unordered_map<Cell, std::vector<Entry>, CellHash> cells;
-
-    Cell cell_of(const Vec3d& p) const {
-        const auto along = [&](int axis) { return static_cast<std::int64_t>(std::floor(p[axis] / reach)); };
-        return {along(0), along(1), along(2)};
-    }
-    // Whether the nearest point, if there is one within reach, belongs to the handle.
-    bool nearest_is_in_handle(const Vec3d& p) const {
-        const Cell cell = cell_of(p);
-        double nearest = reach * reach;
-        bool in_handle = false;
-        for (int k = 0; k < 27; ++k) {
-            const auto found =
-                cells.find({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1});
-            if (found == cells.end()) continue;
-            for (const Entry& entry : found->second) {
-                const double distance = (entry.place - p).squaredNorm();
-                if (distance >= nearest) continue;
-                nearest = distance;
-                in_handle = entry.in_handle;
-            }
-        }
-        return in_handle;
-    }
-};
-
-// The file's points whose mirror image lies nearest to a point of the handle, in the shape as opened; nothing
-// farther off than `reach` counts.
-std::vector<Index> points_across(const Editor& editor, const Handle& handle, int axis, double at,
-                                 double reach) {
-    const std::vector<float>& rest = editor.opened.opened->positions;
-    const auto place = [&](Index i) { return point_at(rest, editor.ordered[i]); };
-    std::vector<bool> in_handle(editor.ordered.size(), false);
-    Eigen::AlignedBox3d box;
-    for (const Index i : *handle.points) {
-        if (editor.ordered[i] == no_index) continue;
-        in_handle[i] = true;
-        box.extend(place(i));
-    }
-    box.min().array() -= 2 * reach;
-    box.max().array() += 2 * reach;
-
-    PointGrid grid{reach, {}};
-    for (Index i = 0; i < editor.ordered.size(); ++i)
-        if (editor.ordered[i] != no_index && box.contains(place(i)))
-            grid.cells[grid.cell_of(place(i))].push_back({place(i), in_handle[i]});
-    std::vector<Index> points;
-    for (Index i = 0; i < editor.ordered.size(); ++i) {
-        if (editor.ordered[i] == no_index) continue;
-        Vec3d p = place(i);
-        p[axis] = 2 * at - p[axis];
-        if (box.contains(p) && grid.nearest_is_in_handle(p)) points.push_back(i);
-    }
-    return points;
+std::string words_about(const MirrorPlane& plane, double place) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%c = %.4g", "xyz"[plane.axis], place);
+    return text + std::string(plane.is_middle ? ", the middle of the cloud"
+                                              : ", where the cloud is most like its mirror image");
 }
 
 // Mirrored once more to where it was mirrored before, it takes the place of what that made.
@@ -306,14 +227,17 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     const auto number = number_of(editor, command.handle);
     if (!number) return;
     const Handle& handle = editor.document->handles[*number];
-    const Vec3d middle = 0.5 * (editor.opened.bounds.lowest + editor.opened.bounds.highest);
-    const double at = middle[command.axis] - editor.opened.cloud->origin[command.axis];
-    const std::vector<Index> points =
-        points_across(editor, handle, command.axis, at, 3 * editor.opened.spacing);
+    const MirrorPlane plane =
+        mirror_plane(editor.opened.opened->positions, command.axis, editor.opened.spacing);
+    const PartAcross across = part_across(editor, handle, plane, 3 * editor.opened.spacing);
+    const std::vector<Index>& points = across.points;
+    const double place = plane.at + editor.opened.cloud->origin[command.axis];
     if (points.empty())
         return say(editor, Notice::Kind::error,
-                   "There is nothing across the middle of the cloud where \"" + handle.name +
+                   "There is nothing across " + words_about(plane, place) + ", where \"" + handle.name +
                        "\" would be mirrored to.");
+    if (!plane.is_middle)
+        say(editor, Notice::Kind::information, "Mirrored across " + words_about(plane, place) + ".");
     HandleLine line = line_of(handle);
     line.name = name_of_mirrored(editor, handle, points);
     line.points = ranges_of(points);
@@ -322,7 +246,7 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     const HandleMotion& pose = editor.document->motions[*number];
     const bool is_posed = pose.linear != Mat3d::Identity() || pose.offset != Vec3d::Zero();
     if (is_posed && handle.role == HandleRole::moving) {
-        const HandleMotion motion = mirrored(pose, command.axis, at);
+        const HandleMotion motion = mirrored(pose, plane, across.shift);
         lines.emplace_back(
             drag_towards(name, motion, rest_middle(editor, points), editor.opened.cloud->origin));
     } else if (handle.role == HandleRole::moving) {

@@ -130,6 +130,27 @@ bool can_redo(const Editor& editor) {
     return editor.document && !dragging && !editor.future.empty();
 }
 
+namespace {
+
+// How the tool that is taken selects a part.
+std::string way_to_select(SelectTool tool) {
+    switch (tool) {
+    case SelectTool::click:
+        return "click a point of";
+    case SelectTool::box:
+        return "draw a box round";
+    case SelectTool::polygon:
+        return "click corners round";
+    case SelectTool::brush:
+        return "paint over";
+    case SelectTool::lasso:
+        break;
+    }
+    return "draw a lasso round";
+}
+
+} // namespace
+
 std::string next_step(const Editor& editor) {
     if (!editor.document) return {};
     const auto& handles = editor.document->handles;
@@ -142,8 +163,10 @@ std::string next_step(const Editor& editor) {
         return "Press H to make the selection a handle that moves, or Shift+H one that stays where it is.";
     if (editor.selected > 0 && !held)
         return "Press Shift+H to keep the selection where it is, or H to make it move.";
-    if (!moving) return "Draw a lasso round the part that should move.";
-    if (!held) return "Nothing holds the rest yet: draw a lasso round what should stay, and press Shift+H.";
+    std::string select = way_to_select(editor.tools.select);
+    if (!moving && !held) select[0] = static_cast<char>(select[0] - 'a' + 'A');
+    if (!moving) return (held ? "Now " : "") + select + " the part that should move.";
+    if (!held) return "Nothing holds the rest yet: " + select + " what should stay, and press Shift+H.";
     if (editor.selected > 0)
         return "H makes the selection a handle that moves, Shift+H one that stays; Esc selects nothing.";
     if (!chosen_handle(editor) || chosen_handle(editor)->role != HandleRole::moving)

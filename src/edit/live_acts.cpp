@@ -38,11 +38,13 @@ void LiveWork::carry_out(task::Lines& lines) {
     try {
         for (const SessionAction& line : lines.lines) {
             if (needs_commit(line) && document_->is_posed()) {
+                const bool is_seen = shared_.with([](const LiveShared& s) { return s.view->posed; });
                 carry_out_act(*document_, CommitLine{}, "", progress_);
                 add_act(CommitLine{}, done++ > 0 || joins);
-                say(Notice::Kind::information,
-                    "The pose was committed first, since this cannot change while one stands. Ctrl+Z "
-                    "takes both back.");
+                if (is_seen)
+                    say(Notice::Kind::information,
+                        "The pose was committed first, since this cannot change while one stands: it counts "
+                        "from the next pose on. Ctrl+Z takes both back.");
             }
             carry_out_act(*document_, line, "", progress_);
             add_act(line, done++ > 0 || joins);
@@ -182,13 +184,13 @@ std::vector<float> LiveWork::in_file_order(std::span<const float> ordered, float
 
 std::vector<float> LiveWork::displacement_column() {
     const std::vector<float>& opened = document_->pipeline().opened().positions;
-    return in_file_order(displacements(opened, document_->shape(progress_).positions, workers_), 0);
+    return in_file_order(displacements(opened, document_->shown(progress_).positions, workers_), 0);
 }
 
 std::vector<float> LiveWork::stretch_column() {
     document_->prepare_ahead(progress_); // the graph
     const Pipeline& pipeline = document_->pipeline();
-    const RestShape& now = document_->shape(progress_);
+    const RestShape& now = document_->shown(progress_);
     return in_file_order(local_stretch(pipeline.order(), pipeline.graph(), pipeline.opened().positions,
                                        now.positions, workers_),
                          1);

@@ -40,10 +40,11 @@ struct DocumentView {
     std::vector<Handle> handles;
     std::vector<HandleMotion> motions; // of each handle, in this edit, about the cloud's origin
     bool posed = false;
-    std::size_t acts = 0;     // that were recorded so far: what was saved is what had as many
-    std::uint64_t state = 0;  // names what the acts so far make; undone and done again it is the same
-    StepNumber last_step = 0; // the newest that was carried out
-    std::string last_words;   // what the newest act does, such as "pose committed"; empty at the beginning
+    std::size_t acts = 0;        // that were recorded so far: what was saved is what had as many
+    std::uint64_t state = 0;     // names what the acts so far make; undone and done again it is the same
+    StepNumber last_step = 0;    // the newest that was carried out
+    std::string last_words;      // what the newest act does, such as "pose committed"; empty at the beginning
+    std::size_t last_frames = 0; // of the drag that the newest step began with; 0: it is none
     std::size_t undoable_steps = 0, redoable_steps = 0;
     std::size_t samples = 0;      // 0: not chosen yet
     bool chooses_samples = false; // by itself

@@ -57,17 +57,29 @@ void LivePublisher::shape(const RestShape& shape, const Pipeline& pipeline, cons
     shared_.with([&](LiveShared& s) { std::swap(s.frame, back_); });
 }
 
+namespace {
+
+// Whether a handle is not where it was at rest: one that was reset is there, though its drags are recorded.
+bool is_off_rest(const Document& document) {
+    return document.is_posed() && std::ranges::any_of(document.motions(), [](const HandleMotion& motion) {
+               return motion.linear != Mat3d::Identity() || motion.offset != Vec3d::Zero();
+           });
+}
+
+} // namespace
+
 void LivePublisher::view(const Document& document, const LiveRecording& recording, const ViewFacts& facts) {
     auto view = std::make_shared<DocumentView>();
     const Pipeline& pipeline = document.pipeline();
     view->settings = document.settings();
     view->handles = document.handles();
     view->motions = document.motions();
-    view->posed = document.is_posed() || facts.dragging;
+    view->posed = is_off_rest(document) || facts.dragging;
     view->acts = recording.acts();
     view->state = recording.state();
     view->last_step = facts.last_step;
     view->last_words = recording.last_words();
+    view->last_frames = recording.last_frames();
     view->undoable_steps = recording.undoable_steps();
     view->redoable_steps = recording.redoable_steps();
     view->samples = pipeline.samples().size();
@@ -100,7 +112,10 @@ void LivePublisher::tell(Notice::About about, std::string words, std::string& to
 }
 
 void LivePublisher::strays(const Pipeline::Strays& strays) {
-    tell(Notice::About::strays, words_about(strays), told_of_strays_);
+    std::string words = words_about(strays);
+    if (!words.empty() && strays.fate == Strays::freeze)
+        words += "; \"Strays\" in the shape panel lets them follow, or joins them to what they lie next to";
+    tell(Notice::About::strays, std::move(words), told_of_strays_);
 }
 
 void LivePublisher::demand(const HandleDemand& demand) {

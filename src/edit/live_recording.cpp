@@ -104,8 +104,9 @@ void LiveRecording::is_on(const std::optional<FileStamp>& cloud) {
 }
 
 void LiveRecording::add(const SessionAction& act, bool joins_step) {
+    const auto* drag = std::get_if<DragLine>(&act);
     past_.push_back({joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), ++last_number_,
-                     words_about(act)});
+                     words_about(act), drag ? drag->frames.size() : 0});
     future_.clear();
     write_down(act);
 }
@@ -141,6 +142,11 @@ void LiveRecording::step_forward() {
 
 bool LiveRecording::last_is_settings() const {
     return !past_.empty() && past_.back().of_settings;
+}
+
+std::size_t LiveRecording::last_frames() const {
+    const auto first = std::find_if(past_.rbegin(), past_.rend(), [](const Act& act) { return !act.joins; });
+    return first == past_.rend() ? 0 : first->frames;
 }
 
 std::size_t LiveRecording::undoable_steps() const {

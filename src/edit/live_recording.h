@@ -57,6 +57,9 @@ public:
     // What the newest act does that was not undone, in a few words; empty at the beginning.
     std::string last_words() const { return past_.empty() ? std::string() : past_.back().words; }
 
+    // How many frames the drag has that the newest step began with; 0: it is none.
+    std::size_t last_frames() const;
+
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
     bool last_is_settings() const;                                           // of the acts that can be undone
@@ -94,6 +97,7 @@ private:
         bool of_settings = false;
         std::uint64_t number = 0; // from 1
         std::string words = {};
+        std::size_t frames = 0; // of a drag
     };
     std::vector<Act> past_, future_;
     std::uint64_t last_number_ = 0;

@@ -171,7 +171,8 @@ bool LiveWork::turn() {
     if (task && drag_ && !ends_drag(*task))
         after_drag_.push_back(std::move(*task)); // acts do not come in between
     else if (task) {
-        guarded([&] { finish_playing(); });
+        // A cloud is saved as it is seen; whatever else comes, comes after the whole step.
+        if (!std::holds_alternative<task::SaveCloud>(*task)) guarded([&] { finish_playing(); });
         guarded([&] { std::visit([&](auto& t) { carry_out(t); }, *task); });
         if (is_save(*task)) shared_.with([](LiveShared& s) { --s.saves; });
         if (since_look_.seconds() > between_looks) look_for_others();

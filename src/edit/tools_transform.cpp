@@ -93,7 +93,8 @@ void drag_key(const Hand& hand, const KeyPress& press) {
         return;
     }
     if (press.repeated) return;
-    if (press.key == Key::escape) return cancel_drag(hand.tools, hand.commands);
+    const bool takes_back = press.held.ctrl && press.key == key('Z'); // what is going on, that is
+    if (press.key == Key::escape || takes_back) return cancel_drag(hand.tools, hand.commands);
     if (press.key == Key::enter) return end_drag(hand.tools, hand.commands);
     const int axis = static_cast<int>(press.key) - static_cast<int>('X');
     if (axis < 0 || axis > 2) return;

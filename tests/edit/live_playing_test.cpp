@@ -1,6 +1,7 @@
 // Steps that are done again frame by frame, to be looked at.
 
 #include "edit/live_bar.h"
+#include "io/cloud_file.h"
 
 #include <cmath>
 #include <numbers>
@@ -30,6 +31,16 @@ protected:
             live_->take_frame(frame_);
             return status.playing && status.playing->frame == frame && !status.busy;
         });
+    }
+
+    // Of the last drag in what is recorded.
+    std::size_t recorded_frames() {
+        live_->save_session(folder_ / "frames.knead");
+        settle_down();
+        std::size_t frames = 0;
+        for (const SessionLine& line : read_session(folder_ / "frames.knead").lines)
+            if (const auto* drag = std::get_if<DragLine>(&line.action)) frames = drag->frames.size();
+        return frames;
     }
 
     std::vector<float> dragged_;
@@ -84,6 +95,33 @@ TEST_F(PlayedBar, IsHeldAndGoesBackAndForthByFrames) {
     EXPECT_EQ(frame_.positions, dragged_);
 }
 
+TEST_F(PlayedBar, WhatIsSavedInTheMiddleIsWhatIsSeen) {
+    drag_and_undo();
+    live_->set_play_pace(1, true);
+    live_->play(step_);
+    live_->advance_play(3);
+    ASSERT_TRUE(is_held_at(3));
+    const std::vector<float> seen = frame_.positions;
+    live_->save_cloud(folder_ / "seen.ply", {.displacement = true});
+    ASSERT_TRUE(wait_until([&] { return !live_->status().saving; }));
+    SilentProgress silent;
+    const PointCloud saved = read_cloud(folder_ / "seen.ply", silent);
+    const std::vector<Index>& file_index = live_->opened().order->file_index;
+    for (std::size_t i = 0; i < file_index.size(); ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double in_file = saved.origin[static_cast<Eigen::Index>(axis)] +
+                                   static_cast<double>(saved.positions[3 * file_index[i] + axis]);
+            const double on_screen = live_->opened().cloud->origin[static_cast<Eigen::Index>(axis)] +
+                                     static_cast<double>(seen[3 * i + axis]);
+            ASSERT_NEAR(in_file, on_screen, 1e-5);
+        }
+    ASSERT_TRUE(is_held_at(3)) << "and it is held there still";
+    live_->set_play_pace(4, false);
+    settle_down();
+    EXPECT_EQ(frame_.positions, dragged_);
+    EXPECT_EQ(live_->view()->last_frames, recorded_frames());
+}
+
 TEST_F(PlayedBar, AnActInTheMiddleComesAfterTheWholeStep) {
     drag_and_undo();
     live_->set_play_pace(1, true);
@@ -123,6 +161,16 @@ TEST_F(PlayedBar, ResettingAPoseUnwindsItsTurns) {
     live_->reset_pose(++step_, "high");
     settle_down();
     EXPECT_LT(largest_displacement(), 1e-4);
+    EXPECT_FALSE(live_->view()->posed) << "there is nothing to commit, nor to reset";
+    live_->post(++step_, {RenameLine{"low", "bottom"}});
+    SettingsChange strays;
+    strays.strays = Strays::carry;
+    live_->post(++step_, {SetLine{strays}});
+    settle_down();
+    for (const Notice& notice : live_->take_notices())
+        EXPECT_EQ(notice.words.find("committed"), std::string::npos) << "which nobody would see";
+    live_->undo(step_--);
+    live_->undo(step_--);
     live_->undo(step_);
     settle_down();
     EXPECT_GT(largest_displacement(), 0.2);

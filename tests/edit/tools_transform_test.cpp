@@ -86,10 +86,13 @@ TEST(MoveTools, NoOtherKeyIsTaken) {
     bench.move({500, 300});
     bench.hit('G');
     for (const char c : {'A', 'H', 'V', 'F', '1', 'B', 'R', 'S', 'L'}) EXPECT_TRUE(bench.hit(c));
-    EXPECT_TRUE(bench.hit('Z', ctrl));
+    EXPECT_TRUE(bench.hit('Y', ctrl)); // snapping, along y
     EXPECT_TRUE(bench.hit(Key::del));
     EXPECT_EQ(bench.all<BeginDrag>().size(), bench.commands.size());
     EXPECT_EQ(bench.tools.drag->kind, TransformKind::translate);
+    EXPECT_TRUE(bench.hit('Z', ctrl)); // but what takes back takes this back
+    EXPECT_FALSE(bench.tools.drag);
+    EXPECT_EQ(bench.all<CancelDrag>().size(), 1U);
 }
 
 TEST(MoveTools, CtrlSnapsAndShiftSlows) {

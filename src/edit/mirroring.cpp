@@ -1,0 +1,244 @@
+#include "edit/mirroring.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+namespace knead {
+
+namespace {
+
+// So many points tell where the plane lies, and so many of these are looked for in each place.
+constexpr std::size_t enough_points = 20'000, enough_looked_for = 2000;
+
+// How far it may lie off the middle, of the box's width.
+constexpr double widest_search = 0.33;
+
+// It is looked for in so many places to each side at most.
+constexpr int most_steps = 200;
+
+// The middle is as good where it finds this share of what the best place does.
+constexpr double as_good = 0.97;
+
+constexpr int refinements = 4;
+
+// A part's image is laid onto the cloud by so many of its points, in so many rounds.
+constexpr std::size_t most_images = 400;
+constexpr int rounds_of_shifting = 25;
+
+using Cell = std::array<std::int64_t, 3>;
+struct CellHash {
+    std::size_t operator()(const Cell& cell) const {
+        std::size_t hash = 0;
+        for (const std::int64_t c : cell) hash = hash * 0x9e3779b97f4a7c15U + static_cast<std::size_t>(c);
+        return hash;
+    }
+};
+
+// Points of the shape as opened in cells of the size `reach`, with whether they belong to a handle.
+struct PointGrid {
+    struct Entry {
+        Vec3d place;
+        bool in_handle = false;
+    };
+    double reach = 1;
+    std::unordered_map<Cell, std::vector<Entry>, CellHash> cells;
+
+    Cell cell_of(const Vec3d& p) const {
+        const auto along = [&](int axis) { return static_cast<std::int64_t>(std::floor(p[axis] / reach)); };
+        return {along(0), along(1), along(2)};
+    }
+    void add(const Vec3d& place, bool in_handle) { cells[cell_of(place)].push_back({place, in_handle}); }
+    // The nearest within reach; null if there is none.
+    const Entry* nearest(const Vec3d& p) const {
+        const Cell cell = cell_of(p);
+        const Entry* nearest = nullptr;
+        double least = reach * reach;
+        for (int k = 0; k < 27; ++k) {
+            const auto found =
+                cells.find({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1});
+            if (found == cells.end()) continue;
+            for (const Entry& entry : found->second) {
+                const double distance = (entry.place - p).squaredNorm();
+                if (distance >= least) continue;
+                least = distance;
+                nearest = &entry;
+            }
+        }
+        return nearest;
+    }
+};
+
+Vec3d reflected(Vec3d p, const MirrorPlane& plane) {
+    p[plane.axis] = 2 * plane.at - p[plane.axis];
+    return p;
+}
+
+// A likeness of the cloud in few points, and what it takes to compare it with its mirror image.
+struct Likeness {
+    PointGrid grid;
+    std::vector<Vec3d> looked_for;
+
+    // How many of these have a point where the mirror shows them.
+    std::size_t found(const MirrorPlane& plane) const {
+        return static_cast<std::size_t>(std::ranges::count_if(looked_for, [&](const Vec3d& p) {
+            return grid.cells.contains(grid.cell_of(reflected(p, plane)));
+        }));
+    }
+    // A better place nearby: halfway, on average, between points and what the mirror shows nearest to them.
+    double improved(const MirrorPlane& plane) const {
+        double sum = 0;
+        std::size_t pairs = 0;
+        for (const Vec3d& p : looked_for) {
+            const Vec3d image = reflected(p, plane);
+            const PointGrid::Entry* there = grid.nearest(image);
+            if (!there) continue;
+            sum += there->place[plane.axis] - image[plane.axis];
+            ++pairs;
+        }
+        return pairs > 0 ? plane.at + 0.5 * sum / static_cast<double>(pairs) : plane.at;
+    }
+};
+
+Likeness likeness_of(std::span<const float> positions, double spacing) {
+    const std::size_t points = positions.size() / 3;
+    const std::size_t stride = std::max<std::size_t>(1, points / enough_points);
+    // On a surface one of n points lies √n times as far from the next.
+    Likeness likeness{{2 * spacing * std::sqrt(static_cast<double>(stride)), {}}, {}};
+    const std::size_t apart = std::max(stride, points / enough_looked_for);
+    for (std::size_t i = 0; i < points; i += stride) likeness.grid.add(point_at(positions, i), false);
+    for (std::size_t i = 0; i < points; i += apart) likeness.looked_for.push_back(point_at(positions, i));
+    return likeness;
+}
+
+} // namespace
+
+MirrorPlane mirror_plane(std::span<const float> positions, int axis, double spacing) {
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < positions.size() / 3; ++i) box.extend(point_at(positions, i));
+    const MirrorPlane middle{axis, box.center()[axis], true};
+    if (!(spacing > 0)) return middle;
+    const Likeness likeness = likeness_of(positions, spacing);
+    const double farthest = widest_search * box.sizes()[axis];
+    const double step = std::max(likeness.grid.reach / 2, farthest / most_steps);
+    const int steps = static_cast<int>(farthest / step);
+    const std::size_t in_middle = likeness.found(middle);
+    MirrorPlane best = middle;
+    std::size_t most = 0;
+    for (int k = -steps; k <= steps; ++k) {
+        const MirrorPlane plane{axis, middle.at + k * step, false};
+        const std::size_t found = likeness.found(plane);
+        const bool is_nearer = std::abs(plane.at - middle.at) < std::abs(best.at - middle.at);
+        if (found < most || (found == most && !is_nearer)) continue;
+        most = found;
+        best = plane;
+    }
+    if (static_cast<double>(in_middle) >= as_good * static_cast<double>(most)) return middle;
+    for (int k = 0; k < refinements; ++k) best.at = likeness.improved(best);
+    return best;
+}
+
+HandleMotion mirrored(const HandleMotion& motion, const MirrorPlane& plane, const Vec3d& shift) {
+    Mat3d flip = Mat3d::Identity();
+    flip(plane.axis, plane.axis) = -1;
+    Vec3d place = shift; // where the origin's image stands
+    place[plane.axis] += 2 * plane.at;
+    HandleMotion result;
+    result.linear = flip * motion.linear * flip;
+    result.offset = flip * motion.offset + place - result.linear * place;
+    Vec3d turn = -(flip * motion.rotation.vec()); // an axial vector
+    result.rotation = Quatd(motion.rotation.w(), turn.x(), turn.y(), turn.z());
+    return result;
+}
+
+namespace {
+
+// A handle on the shape as opened.
+struct Part {
+    const Editor& editor;
+    std::vector<bool> held; // of the file's points: whether it holds them
+    Eigen::AlignedBox3d box;
+
+    Part(const Editor& of, const Handle& handle) : editor(of), held(of.ordered.size(), false) {
+        for (const Index i : *handle.points) {
+            if (editor.ordered[i] == no_index) continue;
+            held[i] = true;
+            box.extend(place(i));
+        }
+    }
+    Vec3d place(Index i) const { return point_at(editor.opened.opened->positions, editor.ordered[i]); }
+    // Calls visit(i) for every so-many-th point of the file that is finite.
+    template<typename Visit>
+    void for_points(std::size_t stride, Visit&& visit) const {
+        for (std::size_t i = 0; i < editor.ordered.size(); i += stride)
+            if (editor.ordered[i] != no_index) visit(static_cast<Index>(i));
+    }
+};
+
+std::vector<Index> points_across(const Part& part, const MirrorPlane& plane, const Vec3d& shift,
+                                 double reach) {
+    Eigen::AlignedBox3d around = part.box;
+    around.min().array() -= 2 * reach;
+    around.max().array() += 2 * reach;
+    PointGrid grid{reach, {}};
+    part.for_points(1, [&](Index i) {
+        if (around.contains(part.place(i))) grid.add(part.place(i), part.held[i]);
+    });
+    std::vector<Index> points;
+    part.for_points(1, [&](Index i) {
+        const Vec3d p = reflected(part.place(i) - shift, plane);
+        if (!around.contains(p)) return;
+        const PointGrid::Entry* there = grid.nearest(p);
+        if (there && there->in_handle) points.push_back(i);
+    });
+    return points;
+}
+
+// What takes the part's mirror image onto the rest of the cloud: every round by how far its points are, on
+// average, from those nearest to them.
+Vec3d shift_onto_cloud(const Part& part, const MirrorPlane& plane) {
+    const double reach = std::max(part.box.sizes().maxCoeff(), 1e-300);
+    PointGrid grid{reach, {}};
+    std::vector<Vec3d> images;
+    const std::size_t all = part.editor.ordered.size();
+    part.for_points(std::max<std::size_t>(1, all / enough_points), [&](Index i) {
+        if (!part.held[i]) grid.add(part.place(i), false);
+    });
+    std::size_t held = 0;
+    const auto apart = static_cast<std::size_t>(std::ranges::count(part.held, true)) / most_images + 1;
+    part.for_points(1, [&](Index i) {
+        if (part.held[i] && held++ % apart == 0) images.push_back(reflected(part.place(i), plane));
+    });
+    Vec3d shift = Vec3d::Zero();
+    for (int round = 0; round < rounds_of_shifting; ++round) {
+        Vec3d sum = Vec3d::Zero();
+        std::size_t pairs = 0;
+        for (const Vec3d& image : images) {
+            const PointGrid::Entry* there = grid.nearest(image + shift);
+            if (!there) continue;
+            sum += there->place - (image + shift);
+            ++pairs;
+        }
+        if (pairs == 0) break;
+        shift += sum / static_cast<double>(pairs);
+    }
+    return shift;
+}
+
+} // namespace
+
+PartAcross part_across(const Editor& editor, const Handle& handle, const MirrorPlane& plane, double reach) {
+    const Part part(editor, handle);
+    PartAcross across{points_across(part, plane, Vec3d::Zero(), reach)};
+    if (2 * across.points.size() >= handle.points->size() || part.box.isEmpty()) return across;
+    const Vec3d shift = shift_onto_cloud(part, plane);
+    std::vector<Index> shifted = points_across(part, plane, shift, reach);
+    if (shifted.size() > across.points.size()) across = {std::move(shifted), shift};
+    return across;
+}
+
+} // namespace knead

@@ -59,9 +59,25 @@ std::string date_words(std::filesystem::file_time_type when) {
     return text;
 }
 
-// Of what is below the list: a caption, or two lines about what is wrong, and the name.
+// Whether there is room for names and the buttons alone.
+bool is_narrow(const Ui& ui) {
+    return ImGui::GetIO().DisplaySize.x < ui.scaled(720);
+}
+
+// What an exported cloud may get besides stands on a line of its own then.
+bool has_line_of_columns(const Ui& ui) {
+    return ui.state.browser.purpose == BrowseFor::save_cloud && is_narrow(ui);
+}
+
+// Of what is below the list: a caption, or what is wrong in as many lines as it takes, the name, and the
+// buttons.
 float bottom_height(const Ui& ui) {
-    return ui.scaled(92) + (ui.state.browser.trouble.empty() ? 0 : ImGui::GetTextLineHeight());
+    const std::string& trouble = ui.state.browser.trouble;
+    const float width = ImGui::GetWindowWidth() - 2 * ImGui::GetStyle().WindowPadding.x;
+    const float lines = trouble.empty() ? 0
+                                        : ImGui::CalcTextSize(trouble.c_str(), nullptr, false, width).y -
+                                              ImGui::GetTextLineHeight();
+    return ui.scaled(92) + lines + (has_line_of_columns(ui) ? ImGui::GetFrameHeightWithSpacing() : 0);
 }
 
 // Whether a file can be saved there; if not, `trouble` says why, and the name stays to be mended.
@@ -214,6 +230,7 @@ void entry_row(const Ui& ui, const FolderEntry& entry, int number) {
     const ImU32 color = entry.is_folder ? palette::faint : palette::accent;
     draw_icon(*ImGui::GetWindowDrawList(), icon, {at.x + ui.scaled(10), at.y + height / 2}, ui.scaled(14),
               color);
+    if (is_narrow(ui)) return;
     ImGui::TableNextColumn();
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ui.scaled(2));
     if (!entry.is_folder) caption(byte_size(entry.bytes).c_str());
@@ -225,12 +242,13 @@ void entry_row(const Ui& ui, const FolderEntry& entry, int number) {
 void entry_table(const Ui& ui) {
     FileBrowser& browser = ui.state.browser;
     ImGui::PushStyleColor(ImGuiCol_ChildBg, palette::rgb(0x000000, 46));
-    if (ImGui::BeginTable("entries", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg,
-                          {0, -bottom_height(ui)})) {
+    const bool narrow = is_narrow(ui);
+    if (ImGui::BeginTable(narrow ? "names" : "entries", narrow ? 1 : 3,
+                          ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, -bottom_height(ui)})) {
         ImGui::TableSetupScrollFreeze(0, 1);
         ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
-        ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed, ui.scaled(80));
-        ImGui::TableSetupColumn("Changed", ImGuiTableColumnFlags_WidthFixed, ui.scaled(140));
+        if (!narrow) ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed, ui.scaled(80));
+        if (!narrow) ImGui::TableSetupColumn("Changed", ImGuiTableColumnFlags_WidthFixed, ui.scaled(140));
         ImGui::TableHeadersRow();
         for (std::size_t i = 0; i < browser.entries.size(); ++i)
             entry_row(ui, browser.entries[i], static_cast<int>(i));
@@ -300,11 +318,16 @@ void bottom_row(const Ui& ui) {
     ImGui::SetNextItemWidth(-1);
     const bool entered = ImGui::InputText("##path", &browser.typed, ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::PopID();
-    if (ImGui::Checkbox("Every file", &browser.every_file)) read_folder(browser);
+    if (ImGui::Checkbox(has_line_of_columns(ui) ? "All" : "Every file", &browser.every_file))
+        read_folder(browser);
     explain("Also shows files that are neither clouds (" + known_extensions() + ") nor sessions (.knead)");
     if (browser.purpose == BrowseFor::save_cloud) column_choice(browser);
     const float width = ui.scaled(110), gap = ImGui::GetStyle().ItemSpacing.x;
-    ImGui::SameLine(ImGui::GetWindowWidth() - 2 * width - gap - ImGui::GetStyle().WindowPadding.x);
+    const float left = ImGui::GetWindowWidth() - 2 * width - gap - ImGui::GetStyle().WindowPadding.x;
+    if (has_line_of_columns(ui))
+        ImGui::SetCursorPosX(left);
+    else
+        ImGui::SameLine(left);
     if (ImGui::Button("Cancel", {width, 0})) ImGui::CloseCurrentPopup();
     ImGui::SameLine();
     ImGui::BeginDisabled(browser.typed.empty());
@@ -339,8 +362,10 @@ void draw_file_browser(const Ui& ui) {
     ImGui::PopFont();
     path_row(ui);
     keys(browser);
-    places(ui);
-    ImGui::SameLine();
+    if (!is_narrow(ui)) {
+        places(ui);
+        ImGui::SameLine();
+    }
     entry_table(ui);
     bottom_row(ui);
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();

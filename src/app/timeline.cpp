@@ -300,17 +300,21 @@ void draw_timeline(const Ui& ui, Rectangle where) {
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
     play_buttons(ui, side);
     ImGui::SameLine();
-    const float speed_width = ui.scaled(128), words_width = ui.scaled(116);
+    // The status line says where it is, too.
+    const bool narrow = where.width < ui.scaled(640);
+    const float speed_width = narrow ? 0 : ui.scaled(128), words_width = narrow ? 0 : ui.scaled(116);
     const float line_width = ImGui::GetContentRegionAvail().x - speed_width - words_width - side - 3 * gap;
     step_line(ui, std::max(line_width, ui.scaled(60)), side);
     ImGui::SameLine();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::GetWindowDrawList()->AddText({at.x, at.y + (side - ImGui::GetFontSize()) / 2}, palette::faint,
-                                        position_words(ui).c_str());
-    ImGui::Dummy({words_width, side});
-    ImGui::SameLine();
-    speed_choice(ui, speed_width);
-    ImGui::SameLine();
+    if (!narrow) {
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddText({at.x, at.y + (side - ImGui::GetFontSize()) / 2}, palette::faint,
+                                            position_words(ui).c_str());
+        ImGui::Dummy({words_width, side});
+        ImGui::SameLine();
+        speed_choice(ui, speed_width);
+        ImGui::SameLine();
+    }
     if (icon_button("close", Icon::close, side, false,
                     "Closes the timeline, and goes back to where you were (Esc)"))
         close_timeline(ui);

@@ -208,7 +208,8 @@ bool take_news(Loop& loop) {
     Editor& editor = loop.editor;
     const bool was_opening = editor.opening != nullptr;
     // What is open is about to be replaced; the user was asked about it before.
-    if (was_opening && editor.live && editor.opening->status().stage == LiveDocument::Stage::open)
+    if (was_opening && editor.live && editor.opening->status().stage == LiveDocument::Stage::open &&
+        !editor.live->status().saving)
         editor.live->discard_journal();
     const LiveDocument* before = editor.live.get();
     const bool changed = refresh(editor);
@@ -418,7 +419,7 @@ void run_editor(const EditorOptions& options) {
     loop.state.display.up = remembered.up;
     loop.state.choose_samples = remembered.choose_samples;
     loop.state.lost = find_lost_work(default_journal_folder());
-    if (!options.file.empty()) loop.wishes.emplace_back(WishOpen{options.file, options.cloud});
+    if (!options.file.empty()) loop.wishes.emplace_back(WishOpen{options.file, options.cloud, true});
     bool news = true;
     while (!loop.work.closing) {
         if (options.told_to_stop && options.told_to_stop()) return;

@@ -32,7 +32,7 @@ void go_to(const Ui& ui, std::size_t position) {
         if (is_of_document(*step)) --at;
     }
     for (auto step = future.rbegin(); step != future.rend() && at < position; ++step) {
-        ui.tell(RedoStep{});
+        ui.tell(RedoStep{.to_look = true});
         if (is_of_document(*step)) ++at;
     }
 }
@@ -42,7 +42,7 @@ void play_step(const Ui& ui) {
     const auto& future = ui.editor.future;
     for (auto step = future.rbegin(); step != future.rend(); ++step) {
         if (is_of_document(*step)) return ui.tell(PlayStep{});
-        ui.tell(RedoStep{});
+        ui.tell(RedoStep{.to_look = true});
     }
 }
 

@@ -29,6 +29,7 @@ namespace knead {
 struct WishOpen { // asks about unsaved work first
     std::filesystem::path file;
     std::optional<std::filesystem::path> cloud = {}; // instead of the session's
+    bool as_started = false; // what the program was started with: its settings are meant for it
 };
 struct WishUseCloud { // for the session that could not be opened without; asks like WishOpen
     std::filesystem::path cloud;

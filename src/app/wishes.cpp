@@ -60,6 +60,7 @@ void fulfil(Work& work, const WishOpen& wish) {
     OpenRequest request;
     request.file = wish.file;
     request.cloud = wish.cloud;
+    request.sets_session = wish.as_started;
     begin_opening(work, std::move(request));
 }
 

@@ -96,7 +96,9 @@ struct CommitPose {};
 struct UndoStep {
     bool to_look = false; // what comes after is not to be lost by an act
 };
-struct RedoStep {};
+struct RedoStep {
+    bool to_look = false; // going back from there leads to what was recorded before
+};
 struct PlayStep {};   // redoes it, picture by picture
 struct PacePlaying {  // of the step that is being played, and of later ones
     double speed = 1; // 1: 30 of the recorded frames a second

@@ -74,10 +74,16 @@ void take_over(Editor& editor) {
     editor.changes = {};
 }
 
+// What is open has to finish that before another takes its place.
+bool is_still_saving(const Editor& editor) {
+    return editor.live && editor.live->status().saving;
+}
+
 bool refresh_opening(Editor& editor) {
     if (!editor.opening) return false;
     const LiveDocument::Status status = editor.opening->status();
     if (status.stage == LiveDocument::Stage::opening) return false;
+    if (status.stage == LiveDocument::Stage::open && is_still_saving(editor)) return false;
     std::vector<Notice> notices = editor.opening->take_notices();
     if (status.wants_cloud && !notices.empty()) {
         editor.without_cloud = {editor.opening_request, std::move(notices.back().words)};

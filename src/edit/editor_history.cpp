@@ -82,11 +82,12 @@ void carry_out(Editor& editor, const UndoStep& command) {
 
 namespace {
 
-void go_forward(Editor& editor, void (LiveDocument::*redo)(StepNumber)) {
+template<typename Redo>
+void go_forward(Editor& editor, Redo&& redo) {
     if (!can_redo(editor)) return;
     EditorStep step = std::move(editor.future.back());
     editor.future.pop_back();
-    if (step.document) (editor.live.get()->*redo)(step.document);
+    if (step.document) redo(step.document);
     if (step.choosing_after) choose_samples(editor, *step.choosing_after);
     if (step.after) restore_selection(editor, *step.after);
     if (step.chosen_after) choose(editor, *step.chosen_after);
@@ -95,12 +96,12 @@ void go_forward(Editor& editor, void (LiveDocument::*redo)(StepNumber)) {
 
 } // namespace
 
-void carry_out(Editor& editor, const RedoStep& /*command*/) {
-    go_forward(editor, &LiveDocument::redo);
+void carry_out(Editor& editor, const RedoStep& command) {
+    go_forward(editor, [&](StepNumber step) { editor.live->redo(step, command.to_look); });
 }
 
 void carry_out(Editor& editor, const PlayStep& /*command*/) {
-    go_forward(editor, &LiveDocument::play);
+    go_forward(editor, [&](StepNumber step) { editor.live->play(step); });
 }
 
 void carry_out(Editor& editor, const PacePlaying& command) {

@@ -32,13 +32,13 @@ Vec3d middle_at_rest(const Document& document, const std::string& name) {
 } // namespace
 
 void LiveWork::carry_out(task::Lines& lines) {
+    const bool is_seen = shared_.with([](const LiveShared& s) { return s.view->posed; });
     finish_settling();
     std::size_t done = 0;
     const bool joins = lines.joins_last && recording_->last_is_settings();
     try {
         for (const SessionAction& line : lines.lines) {
             if (needs_commit(line) && document_->is_posed()) {
-                const bool is_seen = shared_.with([](const LiveShared& s) { return s.view->posed; });
                 carry_out_act(*document_, CommitLine{}, "", progress_);
                 add_act(CommitLine{}, done++ > 0 || joins);
                 if (is_seen)
@@ -96,14 +96,14 @@ void LiveWork::carry_out(task::Undo& task) {
 void LiveWork::carry_out(task::Redo& task) {
     finish_settling();
     if (refused_.contains(task.step) || !recording_->can_redo()) return;
-    do redo_act();
+    do redo_act(task.to_look);
     while (recording_->next_joins());
     show_where_it_rests();
 }
 
-void LiveWork::redo_act() {
+void LiveWork::redo_act(bool to_look) {
     document_->redo("");
-    record([&] { recording_->step_forward(); });
+    record([&] { recording_->step_forward(to_look); });
 }
 
 // After going back or forth; where that goes on at once, only the last shape is made.

@@ -97,8 +97,8 @@ void LiveDocument::undo(StepNumber step, bool to_look) {
     put(*shared_, task::Undo{step, to_look});
 }
 
-void LiveDocument::redo(StepNumber step) {
-    put(*shared_, task::Redo{step});
+void LiveDocument::redo(StepNumber step, bool to_look) {
+    put(*shared_, task::Redo{step, to_look});
 }
 
 void LiveDocument::play(StepNumber step) {

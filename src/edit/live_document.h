@@ -118,7 +118,8 @@ struct OpenRequest {
     std::string device; // as make_upsampler() takes it
     unsigned threads = 0;
     UpsamplerMaker make_upsampler = knead::make_upsampler; // another one, for tests of failing devices
-    SettingsChange settings;
+    SettingsChange settings;                               // of a cloud; of a session only where
+    bool sets_session = false; // this says so: then they are a step of its own at its end
     // Whether the number of samples is chosen, and chosen anew after acts, as edit/sample_choice.h says: of a
     // cloud; a session keeps its number, and so do `settings`.
     bool choose_samples = false;
@@ -186,12 +187,14 @@ public:
     void reset_pose(StepNumber step, std::string handle);
 
     // Takes the last step back, or does it again. `step` is its number, so that nothing happens if it was
-    // refused meanwhile. `to_look`: the journal has the step as done until something else is recorded.
+    // refused meanwhile. `to_look`: the journal has the step as done until something else is recorded; and
+    // what was redone to look at it is undone again when that is taken back.
     void undo(StepNumber step, bool to_look = false);
-    void redo(StepNumber step);
+    void redo(StepNumber step, bool to_look = false);
 
-    // Does a step again like redo(), but shows the poses that were recorded, 30 a second at a speed of 1, and
-    // of very many only some. Any act that comes in between ends it at once, as redo() would have.
+    // Does a step again like redo() to look at it, but shows the poses that were recorded, 30 a second at a
+    // speed of 1, and of very many only some. Any act that comes in between ends it at once, as redo() would
+    // have.
     void play(StepNumber step);
     void set_play_pace(double speed, bool held); // also of later ones
     void advance_play(int frames);               // while it is held; below 0: back, as far as this drag goes

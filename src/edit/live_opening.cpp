@@ -73,7 +73,7 @@ void replay_session(const Session& session, Document& document, LiveRecording& r
             recording.step_back(false);
         } else if (std::holds_alternative<RedoLine>(line.action)) {
             document.redo(place);
-            recording.step_forward();
+            recording.step_forward(false);
         } else if (const auto* check = std::get_if<CheckLine>(&line.action)) {
             recording.note(CheckLine{session.resolve(check->positions), check->tolerance});
         } else {

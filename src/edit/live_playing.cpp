@@ -107,7 +107,7 @@ void LiveWork::play_settling(int frames) {
 
 void LiveWork::finish_playing_act() {
     document_->abandon();
-    redo_act();
+    redo_act(true);
     *play_ = {};
     if (recording_->next_joins()) return;
     play_.reset();
@@ -118,7 +118,7 @@ void LiveWork::finish_playing() {
     if (!play_) return;
     document_->abandon();
     play_.reset();
-    do redo_act();
+    do redo_act(true);
     while (recording_->next_joins());
     show_where_it_rests();
 }

@@ -125,19 +125,24 @@ void LiveRecording::note(const SessionAction& line) {
 void LiveRecording::step_back(bool to_look) {
     future_.push_back(past_.back());
     past_.pop_back();
-    if (to_look)
+    const std::size_t forward = looked_forward_;
+    if (to_look && forward == 0)
         ++looked_back_;
     else
         write_down(UndoLine{});
+    looked_forward_ = to_look && forward > 0 ? forward - 1 : 0;
 }
 
-void LiveRecording::step_forward() {
+void LiveRecording::step_forward(bool to_look) {
     past_.push_back(future_.back());
     future_.pop_back();
-    if (looked_back_ > 0)
+    if (looked_back_ > 0) {
         --looked_back_;
-    else
-        write_down(RedoLine{});
+        return;
+    }
+    const std::size_t forward = looked_forward_;
+    write_down(RedoLine{});
+    looked_forward_ = to_look ? forward + 1 : 0;
 }
 
 bool LiveRecording::last_is_settings() const {
@@ -185,6 +190,7 @@ void LiveRecording::undo_what_was_looked_back() {
 // between.
 void LiveRecording::write_down(const SessionAction& line) {
     undo_what_was_looked_back();
+    looked_forward_ = 0;
     lines_.push_back(line);
     if (!journal_ && folder_.empty()) return;
     const bool begins = !journal_;

@@ -50,9 +50,10 @@ public:
     // A line that is no act of the document (`check`).
     void note(const SessionAction& line);
     // The last act was undone, the next one redone. What is undone only to look at it stays as done in the
-    // journal until something else is recorded: playing a session is no work that a crash could lose.
+    // journal until something else is recorded: playing a session is no work that a crash could lose. What
+    // was redone only to look at it is undone for good when one goes back.
     void step_back(bool to_look);
-    void step_forward();
+    void step_forward(bool to_look);
 
     // What the newest act does that was not undone, in a few words; empty at the beginning.
     std::string last_words() const { return past_.empty() ? std::string() : past_.back().words; }
@@ -91,7 +92,8 @@ private:
     Session header_;
     std::filesystem::path cloud_;
     std::vector<SessionAction> lines_;
-    std::size_t looked_back_ = 0; // so many `undo` lines are still to follow
+    std::size_t looked_back_ = 0;    // so many `undo` lines are still to follow
+    std::size_t looked_forward_ = 0; // so many acts before here were redone to look at them
     struct Act {
         bool joins = false; // the step of the act before it
         bool of_settings = false;

@@ -42,6 +42,7 @@ struct Undo {
 };
 struct Redo {
     StepNumber step = 0;
+    bool to_look = false;
 };
 struct Play {
     StepNumber step = 0;

@@ -68,7 +68,7 @@ void LiveWork::open() {
     if (!request_.restore && !is_plain_cloud) recording_->is_in(session_file_);
     recording_->chooses_samples(choosing_);
     recording_->is_on(cloud_stamp_);
-    if (!is_plain_cloud && !request_.restore) take_settings();
+    if (!is_plain_cloud && request_.sets_session) take_settings();
     publish_opened();
     if (!request_.restore) recording_->keep_journal(request_.journal_folder);
 }
@@ -84,6 +84,7 @@ void LiveWork::take_settings() {
     }
     carry_out_act(*document_, line, "", progress_);
     add_act(line, commits);
+    converge_ = document_->is_posed();
 }
 
 PointCloud LiveWork::read_cloud_of(Session& session) {
@@ -282,8 +283,8 @@ void LiveWork::publish_shape(const RestShape& shape, bool of_drag) {
 
 void LiveWork::publish_view() {
     publisher_.view(*document_, *recording_,
-                    {drag_.has_value(), last_step_, upsampler_->device(), session_file_, saved_, choosing_,
-                     choose_samples_again(sample_needs(), document_->settings().samples)});
+                    {drag_.has_value() || converge_, last_step_, upsampler_->device(), session_file_, saved_,
+                     choosing_, choose_samples_again(sample_needs(), document_->settings().samples)});
 }
 
 void LiveWork::refuse(StepNumber step) {

@@ -56,7 +56,7 @@ private:
     void add_act(const SessionAction& action, bool joins);
     void take_back_act(bool to_look);
     void take_back_step(bool to_look);
-    void redo_act();
+    void redo_act(bool to_look);
     void show_where_it_rests();
     std::vector<float> in_file_order(std::span<const float> ordered, float left_out);
     std::vector<float> displacement_column();

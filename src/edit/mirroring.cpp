@@ -171,10 +171,10 @@ struct Part {
         }
     }
     Vec3d place(Index i) const { return point_at(editor.opened.opened->positions, editor.ordered[i]); }
-    // Calls visit(i) for every so-many-th point of the file that is finite.
+    // Calls visit(i) for every point of the file that is finite.
     template<typename Visit>
-    void for_points(std::size_t stride, Visit&& visit) const {
-        for (std::size_t i = 0; i < editor.ordered.size(); i += stride)
+    void for_points(Visit&& visit) const {
+        for (std::size_t i = 0; i < editor.ordered.size(); ++i)
             if (editor.ordered[i] != no_index) visit(static_cast<Index>(i));
     }
 };
@@ -185,11 +185,11 @@ std::vector<Index> points_across(const Part& part, const MirrorPlane& plane, con
     around.min().array() -= 2 * reach;
     around.max().array() += 2 * reach;
     PointGrid grid{reach, {}};
-    part.for_points(1, [&](Index i) {
+    part.for_points([&](Index i) {
         if (around.contains(part.place(i))) grid.add(part.place(i), part.held[i]);
     });
     std::vector<Index> points;
-    part.for_points(1, [&](Index i) {
+    part.for_points([&](Index i) {
         const Vec3d p = reflected(part.place(i) - shift, plane);
         if (!around.contains(p)) return;
         const PointGrid::Entry* there = grid.nearest(p);
@@ -201,16 +201,23 @@ std::vector<Index> points_across(const Part& part, const MirrorPlane& plane, con
 // What takes the part's mirror image onto the rest of the cloud: every round by how far its points are, on
 // average, from those nearest to them.
 Vec3d shift_onto_cloud(const Part& part, const MirrorPlane& plane) {
-    const double reach = std::max(part.box.sizes().maxCoeff(), 1e-300);
-    PointGrid grid{reach, {}};
-    std::vector<Vec3d> images;
-    const std::size_t all = part.editor.ordered.size();
-    part.for_points(std::max<std::size_t>(1, all / enough_points), [&](Index i) {
-        if (!part.held[i]) grid.add(part.place(i), false);
+    const double reach = std::max(part.box.sizes().maxCoeff(), 3 * part.editor.opened.spacing);
+    if (!(reach > 0)) return Vec3d::Zero();
+    Eigen::AlignedBox3d around(reflected(part.box.min(), plane));
+    around.extend(reflected(part.box.max(), plane));
+    around.min().array() -= 2 * reach; // as far as it may be shifted, and look from there
+    around.max().array() += 2 * reach;
+    std::vector<Vec3d> beside;
+    part.for_points([&](Index i) {
+        if (!part.held[i] && around.contains(part.place(i))) beside.push_back(part.place(i));
     });
+    PointGrid grid{reach, {}};
+    for (std::size_t k = 0; k < beside.size(); k += beside.size() / enough_points + 1)
+        grid.add(beside[k], false);
+    std::vector<Vec3d> images;
     std::size_t held = 0;
     const auto apart = static_cast<std::size_t>(std::ranges::count(part.held, true)) / most_images + 1;
-    part.for_points(1, [&](Index i) {
+    part.for_points([&](Index i) {
         if (part.held[i] && held++ % apart == 0) images.push_back(reflected(part.place(i), plane));
     });
     Vec3d shift = Vec3d::Zero();

@@ -163,6 +163,7 @@ TEST_F(PlayedBar, ResettingAPoseUnwindsItsTurns) {
     EXPECT_LT(largest_displacement(), 1e-4);
     EXPECT_FALSE(live_->view()->posed) << "there is nothing to commit, nor to reset";
     live_->post(++step_, {RenameLine{"low", "bottom"}});
+    settle_down();
     SettingsChange strays;
     strays.strays = Strays::carry;
     live_->post(++step_, {SetLine{strays}});

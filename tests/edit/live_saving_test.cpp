@@ -270,6 +270,12 @@ TEST_F(LiveBar, SettingsThatASessionIsOpenedWithAreAStep) {
     settle_down();
     OpenRequest request = request_for(folder_ / "a.knead");
     request.settings.samples = 77U;
+    {
+        LiveDocument live(request); // settings of another cloud
+        wait_until_open(live);
+        EXPECT_NE(live.view()->settings.samples, 77U);
+    }
+    request.sets_session = true;
     LiveDocument live(request);
     wait_until_open(live);
     EXPECT_EQ(live.view()->settings.samples, 77U);
@@ -341,6 +347,27 @@ TEST_F(LiveBar, LookingAtEarlierStepsIsNoWorkToRestore) {
     ASSERT_EQ(lost.size(), 1U);
     EXPECT_EQ(lines_in(lost[0].journal),
               (std::vector{handles[0], handles[1], undo, to_text(RenameLine{"low", "bottom"})}));
+}
+
+TEST_F(LiveBar, WhatWasUndoneStaysSoWhoeverLooksAtIt) {
+    live_->undo(0);
+    live_->undo(0);
+    live_->save_session(folder_ / "a.knead");
+    settle_down();
+    for (const bool plays : {false, true}) {
+        for (int i = 0; i < 2; ++i) plays ? live_->play(0) : live_->redo(0, true);
+        settle_down();
+        EXPECT_EQ(live_->view()->handles.size(), 2U);
+        for (int i = 0; i < 2; ++i) live_->undo(0, true);
+        settle_down();
+        EXPECT_EQ(live_->view()->state, live_->saved().session_state);
+    }
+    live_->save_session(folder_ / "b.knead");
+    settle_down();
+    LiveDocument live(request_for(folder_ / "b.knead"));
+    wait_until_open(live);
+    EXPECT_TRUE(live.view()->handles.empty());
+    EXPECT_EQ(live.view()->redoable_steps, 2U);
 }
 
 // Somebody else's work is not overwritten unnoticed, under whatever name.

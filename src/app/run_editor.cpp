@@ -207,10 +207,6 @@ void face_creature(Editor& editor) {
 bool take_news(Loop& loop) {
     Editor& editor = loop.editor;
     const bool was_opening = editor.opening != nullptr;
-    // What is open is about to be replaced; the user was asked about it before.
-    if (was_opening && editor.live && editor.opening->status().stage == LiveDocument::Stage::open &&
-        !editor.live->status().saving)
-        editor.live->discard_journal();
     const LiveDocument* before = editor.live.get();
     const bool changed = refresh(editor);
     if (was_opening && !editor.opening && editor.live.get() != before) {

@@ -322,10 +322,7 @@ Index Document::movable_handle(const std::string& name, const std::string& place
 
 void Document::refuse_while_posed(const std::string& what, const std::string& place) const {
     if (!is_posed()) return;
-    const auto is_posed = [](const HandleMotion& motion) {
-        return motion.linear != Mat3d::Identity() || motion.offset != Vec3d::Zero();
-    };
-    const auto posed = std::ranges::find_if(motions_, is_posed);
+    const auto posed = std::ranges::find_if(motions_, leaves_rest);
     const std::string who =
         posed == motions_.end()
             ? std::string("handles are posed")

@@ -47,8 +47,10 @@ void cancel_opening(Editor& editor) {
 
 namespace {
 
-// What was opened takes the place of what was there.
+// What was opened takes the place of what was there, of which nothing is to be restored: whoever opens a file
+// was asked about it.
 void take_over(Editor& editor) {
+    if (editor.live) editor.live->discard_journal();
     editor.live = std::move(editor.opening);
     editor.opened = editor.live->opened();
     editor.document = editor.live->view();

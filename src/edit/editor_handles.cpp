@@ -244,8 +244,7 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     const std::string name = line.name;
     std::vector<SessionAction> lines{std::move(line)};
     const HandleMotion& pose = editor.document->motions[*number];
-    const bool is_posed = pose.linear != Mat3d::Identity() || pose.offset != Vec3d::Zero();
-    if (is_posed && handle.role == HandleRole::moving) {
+    if (leaves_rest(pose) && handle.role == HandleRole::moving) {
         const HandleMotion motion = mirrored(pose, plane, across.shift);
         lines.emplace_back(
             drag_towards(name, motion, rest_middle(editor, points), editor.opened.cloud->origin));

@@ -122,6 +122,10 @@ void label_by(const std::vector<Handle>& handles, const PointOrder& order, std::
 
 } // namespace
 
+bool leaves_rest(const HandleMotion& motion) {
+    return motion.linear != Mat3d::Identity() || motion.offset != Vec3d::Zero();
+}
+
 bool holds_the_same(const Handle& a, const Handle& b) {
     return a.role == b.role && a.points == b.points && a.free_rotation == b.free_rotation &&
            a.falloff == b.falloff;

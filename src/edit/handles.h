@@ -23,6 +23,10 @@ struct Handle {
     double falloff = 0;         // how far along the surface it pulls what is around it, the less the farther
 };
 
+// Whether it takes a handle's points away from where they were at rest. One that was reset does not, though
+// its drags are recorded.
+bool leaves_rest(const HandleMotion& motion);
+
 // Whether two handles, or lists of them, hold the same points in the same way, whatever their names. (The
 // same points are the same array: handles share theirs when they are copied.)
 bool holds_the_same(const Handle& a, const Handle& b);

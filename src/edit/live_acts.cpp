@@ -31,24 +31,28 @@ Vec3d middle_at_rest(const Document& document, const std::string& name) {
 
 } // namespace
 
+// One line of a step, and a commit before it where it may not stand while handles are posed; `done` counts
+// the acts of the step so far.
+void LiveWork::carry_out_line(const SessionAction& line, bool joins, bool pose_is_seen, std::size_t& done) {
+    if (needs_commit(line) && document_->is_posed()) {
+        carry_out_act(*document_, CommitLine{}, "", progress_);
+        add_act(CommitLine{}, done++ > 0 || joins);
+        if (pose_is_seen)
+            say(Notice::Kind::information,
+                "The pose was committed first, since this cannot change while one stands: it counts from the "
+                "next pose on. Ctrl+Z takes both back.");
+    }
+    carry_out_act(*document_, line, "", progress_);
+    add_act(line, done++ > 0 || joins);
+}
+
 void LiveWork::carry_out(task::Lines& lines) {
     const bool is_seen = shared_.with([](const LiveShared& s) { return s.view->posed; });
     finish_settling();
     std::size_t done = 0;
     const bool joins = lines.joins_last && recording_->last_is_settings();
     try {
-        for (const SessionAction& line : lines.lines) {
-            if (needs_commit(line) && document_->is_posed()) {
-                carry_out_act(*document_, CommitLine{}, "", progress_);
-                add_act(CommitLine{}, done++ > 0 || joins);
-                if (is_seen)
-                    say(Notice::Kind::information,
-                        "The pose was committed first, since this cannot change while one stands: it counts "
-                        "from the next pose on. Ctrl+Z takes both back.");
-            }
-            carry_out_act(*document_, line, "", progress_);
-            add_act(line, done++ > 0 || joins);
-        }
+        for (const SessionAction& line : lines.lines) carry_out_line(line, joins, is_seen, done);
     } catch (...) {
         refuse(lines.step);
         for (; done > 0; --done) take_back_act(false);

@@ -57,24 +57,13 @@ void LivePublisher::shape(const RestShape& shape, const Pipeline& pipeline, cons
     shared_.with([&](LiveShared& s) { std::swap(s.frame, back_); });
 }
 
-namespace {
-
-// Whether a handle is not where it was at rest: one that was reset is there, though its drags are recorded.
-bool is_off_rest(const Document& document) {
-    return document.is_posed() && std::ranges::any_of(document.motions(), [](const HandleMotion& motion) {
-               return motion.linear != Mat3d::Identity() || motion.offset != Vec3d::Zero();
-           });
-}
-
-} // namespace
-
 void LivePublisher::view(const Document& document, const LiveRecording& recording, const ViewFacts& facts) {
     auto view = std::make_shared<DocumentView>();
     const Pipeline& pipeline = document.pipeline();
     view->settings = document.settings();
     view->handles = document.handles();
     view->motions = document.motions();
-    view->posed = is_off_rest(document) || facts.dragging;
+    view->posed = facts.moving || std::ranges::any_of(document.motions(), leaves_rest);
     view->acts = recording.acts();
     view->state = recording.state();
     view->last_step = facts.last_step;

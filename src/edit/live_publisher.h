@@ -23,7 +23,7 @@ public:
 
     // The document between two acts.
     struct ViewFacts {
-        bool dragging = false;
+        bool moving = false; // a drag goes on, or what it left still settles
         StepNumber last_step = 0;
         std::string device;
         std::filesystem::path session;

@@ -73,17 +73,12 @@ void LiveWork::open() {
     if (!request_.restore) recording_->keep_journal(request_.journal_folder);
 }
 
-// Those that were asked for with a session, as if the user had set them first of all.
+// Those that were asked for with a session, as if the user had set them at its end.
 void LiveWork::take_settings() {
     const SetLine line{request_.settings};
     if (changed(document_->settings(), line.change) == document_->settings()) return;
-    const bool commits = needs_commit(line) && document_->is_posed();
-    if (commits) {
-        carry_out_act(*document_, CommitLine{}, "", progress_);
-        add_act(CommitLine{}, false);
-    }
-    carry_out_act(*document_, line, "", progress_);
-    add_act(line, commits);
+    std::size_t done = 0;
+    carry_out_line(line, false, true, done);
     converge_ = document_->is_posed();
 }
 

@@ -1,9 +1,9 @@
 // Moves every point by the motions of the samples around it: src/upsample/upsample.h holds the formulas, and
 // src/upsample/reference.cpp the same arithmetic in C++, operation by operation. Both give the same bits but for one thing:
-// the sums over entries, which are most of the work, fuse product and sum here (one rounding) where the device can.
+// what moves points, which is most of the work, fuses products and sums here (one rounding) where the device can.
 //
-// Built with -D POINTS_IN_BLOCK=256 and -D POINTS_IN_GROUP=16; with -D SIXTEEN for a CPU, without for a GPU. Motions are
-// packed by columns, 16 floats each, [A column 0 | A column 1 | A column 2 | d] with a fourth row of 1 c0 c1 c2
+// Built with -D POINTS_IN_BLOCK=256, -D POINTS_IN_GROUP=16 and -D WHOLE_SHARE=65535; with -D SIXTEEN for a CPU, without for a GPU. Motions are
+// packed by columns, 16 floats each, [A column 0 | A column 1 | A column 2 | d] with a fourth row of 0 c0 c1 c2
 // (src/upsample/packed_motions.h); what moves which point comes by groups of sixteen points
 // (src/upsample/influence_groups.h). A CPU's item moves such groups, with a point in every lane; a GPU's moves one point.
 //
@@ -63,10 +63,13 @@ __attribute__((always_inline)) inline void store(vector v, __global float* to, s
     }
 }
 
-// What an entry counts for the points of its group.
-__attribute__((always_inline)) inline real weight_of(__global const ushort* root, size_t entry, size_t lane) {
-    const real of_it = convert_float16(vload16(entry, root));
-    return of_it * of_it;
+// The shares of an entry in the points of its group.
+__attribute__((always_inline)) inline truth share_of(__global const ushort* share, size_t entry, size_t lane) {
+    return convert_int16(vload16(entry, share));
+}
+
+__attribute__((always_inline)) inline real as_real(truth whole) {
+    return convert_float16(whole);
 }
 #else
 inline vector load(__global const float* from, size_t count) {
@@ -78,45 +81,74 @@ inline void store(vector v, __global float* to, size_t count) {
     to[0] = v.x, to[1] = v.y, to[2] = v.z;
 }
 
-__attribute__((always_inline)) inline real weight_of(__global const ushort* root, size_t entry, size_t lane) {
-    const real of_it = (float)root[POINTS_IN_GROUP * entry + lane];
-    return of_it * of_it;
+__attribute__((always_inline)) inline truth share_of(__global const ushort* share, size_t entry, size_t lane) {
+    return share[POINTS_IN_GROUP * entry + lane];
+}
+
+inline real as_real(truth whole) {
+    return (float)whole;
 }
 #endif
 
-// What the entries are read by.
+// What moves sixteen points.
 typedef struct {
-    __global const uint2* group; // first entry, entries
-    __global const uint* number;
-    __global const ushort* root;
-    uint first_handle; // numbers from here on are handles, and all that have no place
+    uint motion; // has what the others leave
+    uint first_entry, entries;
+} influences;
+
+// What they are read by.
+typedef struct {
+    __global const influences* group;
+    __global const uint* motion; // of each entry
+    __global const ushort* share;
+    uint first_handle; // motions from here on are handles, and all that have no place
     __global const float* motions;
 } reading;
 
-// Σ_s w_s [A_s | d_s] at the points p, number c of them in blend[c], in blend[3] the sum of the weights, by which it
-// is to be divided, and Σ_s w_s c_s. What has no place, a handle, has the points for places.
+#pragma OPENCL FP_CONTRACT ON
+
+// Adds w [A | d] to the blend, number c of them to blend[c], and w c.
+__attribute__((always_inline)) inline void add_motion(__global const float* motion, real weight, real* blend) {
+#pragma unroll
+    for (int c = 0; c < 16; ++c)
+        if (c != 3) blend[c] += weight * motion[c];
+}
+
+// Adds what a handle has for a place: the points themselves.
+__attribute__((always_inline)) inline void add_place(__global const float* motion, real weight, vector p, real* blend) {
+    const vector half_way = {weight * (0.5f * p.x), weight * (0.5f * p.y), weight * (0.5f * p.z)};
+    blend[7] += half_way.x;
+    blend[11] += half_way.y;
+    blend[15] += half_way.z;
+#pragma unroll
+    for (int row = 0; row < 3; ++row)
+        blend[12 + row] += motion[row] * half_way.x + motion[4 + row] * half_way.y + motion[8 + row] * half_way.z;
+}
+
+inline real weight_of(truth share) {
+    return as_real(share) * (1.0f / WHOLE_SHARE);
+}
+
+// Σ_s w_s [A_s | d_s] at the points p, and Σ_s w_s c_s.
 __attribute__((always_inline)) inline void blend_motions(reading how, size_t group, size_t lane, vector p,
                                                          real* blend) {
-#pragma OPENCL FP_CONTRACT ON
+    const influences own = how.group[group];
+    const uint end = own.first_entry + own.entries;
+    truth left = WHOLE_SHARE;
 #pragma unroll
     for (int c = 0; c < 16; ++c) blend[c] = 0.0f;
-    const vector half_way = {0.5f * p.x, 0.5f * p.y, 0.5f * p.z};
-    const uint2 own = how.group[group];
-    for (uint entry = own.x; entry < own.x + own.y; ++entry) {
-        const real weight = weight_of(how.root, entry, lane);
-        const uint number = how.number[entry];
-        __global const float* const motion = how.motions + 16 * (size_t)number;
-#pragma unroll
-        for (int c = 0; c < 16; ++c) blend[c] += weight * motion[c];
-        if (number < how.first_handle) continue;
-        blend[7] += weight * half_way.x;
-        blend[11] += weight * half_way.y;
-        blend[15] += weight * half_way.z;
-#pragma unroll
-        for (int row = 0; row < 3; ++row)
-            blend[12 + row] += weight * (motion[row] * half_way.x + motion[4 + row] * half_way.y +
-                                         motion[8 + row] * half_way.z);
+    for (uint entry = own.first_entry; entry < end; ++entry) {
+        const truth share = share_of(how.share, entry, lane);
+        left -= share;
+        add_motion(how.motions + 16 * (size_t)how.motion[entry], weight_of(share), blend);
     }
+    __global const float* const others_leave = how.motions + 16 * (size_t)own.motion;
+    add_motion(others_leave, weight_of(left), blend);
+    // Handles come last.
+    for (uint entry = end; entry > own.first_entry && how.motion[entry - 1] >= how.first_handle; --entry)
+        add_place(how.motions + 16 * (size_t)how.motion[entry - 1], weight_of(share_of(how.share, entry - 1, lane)),
+                  p, blend);
+    if (own.motion >= how.first_handle) add_place(others_leave, weight_of(left), p, blend);
 }
 
 // Where nothing is added, the coordinate is kept to the last bit, the sign of a zero included.
@@ -125,13 +157,14 @@ inline real plus(real coordinate, real displacement) {
 }
 
 inline vector moved(vector p, const real* a) {
-    const real share = 1.0f / a[3];
-    const vector q = {p.x - a[7] * share, p.y - a[11] * share, p.z - a[15] * share};
-    const vector result = {plus(p.x, (a[0] * q.x + a[4] * q.y + a[8] * q.z + a[12]) * share),
-                           plus(p.y, (a[1] * q.x + a[5] * q.y + a[9] * q.z + a[13]) * share),
-                           plus(p.z, (a[2] * q.x + a[6] * q.y + a[10] * q.z + a[14]) * share)};
+    const vector q = {p.x - a[7], p.y - a[11], p.z - a[15]};
+    const vector result = {plus(p.x, a[12] + a[0] * q.x + a[4] * q.y + a[8] * q.z),
+                           plus(p.y, a[13] + a[1] * q.x + a[5] * q.y + a[9] * q.z),
+                           plus(p.z, a[14] + a[2] * q.x + a[6] * q.y + a[10] * q.z)};
     return result;
 }
+
+#pragma OPENCL FP_CONTRACT OFF
 
 inline real dot_in_order(vector a, vector b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -150,10 +183,9 @@ inline real scaled_or(real rest, real value, real scale, truth is_good) {
 
 // The cofactor matrix of I + A has the cross products of its columns for columns.
 inline vector turned(vector n, const real* blend) {
-    const real share = 1.0f / blend[3];
-    const vector a = {blend[0] * share + 1.0f, blend[1] * share, blend[2] * share};
-    const vector b = {blend[4] * share, blend[5] * share + 1.0f, blend[6] * share};
-    const vector c = {blend[8] * share, blend[9] * share, blend[10] * share + 1.0f};
+    const vector a = {blend[0] + 1.0f, blend[1], blend[2]};
+    const vector b = {blend[4], blend[5] + 1.0f, blend[6]};
+    const vector c = {blend[8], blend[9], blend[10] + 1.0f};
     const vector u = cross_in_order(b, c), v = cross_in_order(c, a), w = cross_in_order(a, b);
     const vector t = {u.x * n.x + v.x * n.y + w.x * n.z, u.y * n.x + v.y * n.y + w.y * n.z,
                       u.z * n.x + v.z * n.y + w.z * n.z};
@@ -184,20 +216,20 @@ upsample(ulong points, __global const uint* block, __global const float* positio
 }
 
 __kernel void upsample_positions(const ulong points, __global const uint* block,
-                                 __global const float* positions, __global const uint2* group,
-                                 __global const uint* number, __global const ushort* root,
+                                 __global const float* positions, __global const influences* group,
+                                 __global const uint* motion, __global const ushort* share,
                                  const uint first_handle, __global const float* motions,
                                  __global float* moved_positions) {
-    const reading how = {group, number, root, first_handle, motions};
+    const reading how = {group, motion, share, first_handle, motions};
     upsample(points, block, positions, how, moved_positions, 0, 0);
 }
 
 __kernel void upsample_positions_and_normals(const ulong points, __global const uint* block,
-                                             __global const float* positions, __global const uint2* group,
-                                             __global const uint* number, __global const ushort* root,
+                                             __global const float* positions, __global const influences* group,
+                                             __global const uint* motion, __global const ushort* share,
                                              const uint first_handle, __global const float* motions,
                                              __global float* moved_positions, __global const float* normals,
                                              __global float* moved_normals) {
-    const reading how = {group, number, root, first_handle, motions};
+    const reading how = {group, motion, share, first_handle, motions};
     upsample(points, block, positions, how, moved_positions, normals, moved_normals);
 }

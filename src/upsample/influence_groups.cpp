@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <numeric>
 
@@ -17,22 +16,16 @@ namespace {
 
 static_assert(points_in_block % points_in_group == 0);
 constexpr std::size_t grain = 16; // blocks
-constexpr float largest_root = 65535;
-
 // Of every so many entries, room for one more is kept for blocks that grow.
 constexpr std::size_t entries_for_one_spare = 32;
 
-// What moves one point: entries' numbers and roots.
-struct Lane {
-    std::array<Index, influences_per_row> number;
-    std::array<std::uint16_t, influences_per_row> root;
-    std::size_t count = 0;
+using Weights = std::array<float, influences_per_row>;
 
-    void add(Index one, std::uint16_t its_root) {
-        number[count] = one;
-        root[count] = its_root;
-        count += its_root != 0 ? 1 : 0; // what does not count is written over
-    }
+// What moves one point.
+struct Lane {
+    std::array<Index, influences_per_row> motion; // as a group has them
+    std::array<std::uint16_t, influences_per_row> share;
+    std::size_t count = 0;
 };
 
 Index entry_of(Index motion) {
@@ -40,53 +33,75 @@ Index entry_of(Index motion) {
 }
 constexpr Index nobody = 0;
 
-Lane moved_alone(Index number) {
+Lane moved_alone(Index motion) {
     Lane lane;
-    lane.add(number, 1);
+    lane.motion[0] = motion;
+    lane.share[0] = whole_share;
+    lane.count = 1;
     return lane;
 }
 
-// Roots of any weights: as they are where all are whole numbers, else as parts of the largest.
-template<typename Number>
-Lane moved_by_weights(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights) {
-    const std::size_t count = row.count();
-    if (count == 0) return moved_alone(nobody);
-    auto root = weights_of(row, first_handle, weights);
-    float largest = 0;
-    bool are_whole = true;
-    for (float& one : root) {
-        one = std::sqrt(one);
-        largest = std::max(largest, one);
-        are_whole = are_whole && one == std::floor(one);
+// The weights in parts of `whole_share`. What rounding leaves over, or takes too much, is that of the
+// largest.
+std::array<std::uint16_t, influences_per_row> shares_of(const Weights& weight) {
+    float sum = 0;
+    for (const float one : weight) sum += one;
+    const float scale = float{whole_share} / sum;
+    std::array<std::int32_t, influences_per_row> parts;
+    for (std::size_t k = 0; k < influences_per_row; ++k)
+        parts[k] = static_cast<std::int32_t>(weight[k] * scale + 0.5F);
+    std::int32_t left = whole_share;
+    std::size_t largest = 0;
+    for (std::size_t k = 0; k < influences_per_row; ++k) {
+        left -= parts[k];
+        if (parts[k] > parts[largest]) largest = k;
     }
-    const float scale = are_whole && largest <= largest_root ? 1.0F : largest_root / largest;
-    Lane lane;
-    for (std::size_t k = 0; k < count; ++k)
-        lane.add(entry_of(row.sample[k]),
-                 static_cast<std::uint16_t>(std::min(std::round(root[k] * scale), largest_root)));
-    return lane;
+    parts[largest] += left;
+    std::array<std::uint16_t, influences_per_row> shares;
+    for (std::size_t k = 0; k < influences_per_row; ++k) shares[k] = static_cast<std::uint16_t>(parts[k]);
+    return shares;
 }
 
-// The same; nearly all rows of smooth weights are full and name no handle.
+// weights_of() where nothing of it is special, which is nearly everywhere: a full row of samples, with smooth
+// weights. False elsewhere.
 template<typename Number>
-Lane moved_by(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights) {
+bool take_usual_weights(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights,
+                        Weights& weight) {
     const Number nearest = row.distance.front(), farthest = row.distance.back();
     Number last = 0;
     for (const Number sample : row.sample) last = std::max(last, sample);
     if (weights != InfluenceWeights::smooth || last >= first_handle || row.sample.back() == row.none ||
-        nearest == farthest || farthest - nearest > static_cast<Number>(largest_root))
-        return moved_by_weights(row, first_handle, weights);
+        nearest == farthest)
+        return false;
+    for (std::size_t k = 0; k < influences_per_row; ++k) {
+        const auto nearness = static_cast<float>(static_cast<Number>(farthest - row.distance[k]));
+        weight[k] = nearness * nearness;
+    }
+    return true;
+}
+
+template<typename Number>
+Lane moved_by(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights) {
+    Weights weight;
+    if (!take_usual_weights(row, first_handle, weights, weight)) {
+        if (row.count() == 0) return moved_alone(nobody);
+        weight = weights_of(row, first_handle, weights);
+    }
+    const auto shares = shares_of(weight);
     Lane lane;
-    for (std::size_t k = 0; k < influences_per_row; ++k)
-        lane.add(entry_of(row.sample[k]), static_cast<std::uint16_t>(farthest - row.distance[k]));
+    for (std::size_t k = 0; k < influences_per_row; ++k) {
+        lane.motion[lane.count] = entry_of(row.sample[k]);
+        lane.share[lane.count] = shares[k];
+        lane.count += shares[k] != 0 ? 1 : 0; // what has no share is written over
+    }
     return lane;
 }
 
 // A group that is being made: each motion once, in the order in which they are met.
 struct MadeGroup {
     static constexpr std::size_t most = points_in_group * influences_per_row;
-    std::array<Index, most> number;
-    std::array<std::array<std::uint16_t, points_in_group>, most> root;
+    std::array<Index, most> motion;
+    std::array<std::array<std::uint16_t, points_in_group>, most> share;
     std::size_t count = 0;
     std::array<std::size_t, influences_per_row> guess{}; // where the point before had them
 
@@ -96,18 +111,25 @@ struct MadeGroup {
     }
     void add(const Lane& lane, std::size_t point) {
         for (std::size_t k = 0; k < lane.count; ++k) {
-            const std::size_t at = place_of(lane.number[k], guess[k]);
+            const std::size_t at = place_of(lane.motion[k], guess[k]);
             guess[k] = at;
-            root[at][point] = lane.root[k];
+            share[at][point] = lane.share[k];
         }
     }
     std::size_t place_of(Index wanted, std::size_t likely) {
-        if (likely < count && number[likely] == wanted) return likely;
+        if (likely < count && motion[likely] == wanted) return likely;
         for (std::size_t at = 0; at < count; ++at)
-            if (number[at] == wanted) return at;
-        number[count] = wanted;
-        root[count].fill(0);
+            if (motion[at] == wanted) return at;
+        motion[count] = wanted;
+        share[count].fill(0);
         return count++;
+    }
+    // Their places by number.
+    std::span<const std::uint8_t> sorted(std::array<std::uint8_t, most>& places) const {
+        const auto used = std::span(places).first(count);
+        std::iota(used.begin(), used.end(), std::uint8_t{0});
+        std::ranges::sort(used, {}, [&](std::uint8_t at) { return motion[at]; });
+        return used;
     }
 };
 
@@ -168,7 +190,7 @@ std::vector<Index> InfluenceGroups::count_entries(std::span<const Index> blocks,
         MadeGroup made;
         for (std::size_t b = begin; b < end; ++b)
             for_groups(input, blocks[b], made, [&](std::size_t group, const MadeGroup& one) {
-                groups_[group].count = static_cast<Index>(one.count);
+                groups_[group].count = static_cast<Index>(one.count - 1);
                 counts[b] += groups_[group].count;
             });
     });
@@ -180,14 +202,19 @@ void InfluenceGroups::write_entries(std::span<const Index> blocks, const Upsampl
                                     Workers& workers) {
     workers.for_chunks(blocks.size(), grain, [&](std::size_t begin, std::size_t end) {
         MadeGroup made;
+        std::array<std::uint8_t, MadeGroup::most> places;
         for (std::size_t b = begin; b < end; ++b) {
             std::size_t at = room_[blocks[b]].first;
             for_groups(input, blocks[b], made, [&](std::size_t group, const MadeGroup& one) {
+                const auto entries = one.sorted(places);
+                groups_[group].motion = one.motion[entries[0]];
                 groups_[group].first = static_cast<Index>(at);
-                std::copy_n(one.number.begin(), one.count, number_.data() + at);
-                std::memcpy(root_.data() + points_in_group * at, one.root.data(),
-                            one.count * sizeof one.root[0]);
-                at += one.count;
+                for (const std::uint8_t entry : entries.subspan(1)) {
+                    motion_[at] = one.motion[entry];
+                    std::memcpy(share_.data() + points_in_group * at, one.share[entry].data(),
+                                sizeof one.share[entry]);
+                    ++at;
+                }
             });
         }
     });
@@ -197,8 +224,8 @@ void InfluenceGroups::write_entries(std::span<const Index> blocks, const Upsampl
 void InfluenceGroups::make_all(const UpsampleInput& input, Workers& workers) {
     const std::size_t blocks = blocks_of(input.mover.size());
     groups_.resize((input.mover.size() + points_in_group - 1) / points_in_group);
-    number_ = {};
-    root_ = {};
+    motion_ = {};
+    share_ = {};
     std::vector<Index> all(blocks);
     std::iota(all.begin(), all.end(), Index{0});
     const std::vector<Index> counts = count_entries(all, input, workers);
@@ -211,8 +238,8 @@ void InfluenceGroups::make_all(const UpsampleInput& input, Workers& workers) {
     const std::size_t size = used_ + used_ / entries_for_one_spare;
     if (size > no_index)
         throw Error(Trouble::numeric, "", "these are more points than can be moved; take fewer of them");
-    resize_in_large_pages(number_, size);
-    resize_in_large_pages(root_, points_in_group * size);
+    resize_in_large_pages(motion_, size);
+    resize_in_large_pages(share_, points_in_group * size);
     write_entries(all, input, workers);
 }
 
@@ -223,7 +250,7 @@ bool InfluenceGroups::make_again(std::span<const Index> blocks, const UpsampleIn
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         Room& room = room_[blocks[b]];
         if (counts[b] <= room.size) continue;
-        if (used_ + counts[b] > number_.size()) return false;
+        if (used_ + counts[b] > motion_.size()) return false;
         room = {static_cast<Index>(used_), counts[b]};
         used_ += counts[b];
     }

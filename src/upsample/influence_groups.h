@@ -2,14 +2,15 @@
 // Private to this room: what moves which point, as a frame reads it.
 //
 // Points come in Morton order, so sixteen consecutive ones are neighbours and share most of the samples
-// around them. A group of sixteen names each of those once, with what it counts for each of the points: a
-// frame then reads a motion once a group and not once a point, works on sixteen points side by side, and
-// knows no exceptions. A point that one motion alone moves, one right at a sample, one near a handle, and one
-// with few samples around it are the same to it.
+// around them. A group of sixteen names each of those once, with its share in each of the points: a frame
+// then reads a motion once a group and not once a point, works on sixteen points side by side, and knows no
+// exceptions. A point that one motion alone moves, one right at a sample, one near a handle, and one with few
+// samples around it are the same to it.
 //
-// A weight is kept as its square root, a whole number up to 65,535. Smooth weights are squares of whole
-// numbers (graph/influences.h) and kept exactly; those of handles, of the paper, and of very long ways are
-// rounded to a 65,535th of the root of the row's largest.
+// A share is a weight in parts of 65,535, rounded so that those of a point sum to all of them. So one motion
+// a group needs none: it has what the others leave. What moves a point alone has all, and nothing else any:
+// a point that is held is held to the bit. (Rounding moves a point by 1/131,070 of how far apart the motions
+// around it send it, at most for each; distances come in coarser levels, graph/flood.h.)
 
 #include "upsample/upsample.h"
 
@@ -20,9 +21,12 @@
 namespace knead {
 
 inline constexpr std::size_t points_in_group = 16;
+inline constexpr std::uint16_t whole_share = 65535;
 
-// Entries `first` to `first` + `count` of a group.
+// `motion` has what entries `first` to `first` + `count` leave. They are numbered in rising order: handles
+// are last.
 struct InfluenceGroup {
+    Index motion = 0; // 0 for one that moves nothing, else its number and 1
     Index first = 0, count = 0;
 };
 
@@ -41,10 +45,10 @@ public:
 
     // One for every sixteen points; of the last one those points that there are.
     std::span<const InfluenceGroup> groups() const { return groups_; }
-    // Of each entry: 0 for a motion that moves nothing, else the number of a motion and 1.
-    std::span<const Index> number() const { return number_; }
-    // Of each entry: the roots of its weights for the sixteen points, 0 where it moves a point not at all.
-    std::span<const std::uint16_t> root() const { return root_; }
+    // Of each entry: a motion, as a group has one.
+    std::span<const Index> motion() const { return motion_; }
+    // Of each entry: its shares in the sixteen points, 0 where it moves a point not at all.
+    std::span<const std::uint16_t> share() const { return share_; }
 
     // What a frame of all points reads of this.
     std::size_t bytes() const;
@@ -60,8 +64,8 @@ private:
     bool make_again(std::span<const Index> blocks, const UpsampleInput& input, Workers& workers);
 
     std::vector<InfluenceGroup> groups_;
-    std::vector<Index> number_;
-    std::vector<std::uint16_t> root_;
+    std::vector<Index> motion_;
+    std::vector<std::uint16_t> share_;
     std::vector<Room> room_; // of each block
     std::size_t used_ = 0;   // entries; behind them is room for blocks that grow
     struct Made {            // of what

@@ -48,7 +48,8 @@ std::string build_log(cl_program program, cl_device_id device) {
 // Root and quotient are rounded correctly where the device can do so, as in C++.
 std::string build_options(cl_device_id device, bool sixteen_at_once) {
     std::string options = "-D POINTS_IN_BLOCK=" + std::to_string(points_in_block) +
-                          " -D POINTS_IN_GROUP=" + std::to_string(points_in_group);
+                          " -D POINTS_IN_GROUP=" + std::to_string(points_in_group) +
+                          " -D WHOLE_SHARE=" + std::to_string(whole_share);
     if (sixteen_at_once) options += " -D SIXTEEN";
     cl_device_fp_config floats = 0;
     if (clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof floats, &floats, nullptr) == CL_SUCCESS &&
@@ -160,8 +161,8 @@ public:
             normals_ = hand_over(input.normals);
             influences_.prepare(input, workers_);
             groups_ = hand_over(influences_.groups());
-            numbers_ = hand_over(influences_.number());
-            roots_ = hand_over(influences_.root());
+            entry_motions_ = hand_over(influences_.motion());
+            shares_ = hand_over(influences_.share());
             first_handle_ = first_without_place(input);
             make_motions();
             make_blocks(blocks_of(input.mover.size()));
@@ -296,17 +297,17 @@ private:
         cl_mem const listed = blocks_.get();
         cl_mem const positions = positions_.get();
         cl_mem const groups = groups_.get();
-        cl_mem const numbers = numbers_.get();
-        cl_mem const roots = roots_.get();
+        cl_mem const entry_motions = entry_motions_.get();
+        cl_mem const shares = shares_.get();
         cl_mem const motions = motions_.get();
         cl_mem const normals = normals_.get();
         cl_kernel kernel = normals ? built_.move_both.get() : built_.move_positions.get();
         if (normals)
-            set_arguments(kernel, points, listed, positions, groups, numbers, roots, first_handle_, motions,
-                          moved_positions, normals, moved_normals);
+            set_arguments(kernel, points, listed, positions, groups, entry_motions, shares, first_handle_,
+                          motions, moved_positions, normals, moved_normals);
         else
-            set_arguments(kernel, points, listed, positions, groups, numbers, roots, first_handle_, motions,
-                          moved_positions);
+            set_arguments(kernel, points, listed, positions, groups, entry_motions, shares, first_handle_,
+                          motions, moved_positions);
         const std::size_t items_per_group = shares_memory_ ? 1 : points_in_block;
         const std::size_t items = blocks * items_per_group;
         cl_event moved = nullptr;
@@ -357,7 +358,7 @@ private:
     std::vector<Index> listed_; // the blocks of the last frame, and room for all of them
     std::size_t listed_count_ = 0;
     std::vector<PointRange> ranges_; // of them, that are read
-    BufferHandle positions_, normals_, groups_, numbers_, roots_, motions_, blocks_;
+    BufferHandle positions_, normals_, groups_, entry_motions_, shares_, motions_, blocks_;
     Result moved_positions_, moved_normals_;
 };
 

@@ -15,7 +15,7 @@ void pack_motions(std::span<const Motion> motions, InfluenceWeights weights, std
             column[3][row] = from[3] + (from[0] * c[0] + from[1] * c[1] + from[2] * c[2]);
             column[row + 1][3] = c[row];
         }
-        column[0][3] = 1.0F;
+        column[0][3] = 0.0F;
     }
 }
 

@@ -5,10 +5,9 @@
 
 namespace knead {
 
-// A motion by columns, A00 A10 A20 1  A01 A11 A21 c0  A02 A12 A22 c1  d0 d1 d2 c2: one cache line. A sum of
-// weighted motions so has the sum of the weights in its fourth float. c = ½ p_s and d = b + A c, so that a
-// point is displaced by A̅ (p - c̅) + d̅ with everything blended; c = 0 and d = b where the weights are the
-// paper's.
+// A motion by columns, A00 A10 A20 0  A01 A11 A21 c0  A02 A12 A22 c1  d0 d1 d2 c2: one cache line. c = ½ p_s
+// and d = b + A c, so that a point is displaced by A̅ (p - c̅) + d̅ with everything blended; c = 0 and d = b
+// where the weights are the paper's.
 struct alignas(64) PackedMotion {
     float column[4][4];
 };

@@ -60,6 +60,7 @@ Blend one_motion(const PackedMotion& motion) {
             load_four(motion.column[3])};
 }
 
+// Adds w [A | d] and w c.
 void add(float weight, const PackedMotion& motion, Blend& sum) {
     const Blend one = one_motion(motion);
     sum.a0 += weight * one.a0;
@@ -68,25 +69,34 @@ void add(float weight, const PackedMotion& motion, Blend& sum) {
     sum.b += weight * one.b;
 }
 
-// Σ_s w_s [A_s | d_s] of one point of a group, in a0[3] the sum of the weights, by which it is to be divided,
-// and Σ_s w_s c_s. What has no place, a handle, has the point for its place.
+// Adds what a handle has for its place: the point itself.
+void add_place(float weight, const PackedMotion& motion, Vector p, Blend& sum) {
+    const Blend one = one_motion(motion);
+    const Vector half_way = {weight * (0.5F * p.x), weight * (0.5F * p.y), weight * (0.5F * p.z)};
+    Four turned = one.a0 * half_way.x + one.a1 * half_way.y + one.a2 * half_way.z;
+    turned[3] = half_way.z;
+    sum.a1[3] += half_way.x;
+    sum.a2[3] += half_way.y;
+    sum.b += turned;
+}
+
+// Σ_s w_s [A_s | d_s] of one point of a group, and Σ_s w_s c_s.
 Blend blended(const InfluenceGroups& influences, const InfluenceGroup& group, std::size_t lane,
               Index first_handle, std::span<const PackedMotion> motions, Vector p) {
-    const Vector half = {0.5F * p.x, 0.5F * p.y, 0.5F * p.z};
+    const auto own = influences.motion().subspan(group.first, group.count);
+    const std::uint16_t* const shares = influences.share().data() + points_in_group * group.first + lane;
+    const auto weight_of = [](int share) { return static_cast<float>(share) * (1.0F / whole_share); };
     Blend sum = {};
-    for (std::size_t entry = group.first; entry < group.first + group.count; ++entry) {
-        const auto root = static_cast<float>(influences.root()[points_in_group * entry + lane]);
-        const float weight = root * root;
-        const Index number = influences.number()[entry];
-        add(weight, motions[number], sum);
-        if (number < first_handle) continue;
-        const Blend handle = one_motion(motions[number]);
-        Four turned = handle.a0 * half.x + handle.a1 * half.y + handle.a2 * half.z;
-        turned[3] = half.z;
-        sum.a1[3] += weight * half.x;
-        sum.a2[3] += weight * half.y;
-        sum.b += weight * turned;
+    int left = whole_share;
+    for (std::size_t e = 0; e < own.size(); ++e) {
+        const int share = shares[points_in_group * e];
+        left -= share;
+        add(weight_of(share), motions[own[e]], sum);
     }
+    add(weight_of(left), motions[group.motion], sum);
+    for (std::size_t e = own.size(); e > 0 && own[e - 1] >= first_handle; --e) // handles come last
+        add_place(weight_of(shares[points_in_group * (e - 1)]), motions[own[e - 1]], p, sum);
+    if (group.motion >= first_handle) add_place(weight_of(left), motions[group.motion], p, sum);
     return sum;
 }
 
@@ -101,19 +111,16 @@ float same_or(float rest, float value) {
 }
 
 Vector moved(Vector p, const Blend& map) {
-    const float share = 1.0F / map.a0[3];
-    const Vector q = {p.x - map.a1[3] * share, p.y - map.a2[3] * share, p.z - map.b[3] * share};
-    const Four d = (map.a0 * q.x + map.a1 * q.y + map.a2 * q.z + map.b) * share;
+    const Vector q = {p.x - map.a1[3], p.y - map.a2[3], p.z - map.b[3]};
+    const Four d = map.b + map.a0 * q.x + map.a1 * q.y + map.a2 * q.z;
     return {plus(p.x, d[0]), plus(p.y, d[1]), plus(p.z, d[2])};
 }
 
 // The cofactor matrix of I + A has the cross products of its columns for columns.
 Vector turned(Vector n, const Blend& map) {
-    const float share = 1.0F / map.a0[3];
-    const Four a0 = map.a0 * share, a1 = map.a1 * share, a2 = map.a2 * share;
-    const Vector a = {a0[0] + 1.0F, a0[1], a0[2]};
-    const Vector b = {a1[0], a1[1] + 1.0F, a1[2]};
-    const Vector c = {a2[0], a2[1], a2[2] + 1.0F};
+    const Vector a = {map.a0[0] + 1.0F, map.a0[1], map.a0[2]};
+    const Vector b = {map.a1[0], map.a1[1] + 1.0F, map.a1[2]};
+    const Vector c = {map.a2[0], map.a2[1], map.a2[2] + 1.0F};
     const Vector u = cross(b, c);
     const Vector v = cross(c, a);
     const Vector w = cross(a, b);

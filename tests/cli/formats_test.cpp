@@ -49,7 +49,7 @@ TEST_F(Formats, AnUneditedCloudComesBackAsTheIdenticalFile) {
 TEST_F(Formats, OutConvertsByItsExtensionAndWarnsOfWhatIsLost) {
     ASSERT_EQ(run({"make", "bar", "--points", "600", "--out", "bar.ply"}).code, 0);
     session("bar.ply", ends + lift);
-    ASSERT_EQ(run({"replay", "s.knead", "--out", "bent.ply"}).code, 0);
+    ASSERT_EQ(run({"replay", "s.knead", "--out", "bent.ply", "--device", "reference"}).code, 0);
     const Outcome outcome =
         run({"replay", "s.knead", "--out", "bent.las", "--json", "--device", "reference"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;

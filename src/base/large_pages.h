@@ -10,18 +10,30 @@
 
 namespace knead {
 
-// Asks for it, for memory that nothing was written to so far. Only a wish: nothing is told of how it went.
-void ask_for_large_pages(void* memory, std::size_t bytes);
+class Workers;
+
+// Asks for them, for memory that nothing was written to so far, and has all workers take them at once: a page
+// is cleared when it is touched first, and a vector that is filled touches them one after the other. Only a
+// wish: nothing is told of how it went.
+void take_large_pages(void* memory, std::size_t bytes, Workers& workers);
 
 // array.resize(count), in new memory if it has to become larger; what the array held is lost then.
 template<typename Value>
-void resize_in_large_pages(std::vector<Value>& array, std::size_t count) {
+void resize_in_large_pages(std::vector<Value>& array, std::size_t count, Workers& workers) {
     if (count > array.capacity()) {
         array = {};
         array.reserve(count);
-        ask_for_large_pages(array.data(), count * sizeof(Value));
+        take_large_pages(array.data(), count * sizeof(Value), workers);
     }
     array.resize(count);
+}
+
+// So many zeros.
+template<typename Value>
+std::vector<Value> zeros_in_large_pages(std::size_t count, Workers& workers) {
+    std::vector<Value> array;
+    resize_in_large_pages(array, count, workers);
+    return array;
 }
 
 } // namespace knead

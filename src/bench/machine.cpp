@@ -60,8 +60,8 @@ Machine this_machine() {
 Summary copy_seconds(std::size_t bytes, std::size_t repeats, Workers& workers) {
     const std::size_t half = std::max<std::size_t>(bytes / 2, 1);
     std::vector<char> from, to;
-    resize_in_large_pages(from, half);
-    resize_in_large_pages(to, half);
+    resize_in_large_pages(from, half, workers);
+    resize_in_large_pages(to, half, workers);
     std::vector<double> seconds;
     for (std::size_t r = 0; r <= repeats; ++r) {
         const Stopwatch clock;

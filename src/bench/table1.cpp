@@ -152,8 +152,8 @@ UpsampleFigures compare_upsamplers(UpsamplerProbe& probe, Workers& workers, Prog
     reference->prepare(input, probe.motions().size());
     std::vector<float> moved[2], turned[2];
     std::vector<double> seconds[2];
-    for (auto& positions : moved) resize_in_large_pages(positions, input.positions.size());
-    for (auto& normals : turned) resize_in_large_pages(normals, input.normals.size());
+    for (auto& positions : moved) resize_in_large_pages(positions, input.positions.size(), workers);
+    for (auto& normals : turned) resize_in_large_pages(normals, input.normals.size(), workers);
     // In turns, so that what else the machine does meets both alike.
     for (std::size_t f = 0; f < warm_up_frames + frames; ++f) {
         progress.step("comparing with the reference", static_cast<double>(f) / (warm_up_frames + frames));

@@ -58,11 +58,12 @@ void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
         prepare_systems();
         stale_.systems = false;
     }
+    // Before more is taken: what the stages above worked with is freed by now.
+    if (std::exchange(stale_.memory, false)) give_back_freed_memory();
     if (stale_.upsampler) {
         prepare_upsampler();
         stale_.upsampler = false;
     }
-    if (std::exchange(stale_.memory, false)) give_back_freed_memory();
 }
 
 void Pipeline::prepare_ahead(const Settings& settings, Progress& progress) {
@@ -109,10 +110,10 @@ void Pipeline::prepare_order(Progress& progress) {
     order_ = order_points(cloud_.positions, workers_, progress);
     require(order_.points() > 0, "a pipeline needs a finite point");
     RestShape opened;
-    resize_in_large_pages(opened.positions, 3 * order_.points());
+    resize_in_large_pages(opened.positions, 3 * order_.points(), workers_);
     gather(order_, cloud_.positions, 3, opened.positions, workers_);
     const std::vector<float> normals = read_normals(cloud_);
-    resize_in_large_pages(opened.normals, normals.empty() ? 0 : 3 * order_.points());
+    resize_in_large_pages(opened.normals, normals.empty() ? 0 : 3 * order_.points(), workers_);
     if (!normals.empty()) gather(order_, normals, 3, opened.normals, workers_);
     if (order_.vertices() < order_.points()) {
         merged_positions_ = knead::vertex_positions(order_, opened.positions, workers_);
@@ -258,8 +259,8 @@ void Pipeline::prepare_upsampler() {
             sum += point_at(rest.positions, order_.first_point[contacts_.vertex[at_contact]]);
         carried_.anchor[part] = sum / static_cast<double>(end - begin);
     }
-    resize_in_large_pages(posed_.positions, rest.positions.size());
-    resize_in_large_pages(posed_.normals, rest.normals.size());
+    resize_in_large_pages(posed_.positions, rest.positions.size(), workers_);
+    resize_in_large_pages(posed_.normals, rest.normals.size(), workers_);
     written_.resize(blocks_of(order_.points()), 0);
     find_row_ends(nearest_, changed_rows_, row_ends_, workers_);
     for (std::size_t block = 0; block < changed_rows_.size(); ++block)

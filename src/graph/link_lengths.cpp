@@ -1,5 +1,6 @@
 #include "graph/link_lengths.h"
 
+#include "base/large_pages.h"
 #include "base/types.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ double median_length(const Graph& graph, std::span<const float> positions) {
 std::vector<std::uint8_t> link_lengths(const Graph& graph, std::span<const float> positions,
                                        Workers& workers) {
     const double level = median_length(graph, positions) / levels_a_median_link;
-    std::vector<std::uint8_t> lengths(graph.neighbor.size());
+    auto lengths = zeros_in_large_pages<std::uint8_t>(graph.neighbor.size(), workers);
     workers.for_each(graph.size(), 4096, [&](std::size_t v) {
         for (std::size_t link = graph.first[v]; link < graph.first[v + 1]; ++link)
             lengths[link] = static_cast<std::uint8_t>(std::clamp(

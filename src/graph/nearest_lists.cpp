@@ -1,5 +1,6 @@
 #include "graph/nearest_lists.h"
 
+#include "base/large_pages.h"
 #include "base/require.h"
 #include "graph/point_order.h"
 #include "graph/scrambled.h"
@@ -271,7 +272,7 @@ std::vector<Index> nearest_lists(std::span<const float> positions, std::size_t k
     progress.step("finding neighbours", 0);
     const std::vector<Tree> trees = make_trees(positions, most_a_tree, workers);
     const std::vector<Run> runs = runs_of(trees);
-    std::vector<Index> lists(vertices * k);
+    auto lists = zeros_in_large_pages<Index>(vertices * k, workers);
     constexpr std::size_t runs_a_step = 256; // so that a long search can be stopped
     for (std::size_t first = 0; first < runs.size(); first += runs_a_step) {
         progress.step("finding neighbours",

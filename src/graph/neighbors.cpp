@@ -1,6 +1,7 @@
 #include "graph/neighbors.h"
 
 #include "base/gathered.h"
+#include "base/large_pages.h"
 #include "base/require.h"
 #include "graph/disjoint_sets.h"
 #include "graph/nearest_lists.h"
@@ -20,7 +21,7 @@ constexpr std::size_t vertices_a_range = 1 << 14;
 // vertices; few links lead out of one, to near numbers as they do.
 template<typename Stays>
 std::vector<Index> roots_of(const Graph& graph, Stays&& stays, Workers& workers) {
-    std::vector<Index> parent(graph.size());
+    auto parent = zeros_in_large_pages<Index>(graph.size(), workers);
     std::iota(parent.begin(), parent.end(), Index{0});
     Gathered<std::pair<Index, Index>> leaving;
     workers.for_chunks(graph.size(), vertices_a_range, [&](std::size_t begin, std::size_t end) {
@@ -37,7 +38,7 @@ std::vector<Index> roots_of(const Graph& graph, Stays&& stays, Workers& workers)
             }
     });
     leaving.take([&](const auto& link) { join(parent, link.first, link.second); });
-    std::vector<Index> root(graph.size());
+    auto root = zeros_in_large_pages<Index>(graph.size(), workers);
     workers.for_each(graph.size(), vertices_a_range, [&](std::size_t v) {
         Index at = parent[v];
         while (parent[at] != at) at = parent[at];

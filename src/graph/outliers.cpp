@@ -1,5 +1,7 @@
 #include "graph/outliers.h"
 
+#include "base/large_pages.h"
+
 #include "graph/bridges.h"
 #include "graph/group_tree.h"
 #include "graph/neighbors.h"
@@ -47,7 +49,7 @@ float third_of(std::span<const Index> row, ValueOf&& value_of) {
 // The pieces that are left when long links are cut.
 Components cut_long_links(const Graph& graph, std::span<const float> positions,
                           std::span<const float> spacing, Workers& workers) {
-    std::vector<std::uint8_t> is_short(graph.neighbor.size());
+    auto is_short = zeros_in_large_pages<std::uint8_t>(graph.neighbor.size(), workers);
     constexpr auto limit = static_cast<float>(short_way * short_way);
     workers.for_each(graph.size(), grain, [&](std::size_t v) {
         for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link) {
@@ -86,8 +88,8 @@ std::vector<std::uint8_t> find_sticking_out(std::span<const float> positions, co
 
 Spacings find_spacings(const Graph& graph, std::span<const float> positions, Workers& workers) {
     Spacings spacings;
-    spacings.own.resize(graph.size());
-    spacings.around.resize(graph.size());
+    resize_in_large_pages(spacings.own, graph.size(), workers);
+    resize_in_large_pages(spacings.around, graph.size(), workers);
     workers.for_each(graph.size(), grain, [&](std::size_t v) {
         spacings.own[v] =
             std::sqrt(third_of(graph.row(v), [&](Index u) { return squared_distance(positions, v, u); }));

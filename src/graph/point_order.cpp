@@ -1,5 +1,6 @@
 #include "graph/point_order.h"
 
+#include "base/large_pages.h"
 #include "base/require.h"
 
 #include <algorithm>
@@ -61,7 +62,7 @@ void radix_pass(std::span<const Keyed> from, std::span<Keyed> to, int shift, Wor
 }
 
 void sort_by_code(std::vector<Keyed>& items, Workers& workers) {
-    std::vector<Keyed> other(items.size());
+    auto other = zeros_in_large_pages<Keyed>(items.size(), workers);
     for (int shift = 0; shift < 3 * bits_an_axis; shift += 11) {
         radix_pass(items, other, shift, workers);
         items.swap(other);
@@ -151,6 +152,7 @@ PointOrder order_points(std::span<const float> positions, Workers& workers, Prog
     progress.step("ordering the points", 0);
     std::vector<Keyed> items;
     items.reserve(points);
+    take_large_pages(items.data(), points * sizeof(Keyed), workers);
     for (std::size_t i = 0; i < points; ++i)
         if (finite_at(positions, i)) items.push_back({0, static_cast<Index>(i)});
 

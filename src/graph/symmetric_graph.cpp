@@ -1,5 +1,6 @@
 #include "graph/symmetric_graph.h"
 
+#include "base/large_pages.h"
 #include "base/require.h"
 
 #include <algorithm>
@@ -53,7 +54,7 @@ void counts_to_rows(std::vector<Index>& counts) {
 Graph symmetric_graph(std::span<const Index> lists, std::size_t width, Workers& workers) {
     Graph graph;
     const std::size_t vertices = width == 0 ? 0 : lists.size() / width;
-    graph.first.assign(vertices + 1, 0);
+    resize_in_large_pages(graph.first, vertices + 1, workers);
     const auto list = [&](std::size_t v) { return lists.subspan(v * width, width); };
 
     // Calls found(i, j) for every link i → j whose back link the lists lack.
@@ -71,8 +72,8 @@ Graph symmetric_graph(std::span<const Index> lists, std::size_t width, Workers& 
         [&](Index, Index j) { std::atomic_ref(graph.first[j]).fetch_add(1, std::memory_order_relaxed); });
     counts_to_rows(graph.first);
 
-    graph.neighbor.resize(graph.first.back());
-    std::vector<Index> end(vertices);
+    resize_in_large_pages(graph.neighbor, graph.first.back(), workers);
+    auto end = zeros_in_large_pages<Index>(vertices, workers);
     workers.for_each(vertices, grain, [&](std::size_t i) {
         Index at = graph.first[i];
         for (const Index j : list(i))

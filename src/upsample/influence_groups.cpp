@@ -19,84 +19,6 @@ constexpr std::size_t grain = 16; // blocks
 // Of every so many entries, room for one more is kept for blocks that grow.
 constexpr std::size_t entries_for_one_spare = 32;
 
-using Weights = std::array<float, influences_per_row>;
-
-// What moves one point.
-struct Lane {
-    std::array<Index, influences_per_row> motion; // as a group has them
-    std::array<std::uint16_t, influences_per_row> share;
-    std::size_t count = 0;
-};
-
-Index entry_of(Index motion) {
-    return motion + 1;
-}
-constexpr Index nobody = 0;
-
-Lane moved_alone(Index motion) {
-    Lane lane;
-    lane.motion[0] = motion;
-    lane.share[0] = whole_share;
-    lane.count = 1;
-    return lane;
-}
-
-// The weights in parts of `whole_share`. What rounding leaves over, or takes too much, is that of the
-// largest.
-std::array<std::uint16_t, influences_per_row> shares_of(const Weights& weight) {
-    float sum = 0;
-    for (const float one : weight) sum += one;
-    const float scale = float{whole_share} / sum;
-    std::array<std::int32_t, influences_per_row> parts;
-    for (std::size_t k = 0; k < influences_per_row; ++k)
-        parts[k] = static_cast<std::int32_t>(weight[k] * scale + 0.5F);
-    std::int32_t left = whole_share;
-    std::size_t largest = 0;
-    for (std::size_t k = 0; k < influences_per_row; ++k) {
-        left -= parts[k];
-        if (parts[k] > parts[largest]) largest = k;
-    }
-    parts[largest] += left;
-    std::array<std::uint16_t, influences_per_row> shares;
-    for (std::size_t k = 0; k < influences_per_row; ++k) shares[k] = static_cast<std::uint16_t>(parts[k]);
-    return shares;
-}
-
-// weights_of() where nothing of it is special, which is nearly everywhere: a full row of samples, with smooth
-// weights. False elsewhere.
-template<typename Number>
-bool take_usual_weights(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights,
-                        Weights& weight) {
-    const Number nearest = row.distance.front(), farthest = row.distance.back();
-    Number last = 0;
-    for (const Number sample : row.sample) last = std::max(last, sample);
-    if (weights != InfluenceWeights::smooth || last >= first_handle || row.sample.back() == row.none ||
-        nearest == farthest)
-        return false;
-    for (std::size_t k = 0; k < influences_per_row; ++k) {
-        const auto nearness = static_cast<float>(static_cast<Number>(farthest - row.distance[k]));
-        weight[k] = nearness * nearness;
-    }
-    return true;
-}
-
-template<typename Number>
-Lane moved_by(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights) {
-    Weights weight;
-    if (!take_usual_weights(row, first_handle, weights, weight)) {
-        if (row.count() == 0) return moved_alone(nobody);
-        weight = weights_of(row, first_handle, weights);
-    }
-    const auto shares = shares_of(weight);
-    Lane lane;
-    for (std::size_t k = 0; k < influences_per_row; ++k) {
-        lane.motion[lane.count] = entry_of(row.sample[k]);
-        lane.share[lane.count] = shares[k];
-        lane.count += shares[k] != 0 ? 1 : 0; // what has no share is written over
-    }
-    return lane;
-}
-
 // A group that is being made: each motion once, in the order in which they are met.
 struct MadeGroup {
     static constexpr std::size_t most = points_in_group * influences_per_row;
@@ -109,12 +31,14 @@ struct MadeGroup {
         count = 0;
         guess.fill(0);
     }
-    void add(const Lane& lane, std::size_t point) {
-        for (std::size_t k = 0; k < lane.count; ++k) {
-            const std::size_t at = place_of(lane.motion[k], guess[k]);
-            guess[k] = at;
-            share[at][point] = lane.share[k];
-        }
+    // Those that move one more point.
+    void add(const Movers& movers) {
+        for (std::size_t k = 0; k < movers.count; ++k) guess[k] = place_of(movers.motion[k], guess[k]);
+    }
+    void add(const Movers& movers, std::size_t point) {
+        add(movers);
+        const auto shares = shares_of(movers);
+        for (std::size_t k = 0; k < movers.count; ++k) share[guess[k]][point] = shares[k];
     }
     std::size_t place_of(Index wanted, std::size_t likely) {
         if (likely < count && motion[likely] == wanted) return likely;
@@ -133,26 +57,33 @@ struct MadeGroup {
     }
 };
 
-template<typename Rows>
+// What a group is made for: to know how many motions it has, or with their shares, too.
+enum class Wanted { count, shares };
+
+template<Wanted wanted, typename Rows>
 void make_group(const UpsampleInput& input, const Rows& rows, std::size_t first, std::size_t end,
                 MadeGroup& made) {
     made.begin();
     for (std::size_t i = first; i < end; ++i) {
         const Index mover = input.mover[i];
-        made.add(mover < rows.size() ? moved_by(rows[mover], input.rows->first_handle, input.weights)
-                                     : moved_alone(entry_of(static_cast<Index>(mover - rows.size()))),
-                 i - first);
+        const Movers movers = mover < rows.size()
+                                  ? movers_of(rows[mover], input.rows->first_handle, input.weights)
+                                  : moved_alone(static_cast<Index>(mover - rows.size()) + 1);
+        if constexpr (wanted == Wanted::count)
+            made.add(movers);
+        else
+            made.add(movers, i - first);
     }
 }
 
 // Calls take(group, made) for each group of a block.
-template<typename Take>
+template<Wanted wanted, typename Take>
 void for_groups(const UpsampleInput& input, std::size_t block, MadeGroup& made, Take&& take) {
     const PointRange own = points_of(block, input.mover.size());
     std::visit(
         [&](const auto& rows) {
             for (std::size_t first = own.first; first < own.end; first += points_in_group) {
-                make_group(input, rows, first, std::min(first + points_in_group, own.end), made);
+                make_group<wanted>(input, rows, first, std::min(first + points_in_group, own.end), made);
                 take(first / points_in_group, made);
             }
         },
@@ -189,7 +120,7 @@ std::vector<Index> InfluenceGroups::count_entries(std::span<const Index> blocks,
     workers.for_chunks(blocks.size(), grain, [&](std::size_t begin, std::size_t end) {
         MadeGroup made;
         for (std::size_t b = begin; b < end; ++b)
-            for_groups(input, blocks[b], made, [&](std::size_t group, const MadeGroup& one) {
+            for_groups<Wanted::count>(input, blocks[b], made, [&](std::size_t group, const MadeGroup& one) {
                 groups_[group].count = static_cast<Index>(one.count - 1);
                 counts[b] += groups_[group].count;
             });
@@ -205,7 +136,7 @@ void InfluenceGroups::write_entries(std::span<const Index> blocks, const Upsampl
         std::array<std::uint8_t, MadeGroup::most> places;
         for (std::size_t b = begin; b < end; ++b) {
             std::size_t at = room_[blocks[b]].first;
-            for_groups(input, blocks[b], made, [&](std::size_t group, const MadeGroup& one) {
+            for_groups<Wanted::shares>(input, blocks[b], made, [&](std::size_t group, const MadeGroup& one) {
                 const auto entries = one.sorted(places);
                 groups_[group].motion = one.motion[entries[0]];
                 groups_[group].first = static_cast<Index>(at);
@@ -238,8 +169,8 @@ void InfluenceGroups::make_all(const UpsampleInput& input, Workers& workers) {
     const std::size_t size = used_ + used_ / entries_for_one_spare;
     if (size > no_index)
         throw Error(Trouble::numeric, "", "these are more points than can be moved; take fewer of them");
-    resize_in_large_pages(motion_, size);
-    resize_in_large_pages(share_, points_in_group * size);
+    resize_in_large_pages(motion_, size, workers);
+    resize_in_large_pages(share_, points_in_group * size, workers);
     write_entries(all, input, workers);
 }
 

@@ -12,6 +12,7 @@
 // a point that is held is held to the bit. (Rounding moves a point by 1/131,070 of how far apart the motions
 // around it send it, at most for each; distances come in coarser levels, graph/flood.h.)
 
+#include "upsample/shares.h"
 #include "upsample/upsample.h"
 
 #include <cstdint>
@@ -21,7 +22,6 @@
 namespace knead {
 
 inline constexpr std::size_t points_in_group = 16;
-inline constexpr std::uint16_t whole_share = 65535;
 
 // `motion` has what entries `first` to `first` + `count` leave. They are numbered in rising order: handles
 // are last.

@@ -20,9 +20,12 @@ namespace knead {
 namespace {
 
 using Level = std::uint64_t;                  // no sum of two distances overflows
-constexpr std::uint32_t levels_a_round = 128; // fewer are more rounds, more are more ways round
-constexpr std::uint32_t ring = 256;           // levels that can wait at a time: those of a round and a link
-static_assert(ring > levels_a_round + longest_link);
+constexpr std::uint32_t levels_a_round = 512; // fewer are more rounds, more are more ways round
+// What goes on together: fewer levels are steps too short to look ahead, more are more ways round.
+constexpr std::uint32_t levels_a_step = 4;
+constexpr std::uint32_t ring = 256; // steps that can wait at a time: those of a round and a link
+static_assert(levels_a_round % levels_a_step == 0);
+static_assert(ring > (levels_a_round + longest_link) / levels_a_step + 1);
 // Of vertices a tile. Larger ones send less to each other, and smaller ones leave something for every core.
 constexpr std::size_t largest_tile = 1 << 14, smallest_tile = 1 << 10, fewest_tiles = 8;
 
@@ -178,10 +181,14 @@ private:
 
     // What a worker has in hand.
     struct OnTheWay {
-        std::array<Arrivals, ring> waiting; // inside a tile, by the level at which it goes on
+        std::array<Arrivals, ring> waiting; // inside a tile, by the step in which it goes on
         std::vector<Arrivals> leaving;      // by the tile that it goes to
         std::vector<Index> destinations;    // of what is leaving
+
+        Arrivals& waiting_at(Level level) { return waiting[level / levels_a_step % ring]; }
     };
+
+    static Level next_step(Level level) { return level - level % levels_a_step + levels_a_step; }
 
     // Finds the tiles that this round floods, and up to which level. Returns whether there are any.
     bool start_round() {
@@ -196,7 +203,7 @@ private:
         if (!starts_.empty()) lowest = std::min<Level>(lowest, starts_.back().distance);
         busy_.clear();
         if (lowest == never) return false;
-        end_ = lowest + levels_a_round;
+        end_ = lowest - lowest % levels_a_step + levels_a_round;
         let_start();
         for (Tile& tile : tiles_)
             if (tile.lowest < end_) busy_.push_back(&tile);
@@ -226,14 +233,15 @@ private:
         tile.arriving.all.clear();
         tile.arriving.lowest = never;
         for (const Arrival<Number>& arrival : tile.unfinished)
-            on_the_way.waiting[arrival.distance % ring].push_back(arrival);
+            on_the_way.waiting_at(arrival.distance).push_back(arrival);
         tile.unfinished.clear();
-        for (Level level = tile.lowest; level < end_ && !too_far_; ++level) {
-            Arrivals& going = on_the_way.waiting[level % ring]; // all links being longer, it does not grow
-            for (std::size_t i = 0; i < going.size(); ++i) {
+        for (Level level = tile.lowest; level < end_ && !too_far_; level = next_step(level)) {
+            Arrivals& going = on_the_way.waiting_at(level);
+            for (std::size_t i = 0; i < going.size(); ++i) { // it grows by links shorter than a step
                 look_ahead(going, i);
-                if (holds(rows_[going[i].vertex], going[i].sample, going[i].distance))
-                    pass_on(going[i], tile, on_the_way);
+                const Arrival<Number> arrival = going[i];
+                if (holds(rows_[arrival.vertex], arrival.sample, arrival.distance))
+                    pass_on(arrival, tile, on_the_way);
             }
             going.clear();
         }
@@ -262,7 +270,7 @@ private:
     void take_in(const Arrival<Number>& arrival, OnTheWay& on_the_way) {
         if (!is_kept_.empty()) keep(arrival.vertex);
         insert(rows_[arrival.vertex], arrival.sample, arrival.distance);
-        on_the_way.waiting[arrival.distance % ring].push_back(arrival);
+        on_the_way.waiting_at(arrival.distance).push_back(arrival);
     }
 
     void pass_on(const Arrival<Number>& from, const Tile& tile, OnTheWay& on_the_way) {
@@ -308,8 +316,8 @@ private:
     // Leaves with the tile what waits for later rounds.
     void put_aside(Tile& tile, OnTheWay& on_the_way) {
         tile.lowest = never;
-        for (Level level = end_; level < end_ + longest_link; ++level) {
-            Arrivals& rest = on_the_way.waiting[level % ring];
+        for (Level level = end_; level < end_ + longest_link; level = next_step(level)) {
+            Arrivals& rest = on_the_way.waiting_at(level);
             if (!rest.empty()) tile.lowest = std::min(tile.lowest, level);
             tile.unfinished.insert(tile.unfinished.end(), rest.begin(), rest.end());
             rest.clear();

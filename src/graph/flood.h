@@ -9,7 +9,7 @@
 // it there beats it at p too. Vertices should be numbered so that neighbours have near numbers (PointOrder):
 // the flood goes through them in tiles that fit into a cache.
 //
-// A link is 1 to 63 levels long. With all of them 1, distance is the number of links, as in the paper. knead
+// A link is 1 to 255 levels long. With all of them 1, distance is the number of links, as in the paper. knead
 // measures them by their length (link_lengths()): the number of links follows the lattice that a scanner left
 // rather than the surface, and on the survey's cylinder it tore the tube apart between rings. Equal distances
 // go by sample number, so samples should be numbered in no particular direction, and, as whatever is kept of

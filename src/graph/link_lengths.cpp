@@ -10,7 +10,7 @@ namespace knead {
 
 namespace {
 
-constexpr double levels_a_median_link = 4;
+constexpr double levels_a_median_link = 16;
 
 double length_of(const Graph& graph, std::span<const float> positions, std::size_t v, std::size_t link) {
     return (point_at(positions, v) - point_at(positions, graph.neighbor[link])).norm();

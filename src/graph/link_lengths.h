@@ -10,10 +10,10 @@
 
 namespace knead {
 
-inline constexpr std::uint32_t longest_link = 63; // levels
+inline constexpr std::uint32_t longest_link = 255; // levels
 
-// How long each link is, in levels: its length over a quarter of the median, rounded, 1 … 63; one entry for
-// every entry of graph.neighbor. `positions`: 3 floats a vertex.
+// How long each link is, in levels: its length over a sixteenth of the median, rounded, 1 … 255; one entry
+// for every entry of graph.neighbor. `positions`: 3 floats a vertex.
 std::vector<std::uint8_t> link_lengths(const Graph& graph, std::span<const float> positions,
                                        Workers& workers);
 

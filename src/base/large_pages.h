@@ -21,7 +21,7 @@ void take_large_pages(void* memory, std::size_t bytes, Workers& workers);
 template<typename Value>
 void resize_in_large_pages(std::vector<Value>& array, std::size_t count, Workers& workers) {
     if (count > array.capacity()) {
-        array = {};
+        array = std::vector<Value>(); // {} would keep the memory
         array.reserve(count);
         take_large_pages(array.data(), count * sizeof(Value), workers);
     }

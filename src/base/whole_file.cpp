@@ -101,11 +101,7 @@ void sync_folder(const std::filesystem::path& folder) {
 }
 
 FileInTheMaking::FileInTheMaking(const std::filesystem::path& target) : shown_(target), target_(target) {
-    std::error_code ignored;
-    if (std::filesystem::is_symlink(target, ignored)) {
-        const auto named = std::filesystem::weakly_canonical(target, ignored);
-        if (!ignored) target_ = named;
-    }
+    follow_links();
     struct stat facts {};
     const bool is_there = ::stat(target_.c_str(), &facts) == 0;
     refuse_target();
@@ -119,6 +115,17 @@ FileInTheMaking::FileInTheMaking(const std::filesystem::path& target) : shown_(t
     const int descriptor = temporary_->descriptor();
     if (is_there) (void)::fchown(descriptor, facts.st_uid, facts.st_gid); // as far as it is allowed
     (void)::fchmod(descriptor, is_there ? facts.st_mode & 07777 : 0666 & ~mask);
+}
+
+// To what the target names, which need not be there.
+void FileInTheMaking::follow_links() {
+    std::error_code trouble;
+    for (int most = 40; most > 0 && std::filesystem::is_symlink(target_, trouble);
+         --most) { // as many as Linux
+        const auto named = std::filesystem::read_symlink(target_, trouble);
+        if (trouble) return;
+        target_ = target_.parent_path() / named;
+    }
 }
 
 // What a renaming over the target would meet.

@@ -68,6 +68,7 @@ public:
     void commit();
 
 private:
+    void follow_links();
     void refuse_target() const;
 
     std::filesystem::path shown_; // as the user named it, for errors

@@ -134,8 +134,13 @@ int run_replay(const Arguments& arguments, Terminal& terminal) {
     }
     ReplayReport report =
         replay(session, options, terminal, [&](const std::string& words) { terminal.warn(words); });
-    if (pictures)
+    if (pictures) {
         for (std::filesystem::path& path : pictures->targets()) report.written.push_back(std::move(path));
+        if (const std::string words = pictures->words_about_other_frames(); !words.empty()) {
+            report.warnings.push_back(words);
+            terminal.warn(words);
+        }
+    }
     terminal.clear_bar();
     if (arguments.dry_run)
         terminal.say(arguments.session + ": " + counted(session.lines.size() + 1, "line") +

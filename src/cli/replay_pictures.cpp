@@ -78,6 +78,17 @@ std::function<void(Outputs&)> ReplayPictures::adding() {
     };
 }
 
+std::string ReplayPictures::words_about_other_frames() const {
+    if (state_->options.frames.empty()) return {};
+    const fs::path folder = folder_of(state_->options.frames);
+    std::size_t last = state_->frames;
+    std::error_code ignored;
+    while (fs::exists(folder / frame_name(last + 1), ignored)) ++last;
+    if (last == state_->frames) return {};
+    return folder.string() + " holds frames of an earlier run, too, up to " + frame_name(last) +
+           "; this one's last is " + (state_->frames > 0 ? frame_name(state_->frames) : "none");
+}
+
 std::vector<fs::path> ReplayPictures::targets() const {
     std::vector<fs::path> targets;
     if (!state_->options.picture.empty()) targets.emplace_back(state_->options.picture);

@@ -69,7 +69,12 @@ std::optional<LostWork> look_at(const std::filesystem::path& file) {
     const Descriptor journal(::open(file.c_str(), O_RDWR | O_CLOEXEC));
     if (!journal || !lock(journal)) return std::nullopt;
     try {
-        const Session session = parse_session(mended(read_all(journal, file), file).text, file);
+        const std::string text = read_all(journal, file);
+        if (text.empty()) { // the disk was full before its first line
+            remove_journal(file);
+            return std::nullopt;
+        }
+        const Session session = parse_session(mended(text, file).text, file);
         const JournalFacts facts = read_journal_facts(file);
         if (const std::size_t lost = lost_lines(session.lines, facts.saved_lines); lost > 0)
             return LostWork{file, session.resolve(session.cloud), facts.session, lost,
@@ -104,7 +109,12 @@ Journal Journal::create(const std::filesystem::path& folder, const std::string& 
         struct stat status {};
         if (::fstat(made.value(), &status) == 0 && status.st_nlink == 0) continue;
         Journal journal(file, std::move(made));
-        journal.append(header);
+        try {
+            journal.append(header);
+        } catch (...) {
+            journal.discard(); // or a full disk would be left one more empty file by every act
+            throw;
+        }
         sync_folder(folder); // or the file could be nameless after a power cut
         return journal;
     }

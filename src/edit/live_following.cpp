@@ -59,9 +59,9 @@ void LiveWork::carry_out(task::EndDrag& task) {
             progress_.stop_if_cancelled();
             follow();
         }
-    } catch (const Error&) {
-        trouble = std::current_exception();
-    } catch (const std::bad_alloc&) {
+    } catch (const Cancelled&) {
+        throw;
+    } catch (...) { // also what nobody foresaw: a drag that never ends would keep everything after it waiting
         trouble = std::current_exception();
     }
     if (drag_->line.frames.empty()) {

@@ -75,7 +75,36 @@ LiveRecording::LiveRecording(const Session& session, const std::optional<std::fi
     if (restored) {
         journal_ = Journal::take_over(*restored);
         facts_ = read_journal_facts(*restored);
+        facts_are_written_ = true;
         written_ = session.lines.size();
+        const Session before = parse_session(session.header_text + "\n", *restored);
+        if (plain_path(before.resolve(before.cloud)) != cloud_) begin_journal_again(session);
+    }
+}
+
+Journal LiveRecording::begin_journal(const std::filesystem::path& folder) const {
+    Session header = header_;
+    header.cloud = cloud_;
+    return Journal::create(folder, header_text(header));
+}
+
+// The cloud of what is restored lies elsewhere now: a journal says where in its first line.
+void LiveRecording::begin_journal_again(const Session& session) {
+    std::string lines;
+    for (const SessionLine& line : session.lines) lines += (lines.empty() ? "" : "\n") + line.text;
+    try {
+        Journal again = begin_journal(journal_->file().parent_path());
+        try {
+            if (!lines.empty()) again.append(lines);
+            write_journal_facts(again.file(), facts_);
+        } catch (...) {
+            again.discard();
+            throw;
+        }
+        journal_->discard();
+        journal_ = std::move(again);
+    } catch (const Error&) {
+        // The old one holds all acts, and where the cloud is can be told again.
     }
 }
 
@@ -90,17 +119,15 @@ void LiveRecording::is_in(const std::filesystem::path& session) {
     facts_.session = std::filesystem::absolute(session);
     facts_.stamp = stamp_of(session);
     facts_.saved_lines = lines_.size();
-    if (journal_) write_journal_facts(journal_->file(), facts_);
+    write_facts();
 }
 
 void LiveRecording::chooses_samples(bool by_itself) {
-    if (std::exchange(facts_.chooses_samples, by_itself) == by_itself) return;
-    if (journal_) write_journal_facts(journal_->file(), facts_);
+    if (std::exchange(facts_.chooses_samples, by_itself) != by_itself) write_facts();
 }
 
 void LiveRecording::is_on(const std::optional<FileStamp>& cloud) {
-    if (std::exchange(facts_.cloud, cloud) == cloud) return;
-    if (journal_) write_journal_facts(journal_->file(), facts_);
+    if (std::exchange(facts_.cloud, cloud) != cloud) write_facts();
 }
 
 void LiveRecording::add(const SessionAction& act, bool joins_step) {
@@ -193,14 +220,19 @@ void LiveRecording::write_down(const SessionAction& line) {
     looked_forward_ = 0;
     lines_.push_back(line);
     if (!journal_ && folder_.empty()) return;
-    const bool begins = !journal_;
-    if (begins) {
-        Session header = header_;
-        header.cloud = cloud_;
-        journal_ = Journal::create(folder_, header_text(header));
+    if (!journal_) {
+        journal_ = begin_journal(folder_);
+        facts_are_written_ = false;
     }
     for (; written_ < lines_.size(); ++written_) journal_->append(to_text(lines_[written_]));
-    if (begins) write_journal_facts(journal_->file(), facts_);
+    if (!facts_are_written_) write_facts();
+}
+
+void LiveRecording::write_facts() {
+    if (!journal_) return;
+    facts_are_written_ = false; // and if this fails, the next line tries again
+    write_journal_facts(journal_->file(), facts_);
+    facts_are_written_ = true;
 }
 
 } // namespace knead

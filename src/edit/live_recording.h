@@ -87,7 +87,10 @@ public:
 
 private:
     void write_down(const SessionAction& line);
+    void write_facts();
     void undo_what_was_looked_back();
+    Journal begin_journal(const std::filesystem::path& folder) const;
+    void begin_journal_again(const Session& session);
 
     Session header_;
     std::filesystem::path cloud_;
@@ -106,6 +109,7 @@ private:
     std::filesystem::path folder_; // of the journal; empty: none is kept
     std::optional<Journal> journal_;
     JournalFacts facts_;
+    bool facts_are_written_ = false;
     std::size_t written_ = 0; // lines that the journal has; a restored one has more than were replayed so far
 };
 

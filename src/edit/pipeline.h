@@ -185,6 +185,7 @@ private:
     // Calls visit(sample, handle) for every handle of a single point that leaves rotation free.
     template<typename Visit>
     void for_lone_pegs(Visit&& visit) const;
+    void put_exactly(Index sample, const Vec3d& displacement);
 
     const PointCloud& cloud_;
     Workers& workers_;

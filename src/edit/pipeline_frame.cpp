@@ -100,6 +100,21 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
     ++upsampled_;
     for (const Index block : upsampler_.run(motions_, posed_.positions, posed_.normals, Held::last_frame))
         written_[block] = upsampled_;
+    for_lone_pegs([&](Index s, Index /*handle*/) { put_exactly(s, state.displacement[s]); });
+}
+
+// A turn about a point is b - A p in floats, and b misses A p by their rounding: a peg that is held keeps its
+// bytes all the same.
+void Pipeline::put_exactly(Index sample, const Vec3d& displacement) {
+    const RestShape& rest = input_.rest ? *input_.rest : opened_;
+    const Index vertex = samples_[sample];
+    for (Index point = order_.first_point[vertex]; point < order_.first_point[vertex + 1]; ++point)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::size_t at = 3 * std::size_t{point} + axis;
+            const double way = displacement[static_cast<Eigen::Index>(axis)];
+            posed_.positions[at] =
+                way == 0 ? rest.positions[at] : static_cast<float>(double{rest.positions[at]} + way);
+        }
 }
 
 HandleDemand Pipeline::demand(const SampleState& state) const {

@@ -88,12 +88,28 @@ private:
             path, options_.cloud ? *options_.cloud : session_.resolve(session_.cloud), ignored);
     }
 
-    // What cannot be written is told before the work, not after it.
+    // What cannot be written, or should not be, is told before the work, not after it.
     void refuse_bad_targets() const {
         if (options_.out) refuse_bad_target(*options_.out);
         if (!options_.record_checks || options_.rehearse) return;
         const TemporaryFolder checks(folder_of_session());
         const FileInTheMaking session(session_.file);
+        refuse_other_uses_of_checks();
+    }
+
+    // A check is written beside the session, over what has its name.
+    void refuse_other_uses_of_checks() const {
+        std::error_code ignored;
+        for (const auto& entry : std::filesystem::directory_iterator(folder_of_session(), ignored))
+            if (is_name_of_check(entry.path().filename()) && is_cloud(entry.path()))
+                throw Error(Trouble::output, entry.path().string(),
+                            "is the cloud that the session begins with, and has the name of a check that "
+                            "would be recorded over it; give the cloud another name");
+        if (!options_.out || !is_name_of_check(options_.out->filename())) return;
+        const std::filesystem::path folder = options_.out->parent_path();
+        if (std::filesystem::equivalent(folder.empty() ? "." : folder, folder_of_session(), ignored))
+            throw Error(Trouble::output, options_.out->string(),
+                        "has the name of a check that would be recorded; give the shape another one");
     }
 
     // So is a missing file.
@@ -133,7 +149,8 @@ private:
              const std::string& /*place*/) {
         document.settle(line, progress_);
         checked_ = false;
-        if (document.on_frame) document.on_frame();
+        if (options_.after_frame && !options_.rehearse)
+            options_.after_frame(document, document.shape(progress_)); // nothing need be posed
     }
     void act(Document& document, const CheckLine& line, std::size_t number, const std::string& /*place*/) {
         if (!is_recorded_name(line.positions)) check(document, line, number);
@@ -203,8 +220,14 @@ private:
 
     // Whether a check's cloud is one that this run records anew.
     bool is_recorded_name(const std::filesystem::path& name) const {
-        return options_.record_checks && name.parent_path().empty() && name.extension() == ".ply" &&
-               name.string().starts_with(session_.file.stem().string() + "-check-");
+        return options_.record_checks && name.parent_path().empty() && is_name_of_check(name);
+    }
+
+    // Whether recorded_name() makes such names.
+    bool is_name_of_check(const std::filesystem::path& name) const {
+        const std::string stem = name.stem().string(), begin = session_.file.stem().string() + "-check-";
+        return name.extension() == ".ply" && stem.starts_with(begin) && stem.size() > begin.size() &&
+               std::ranges::all_of(stem.substr(begin.size()), [](char c) { return c >= '0' && c <= '9'; });
     }
 
     // That of the check which is recorded anew, or a usual one.

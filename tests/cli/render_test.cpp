@@ -174,6 +174,29 @@ TEST_F(Render, ReplayDrawsEveryFrame) {
     EXPECT_EQ(files_in(folder.path()), (std::vector<std::string>{"a.png", "bar.ply", "frames", "s.knead"}));
 }
 
+TEST_F(Render, ASettlingIsAFrameOfTheShapeThatIsThere) {
+    const std::string settle = "{\"op\":\"settle\",\"iterations\":2}\n";
+    write_text(folder / "s.knead", session_text + "{\"op\":\"undo\"}\n{\"op\":\"undo\"}\n" + settle);
+    ASSERT_EQ(replay({"--frames", "frames", "--picture", "a.png", "--size", "120x90"}).code, 0);
+    EXPECT_NE(read_text(folder / "frames/frame-000003.png"), read_text(folder / "frames/frame-000004.png"));
+    const std::string header = session_text.substr(0, session_text.find('\n') + 1);
+    write_text(folder / "s.knead", header + settle); // before anything is posed
+    const Outcome outcome = replay({"--frames", "rest", "--size", "120x90"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(files_in(folder / "rest"), std::vector<std::string>{"frame-000001.png"});
+}
+
+TEST_F(Render, SaysThatFramesOfALongerReplayAreStillThere) {
+    ASSERT_EQ(replay({"--frames", "frames", "--size", "40x30"}).err.find("earlier"), std::string::npos);
+    write_text(folder / "frames/frame-000004.png", "old");
+    const Outcome outcome = replay({"--frames", "frames", "--size", "40x30"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_NE(outcome.err.find("holds frames of an earlier run, too, up to frame-000004.png"),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(read_text(folder / "frames/frame-000004.png"), "old");
+}
+
 TEST_F(Render, AReplayThatFailsLeavesNoPictures) {
     expect_failure(replay({"--picture", "a.txt"}), 2, "PNG");
     expect_failure(replay({"--picture", "a.png", "--size", "0x0"}), 2, "--size");

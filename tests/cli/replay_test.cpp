@@ -281,6 +281,30 @@ TEST_F(Replay, RecordsAgainWithTheToleranceThatACheckHas) {
     EXPECT_EQ(read_text(folder / "s.knead"), recorded);
 }
 
+TEST_F(Replay, RecordsOverNoCloudAndNoShapeThatHasACheckSName) {
+    session(edit);
+    std::filesystem::copy_file(folder / "bar.ply", folder / "s-check-1.ply");
+    const std::string cloud = read_text(folder / "s-check-1.ply");
+    const Outcome over = replay({"--record-checks", "--cloud", "s-check-1.ply"});
+    EXPECT_EQ(over.code, 5);
+    EXPECT_NE(over.err.find("s-check-1.ply: is the cloud"), std::string::npos) << over.err;
+    EXPECT_EQ(read_text(folder / "s-check-1.ply"), cloud);
+    EXPECT_EQ(replay({"--record-checks", "--out", "s-check-7.ply"}).code, 5);
+    EXPECT_EQ(files(), (std::set<std::string>{"bar.ply", "s-check-1.ply", "s.knead"}));
+    EXPECT_EQ(replay({"--record-checks", "--out", "s-check.ply"}).code, 0);
+}
+
+TEST_F(Replay, RecordingLeavesChecksThatItDidNotRecord) {
+    session(edit + R"({"op":"check","positions":"s-check-by-hand.ply","tolerance":1e-9})"
+                   "\n");
+    std::filesystem::copy_file(folder / "bar.ply", folder / "s-check-by-hand.ply");
+    const Outcome outcome = replay({"--record-checks", "--json"});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_EQ(json::parse(outcome.out)["checks"].size(), 1U);
+    EXPECT_NE(read_text(folder / "s.knead").find("s-check-by-hand.ply"), std::string::npos);
+    EXPECT_NE(read_text(folder / "s.knead").find("s-check-1.ply"), std::string::npos);
+}
+
 TEST_F(Replay, AFailedCheckStillWritesAndExitsWithFour) {
     session(edit +
             R"({"op":"check","positions":"bar.ply","tolerance":1e-4})"

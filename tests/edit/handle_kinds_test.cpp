@@ -90,5 +90,30 @@ TEST(HandleKinds, PegsLetTheSheetSwing) {
         ASSERT_LT((at(normals, i) - swing * Vec3d::UnitZ()).norm(), 1e-3) << i;
 }
 
+TEST(HandleKinds, AFixedPegOfOnePointKeepsItsBits) {
+    for (const std::uint64_t samples : {60U, 700U}) {
+        Settings settings;
+        settings.samples = samples;
+        Desk desk(bar(), settings);
+        const std::vector<float> rest = desk.shape();
+        desk.play(R"({"op":"handle","name":"top","role":"moving","region":{"halfspace":{"point":[0,0,2],)"
+                  R"("normal":[0,0,1]}}})"
+                  "\n");
+        std::vector<std::size_t> pegs;
+        for (const std::size_t point : {7U, 101U, 250U, 333U}) {
+            if (rest[3 * point + 2] > 1) continue;
+            pegs.push_back(point);
+            desk.play(R"({"op":"handle","name":"peg)" + std::to_string(point) +
+                      R"(","role":"fixed","rotation":"free","points":[)" + std::to_string(point) + "]}\n");
+        }
+        desk.play(drag(turn('x', 25) + "," + turn('y', 35)) + settle(20));
+        const std::vector<float> shape = desk.shape();
+        ASSERT_FALSE(pegs.empty());
+        for (const std::size_t point : pegs)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                EXPECT_EQ(shape[3 * point + axis], rest[3 * point + axis]) << point;
+    }
+}
+
 } // namespace
 } // namespace knead

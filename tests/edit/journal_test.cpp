@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
+
+#include <sys/resource.h>
 
 namespace knead::test {
 
@@ -30,6 +33,27 @@ TEST(Journal, HoldsEveryLineAtOnce) {
     EXPECT_EQ(read_text(journal.file()), std::string(header) + "\n");
     journal.append(commit);
     EXPECT_EQ(read_text(journal.file()), std::string(header) + "\n" + commit + "\n");
+}
+
+// A disk that takes nothing, as far as a process can make one: no file may grow.
+TEST(Journal, ThatCannotBeBegunLeavesNothing) {
+    const ScratchFolder folder;
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit none{0, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &none), 0);
+    EXPECT_THROW((void)Journal::create(folder.path(), header), Error);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    (void)std::signal(SIGXFSZ, handler);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Journal, OfAnEarlierVersionThatHasNoLineAtAllIsRemoved) {
+    const ScratchFolder folder;
+    write_text(folder / "empty.knead", "");
+    EXPECT_TRUE(find_lost_work(folder.path()).empty());
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Journal, IsFoundOnceNobodyHasItOpen) {

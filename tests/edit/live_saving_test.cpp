@@ -242,10 +242,23 @@ TEST_F(LiveBar, WorkIsNotRestoredOnACloudThatWasWrittenToSince) {
         EXPECT_TRUE(live.status().wants_cloud);
     }
     restore.cloud = copy;
-    LiveDocument live(restore);
-    wait_until_open(live);
-    ASSERT_EQ(live.status().stage, LiveDocument::Stage::open);
-    EXPECT_EQ(live.view()->handles.size(), 2U);
+    {
+        LiveDocument live(restore);
+        wait_until_open(live);
+        ASSERT_EQ(live.status().stage, LiveDocument::Stage::open);
+        EXPECT_EQ(live.view()->handles.size(), 2U);
+    }
+    // And if that was cut off, too, it is known which cloud it was on.
+    const std::vector<LostWork> lost = find_lost_work(state);
+    ASSERT_EQ(lost.size(), 1U);
+    EXPECT_EQ(lost[0].cloud, copy);
+    EXPECT_EQ(lost[0].acts, 2U);
+    restore.restore = lost[0].journal;
+    restore.cloud.reset();
+    LiveDocument again(restore);
+    wait_until_open(again);
+    EXPECT_EQ(again.status().stage, LiveDocument::Stage::open);
+    EXPECT_EQ(again.view()->handles.size(), 2U);
 }
 
 TEST_F(LiveBar, FindsItsCloudThroughFoldersThatAreLinks) {

@@ -105,5 +105,49 @@ TEST(LostDevice, InMidDragTheEditorGoesOnWithAWord) {
     }
 }
 
+// Fails once, in a way that nobody foresaw.
+class AstrayUpsampler final : public Upsampler {
+public:
+    AstrayUpsampler(Workers& workers, int call) : works_(make_reference_upsampler(workers)), call_(call) {}
+
+    std::string device() const override { return "astray"; }
+    std::size_t influence_bytes() const override { return works_->influence_bytes(); }
+    void prepare(const UpsampleInput& input, std::size_t motions) override {
+        works_->prepare(input, motions);
+    }
+    std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
+                               std::span<float> normals, Held /*held*/) override {
+        if (--call_ == 0) throw std::logic_error("nobody foresaw this");
+        return works_->run(motions, positions, normals, Held::nothing);
+    }
+
+private:
+    std::unique_ptr<Upsampler> works_;
+    int call_;
+};
+
+TEST(LostDevice, AFaultThatNobodyForesawDoesNotKeepADragFromEnding) {
+    for (const int call : {1, 2, 3, 4, 6}) {
+        const ScratchFolder folder;
+        OpenRequest request = request_for(bar_file(folder));
+        request.make_upsampler = [call](const std::string&, Workers& workers, unsigned) {
+            UpsamplerChoice choice;
+            choice.upsampler = std::make_unique<AstrayUpsampler>(workers, call);
+            return choice;
+        };
+        LiveDocument live(request);
+        wait_until_open(live);
+        StepNumber step = 0;
+        for (const SessionAction& handle : bar_handles()) live.post(++step, {handle});
+        live.begin_drag(++step, "high", {0, 0, 2});
+        live.drag_to(turned(1.5)); // frames of 20 degrees, most of them when it ends
+        live.end_drag();
+        live.save_session(folder / "saved.knead");
+        wait_until_idle(live);
+        EXPECT_FALSE(live.status().saving) << call;
+        EXPECT_GE(read_session(folder / "saved.knead").lines.size(), 2U) << call;
+    }
+}
+
 } // namespace
 } // namespace knead::test

@@ -271,6 +271,7 @@ void carry_out(Editor& editor, const ChangeSettings& command) {
     else
         post_step(editor, {SetLine{command.change}});
     EditorStep& step = editor.past.back();
+    step.joined = editor.last_step;
     step.settings_changed = now;
     if (!ends_choosing) return;
     if (!step.choosing_before) step.choosing_before = true;

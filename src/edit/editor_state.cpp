@@ -115,8 +115,8 @@ bool has_unsaved_session(const Editor& editor) {
     if (!editor.document) return false;
     // Steps that were posted and not carried out yet, a drag under way among them.
     const StepNumber done = std::max(editor.document->last_step, step_of_opened_session);
-    const bool pending =
-        std::ranges::any_of(editor.past, [&](const EditorStep& step) { return step.document > done; });
+    const bool pending = std::ranges::any_of(
+        editor.past, [&](const EditorStep& step) { return std::max(step.document, step.joined) > done; });
     return pending || editor.document->state != editor.saved.session_state;
 }
 

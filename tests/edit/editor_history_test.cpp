@@ -106,6 +106,21 @@ TEST_F(BarEditor, WhatIsPostedIsUnsavedBeforeItIsDone) {
     EXPECT_FALSE(has_unsaved_session(editor_));
 }
 
+TEST_F(BarEditor, ASliderThatMovesOnIsUnsavedBeforeItIsDone) {
+    SettingsChange change;
+    change.stiffness = 2;
+    apply(editor_, ChangeSettings{change});
+    calm();
+    editor_.live->save_session(folder_ / "kept.knead");
+    calm();
+    EXPECT_FALSE(has_unsaved_session(editor_));
+    change.stiffness = 3;
+    apply(editor_, ChangeSettings{change});
+    EXPECT_TRUE(has_unsaved_session(editor_));
+    calm();
+    EXPECT_TRUE(has_unsaved_session(editor_));
+}
+
 TEST_F(BarEditor, NothingIsDoneThatAFileBeingOpenedWouldTakeAway) {
     const std::size_t steps = editor_.past.size();
     open(editor_, editor_.opening_request);

@@ -1,11 +1,13 @@
 // Moves every point by the motions of the samples around it: src/upsample/upsample.h holds the formulas, and
-// src/upsample/reference.cpp the same arithmetic in C++, operation by operation. Both give the same bits but for one thing:
-// what moves points, which is most of the work, fuses products and sums here (one rounding) where the device can.
+// src/upsample/reference.cpp the same arithmetic in C++, operation by operation. Both give the same bits but
+// for one thing: what moves points, which is most of the work, fuses products and sums here (one rounding)
+// where the device can.
 //
-// Built with -D POINTS_IN_BLOCK=256, -D POINTS_IN_GROUP=16 and -D WHOLE_SHARE=65535; with -D SIXTEEN for a CPU, without for a GPU. Motions are
-// packed by columns, 16 floats each, [A column 0 | A column 1 | A column 2 | d] with a fourth row of 0 c0 c1 c2
-// (src/upsample/packed_motions.h); what moves which point comes by groups of sixteen points
-// (src/upsample/influence_groups.h). A CPU's item moves such groups, with a point in every lane; a GPU's moves one point.
+// Built with -D POINTS_IN_BLOCK=256, -D POINTS_IN_GROUP=16 and -D WHOLE_SHARE=65535; with -D SIXTEEN for a
+// CPU, without for a GPU. Motions are packed by columns, 16 floats each, [A column 0 | A column 1 | A column 2
+// | d] with a fourth row of 0 c0 c1 c2 (src/upsample/packed_motions.h); what moves which point comes by groups
+// of sixteen points (src/upsample/influence_groups.h, src/upsample/shares.h). A CPU's item moves such groups,
+// with a point in every lane; a GPU's moves one point.
 //
 // A group of items moves one block of 256 points (src/upsample/point_blocks.h), of those that a frame has to.
 
@@ -94,11 +96,11 @@ inline real as_real(truth whole) {
 typedef struct {
     uint motion; // has what the others leave
     uint first_entry, entries;
-} influences;
+} influence_group;
 
 // What they are read by.
 typedef struct {
-    __global const influences* group;
+    __global const influence_group* group;
     __global const uint* motion; // of each entry
     __global const ushort* share;
     uint first_handle; // motions from here on are handles, and all that have no place
@@ -132,7 +134,7 @@ inline real weight_of(truth share) {
 // Σ_s w_s [A_s | d_s] at the points p, and Σ_s w_s c_s.
 __attribute__((always_inline)) inline void blend_motions(reading how, size_t group, size_t lane, vector p,
                                                          real* blend) {
-    const influences own = how.group[group];
+    const influence_group own = how.group[group];
     const uint end = own.first_entry + own.entries;
     truth left = WHOLE_SHARE;
 #pragma unroll
@@ -216,7 +218,7 @@ upsample(ulong points, __global const uint* block, __global const float* positio
 }
 
 __kernel void upsample_positions(const ulong points, __global const uint* block,
-                                 __global const float* positions, __global const influences* group,
+                                 __global const float* positions, __global const influence_group* group,
                                  __global const uint* motion, __global const ushort* share,
                                  const uint first_handle, __global const float* motions,
                                  __global float* moved_positions) {
@@ -225,7 +227,7 @@ __kernel void upsample_positions(const ulong points, __global const uint* block,
 }
 
 __kernel void upsample_positions_and_normals(const ulong points, __global const uint* block,
-                                             __global const float* positions, __global const influences* group,
+                                             __global const float* positions, __global const influence_group* group,
                                              __global const uint* motion, __global const ushort* share,
                                              const uint first_handle, __global const float* motions,
                                              __global float* moved_positions, __global const float* normals,

@@ -2,7 +2,6 @@
 
 #include "base/workers.h"
 
-#include <algorithm>
 #include <memory>
 
 #include <sys/mman.h>

@@ -120,12 +120,21 @@ FileInTheMaking::FileInTheMaking(const std::filesystem::path& target) : shown_(t
 // To what the target names, which need not be there.
 void FileInTheMaking::follow_links() {
     std::error_code trouble;
-    for (int most = 40; most > 0 && std::filesystem::is_symlink(target_, trouble);
-         --most) { // as many as Linux
-        const auto named = std::filesystem::read_symlink(target_, trouble);
-        if (trouble) return;
-        target_ = target_.parent_path() / named;
+    if (!std::filesystem::is_symlink(target_, trouble)) return;
+    if (std::filesystem::exists(target_, trouble)) { // then the system knows what it is
+        const auto named = std::filesystem::canonical(target_, trouble);
+        const bool is_path = !trouble && std::filesystem::equivalent(named, target_, trouble);
+        if (is_path) target_ = named; // and not what /proc calls a pipe
+        return;
     }
+    constexpr int most_links = 40; // as Linux
+    std::filesystem::path named = target_;
+    for (int links = 0; std::filesystem::is_symlink(named, trouble); ++links) {
+        if (links == most_links) return;
+        named = named.parent_path() / std::filesystem::read_symlink(named, trouble);
+        if (trouble) return;
+    }
+    target_ = named;
 }
 
 // What a renaming over the target would meet.

@@ -36,8 +36,8 @@ public:
     // frame-000001.png and so on; other files in it stay.
     std::function<void(Outputs&)> adding();
 
-    // Of frames in the folder that are beyond the last one of this run, from a longer one before it: they
-    // stay, and who makes a film of the folder should know. Empty if there are none.
+    // Of frames in the folder that follow the last one of this run, from a longer run before it: they stay,
+    // and who makes a film of the folder should know. Empty if there are none.
     std::string words_about_other_frames() const;
 
     // The targets: the picture, and the folder.

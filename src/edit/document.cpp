@@ -130,8 +130,10 @@ double Document::drag_frame(const HandlePose& pose, const std::string& place, Pr
     try {
         way = follow(drag.handle, next, pose.coarse, drag.next.settings.iterations, drag.motions,
                      drag.samples, drag.memory, progress);
+        drag.is_shown = false;
         upsample(drag.motions, drag.samples);
         drag.line.frames.push_back(pose);
+        drag.is_shown = true;
     } catch (...) {
         motion = before;
         drag.samples = drag.samples_before;
@@ -163,7 +165,7 @@ void Document::end(UnderWay act, std::variant<DragLine, SettleLine> line) {
     act.next.posed = posed;
     take(std::move(act.next));
     keep(posed);
-    posed_is_now_ = true;
+    posed_is_now_ = act.is_shown;
 }
 
 void Document::begin_settling(Progress& progress) {
@@ -182,7 +184,9 @@ bool Document::settle_some(unsigned iterations, Progress& progress) {
         rests = iterate_once(settling.motions, settling.samples, settling.memory) <= at_rest;
         ++settling.iterations;
     }
+    settling.is_shown = false;
     upsample(settling.motions, settling.samples);
+    settling.is_shown = true;
     return rests;
 }
 

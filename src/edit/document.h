@@ -174,6 +174,7 @@ private:
         SampleState coarse_before = {};           // likewise, of memory.following
         unsigned iterations = 0;                  // of settling
         FrameMemory memory = {};
+        bool is_shown = false; // whether the pipeline's posed points are those of `samples`
     };
 
     bool is_as_opened() const;

@@ -104,6 +104,8 @@ void forget_refused(Editor& editor) {
     for (const StepNumber step : editor.live->take_refused()) {
         std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first == step; });
         std::erase_if(editor.future, [&](const EditorStep& future) { return future.document == step; });
+        for (EditorStep& past : editor.past)
+            if (past.joined == step) past.joined = 0;
         if (editor.drag && editor.drag->step == step) editor.drag.reset();
         const auto found = std::ranges::find(editor.past, step, &EditorStep::document);
         if (found == editor.past.end()) continue;

@@ -38,7 +38,7 @@ struct EditorStep {
     std::shared_ptr<const std::vector<std::uint8_t>> after = {};
     // Of settings: when they were changed last. Those that change within a second join it.
     std::optional<std::chrono::steady_clock::time_point> settings_changed = {};
-    StepNumber joined = 0; // the last that did; 0: none
+    StepNumber joined = 0; // the newest line of it
     // Whether the number of samples was chosen by itself before and after; nothing: it stays as it is.
     std::optional<bool> choosing_before = {}, choosing_after = {};
     // The chosen handle before and after a step of the document; nothing: it stays as it is.

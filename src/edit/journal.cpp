@@ -70,7 +70,7 @@ std::optional<LostWork> look_at(const std::filesystem::path& file) {
     if (!journal || !lock(journal)) return std::nullopt;
     try {
         const std::string text = read_all(journal, file);
-        if (text.empty()) { // the disk was full before its first line
+        if (text.empty()) { // knead was ended, or the disk full, before its first line
             remove_journal(file);
             return std::nullopt;
         }

@@ -99,17 +99,18 @@ private:
 
     // A check is written beside the session, over what has its name.
     void refuse_other_uses_of_checks() const {
-        std::error_code ignored;
-        for (const auto& entry : std::filesystem::directory_iterator(folder_of_session(), ignored))
-            if (is_name_of_check(entry.path().filename()) && is_cloud(entry.path()))
-                throw Error(Trouble::output, entry.path().string(),
-                            "is the cloud that the session begins with, and has the name of a check that "
-                            "would be recorded over it; give the cloud another name");
+        std::error_code trouble, ignored;
+        std::filesystem::directory_iterator entry(folder_of_session(), trouble), end;
+        for (; !trouble && entry != end; entry.increment(trouble))
+            if (is_name_of_check(entry->path().filename()) && is_cloud(entry->path()))
+                throw Error(Trouble::output, entry->path().string(),
+                            "is the cloud that the session begins with, and has a name that recorded checks "
+                            "take; give the cloud another one");
         if (!options_.out || !is_name_of_check(options_.out->filename())) return;
         const std::filesystem::path folder = options_.out->parent_path();
         if (std::filesystem::equivalent(folder.empty() ? "." : folder, folder_of_session(), ignored))
             throw Error(Trouble::output, options_.out->string(),
-                        "has the name of a check that would be recorded; give the shape another one");
+                        "has a name that recorded checks take; give the shape another one");
     }
 
     // So is a missing file.

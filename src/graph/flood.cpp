@@ -24,7 +24,7 @@ constexpr std::uint32_t levels_a_round = 512; // fewer are more rounds, more are
 // What goes on together: fewer levels are steps too short to look ahead, more are more ways round.
 constexpr std::uint32_t levels_a_step = 4;
 constexpr std::uint32_t ring = 256; // steps that can wait at a time: those of a round and a link
-static_assert(levels_a_round % levels_a_step == 0);
+static_assert(levels_a_round % levels_a_step == 0 && (longest_link + 1) % levels_a_step == 0);
 static_assert(ring > (levels_a_round + longest_link) / levels_a_step + 1);
 // Of vertices a tile. Larger ones send less to each other, and smaller ones leave something for every core.
 constexpr std::size_t largest_tile = 1 << 14, smallest_tile = 1 << 10, fewest_tiles = 8;
@@ -97,8 +97,9 @@ template<typename Places>
 }
 
 // One flood. Vertices are numbered so that neighbours have near numbers (PointOrder), and a tile is so many
-// of them in a row. In a round every tile where something waits is flooded by one worker, nearest first, as
-// if there were no other; what leaves it arrives elsewhere in the next round.
+// of them in a row. In a round every tile where something waits is flooded by one worker, nearest first (but
+// what a step of some levels holds in any order), as if there were no other; what leaves it arrives elsewhere
+// in the next round.
 //
 // So a sample may reach a vertex by a way round before it does by the shortest one, which then takes its
 // place. Distances in a row never grow, and one that is too long cannot push out for good what belongs there:
@@ -248,7 +249,7 @@ private:
         put_aside(tile, on_the_way);
     }
 
-    // Arrivals of one level lie all over the tile. A core that went from one to the next would spend most of
+    // Arrivals of one step lie all over the tile. A core that went from one to the next would spend most of
     // its time waiting for where that leads to: so it asks for it some arrivals before, step by step.
     static constexpr std::size_t soon = 4;
     [[gnu::always_inline]] void look_ahead(const Arrivals& going, std::size_t i) const {

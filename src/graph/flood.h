@@ -36,7 +36,7 @@ std::vector<Index> shuffled(std::vector<Index> vertices);
 void shuffle_in_runs(std::span<Index> vertices);
 
 // Floods the graph from `samples`, which are different vertices; sample s is the one at samples[s].
-// `lengths`: one entry for every entry of graph.neighbor, 1 … 63, the same in both directions. Returns one
+// `lengths`: one entry for every entry of graph.neighbor, 1 … 255, the same in both directions. Returns one
 // row a vertex: narrow ones for fewer than 65,535 samples, unless one of them is met so far away that a
 // narrow row cannot tell its distance; then it starts over with wide ones.
 InfluenceRows flood(const Graph& graph, std::span<const std::uint8_t> lengths, std::span<const Index> samples,

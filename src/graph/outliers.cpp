@@ -1,7 +1,6 @@
 #include "graph/outliers.h"
 
 #include "base/large_pages.h"
-
 #include "graph/bridges.h"
 #include "graph/group_tree.h"
 #include "graph/neighbors.h"

@@ -54,7 +54,7 @@ void counts_to_rows(std::vector<Index>& counts) {
 Graph symmetric_graph(std::span<const Index> lists, std::size_t width, Workers& workers) {
     Graph graph;
     const std::size_t vertices = width == 0 ? 0 : lists.size() / width;
-    resize_in_large_pages(graph.first, vertices + 1, workers);
+    graph.first = zeros_in_large_pages<Index>(vertices + 1, workers);
     const auto list = [&](std::size_t v) { return lists.subspan(v * width, width); };
 
     // Calls found(i, j) for every link i → j whose back link the lists lack.

@@ -19,7 +19,8 @@ constexpr std::size_t grain = 16; // blocks
 // Of every so many entries, room for one more is kept for blocks that grow.
 constexpr std::size_t entries_for_one_spare = 32;
 
-// A group that is being made: each motion once, in the order in which they are met.
+// A group that is being made: each motion once, in the order in which they are met until
+// they are sorted.
 struct MadeGroup {
     static constexpr std::size_t most = points_in_group * influences_per_row;
     std::array<Index, most> motion;

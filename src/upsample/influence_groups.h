@@ -23,14 +23,14 @@ namespace knead {
 
 inline constexpr std::size_t points_in_group = 16;
 
-// `motion` has what entries `first` to `first` + `count` leave. They are numbered in rising order: handles
-// are last.
+// `motion` has what entries `first` to `first` + `count` leave. Motions rise, its own first: handles are
+// last.
 struct InfluenceGroup {
     Index motion = 0; // 0 for one that moves nothing, else its number and 1
     Index first = 0, count = 0;
 };
 
-// Entries with this number or a higher one have no place (upsample.h): handles. With the paper's weights it
+// Motions with this number or a higher one have no place (upsample.h): handles. With the paper's weights it
 // does not matter.
 inline Index first_without_place(const UpsampleInput& input) {
     const Index first = input.weights == InfluenceWeights::paper ? no_index : input.rows->first_handle;

@@ -12,7 +12,7 @@ namespace knead {
 inline constexpr std::uint16_t whole_share = 65535;
 
 // What moves one point, the first `count`: 0 for a motion that moves nothing, else its number and 1. Weights
-// are times the same for all, and 0 behind `count`.
+// are up to a common factor, and 0 behind `count`.
 struct Movers {
     std::array<Index, influences_per_row> motion;
     std::array<float, influences_per_row> weight{};

@@ -21,9 +21,9 @@
 // does not fit a float, stays as it was at rest.
 //
 // The result has the same bits on every run and for any number of threads. Kernel and reference do the same
-// operations in the same order; the kernel fuses products and sums where it adds up motions and the device
-// can, so both agree within the rounding of these sums, and unfused to the bit on a device that rounds as
-// IEEE 754 does.
+// operations in the same order; the kernel fuses products and sums where it moves points and the device can,
+// so both agree within the rounding of these sums, and unfused to the bit on a device that rounds as IEEE 754
+// does. Weights are shares in parts of 65,535 there (shares.h).
 
 #include "graph/influences.h"
 

@@ -116,6 +116,35 @@ TEST(FileInTheMaking, follows_a_link) {
     EXPECT_EQ(read_text(folder / "file"), "new");
 }
 
+TEST(FileInTheMaking, follows_links_to_what_is_not_there_yet) {
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder / "deep");
+    std::filesystem::create_symlink("deep/second", folder / "first");
+    std::filesystem::create_symlink("../file", folder / "deep/second");
+    {
+        FileInTheMaking file(folder / "first");
+        file.write("new");
+        file.commit();
+    }
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "first"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "deep/second"));
+    EXPECT_EQ(read_text(folder / "file"), "new");
+    std::filesystem::create_symlink("nowhere/file", folder / "astray");
+    EXPECT_EQ(trouble_of(folder / "astray"), Trouble::output);
+}
+
+TEST(FileInTheMaking, refuses_what_is_no_file_by_its_links) {
+    const ScratchFolder folder;
+    std::filesystem::create_symlink("/dev/null", folder / "null");
+    EXPECT_EQ(trouble_of(folder / "null"), Trouble::output);
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0); // what /proc names it by is no path
+    std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(ends[1]), folder / "pipe");
+    EXPECT_EQ(trouble_of(folder / "pipe"), Trouble::output);
+    ::close(ends[0]), ::close(ends[1]);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "pipe"));
+}
+
 TEST(FileInTheMaking, refuses_a_folder_and_a_missing_folder) {
     const ScratchFolder folder;
     EXPECT_EQ(trouble_of(folder.path()), Trouble::output);

@@ -1,6 +1,8 @@
 #include "graph/algorithm1.h"
 #include "graph/clouds.h"
 #include "graph/flood.h"
+
+#include "graph/link_lengths.h"
 #include "graph/shortest_ways.h"
 
 #include <set>
@@ -90,15 +92,16 @@ TEST(Flood, IsADijkstraSearchOfEveryVertexWhereLinksHaveLengths) {
 }
 
 TEST(Flood, TakesLinksOfEveryLength) {
-    // Lengths from 1 to 63 at random: one level more would overtake the ring of waiting levels.
-    const Cloud cloud = test::cloud_of(test::random_positions(600, 5));
+    // In several tiles.
+    const Cloud cloud = test::cloud_of(test::random_positions(3000, 5));
     std::vector<std::uint8_t> lengths(cloud.graph.neighbor.size());
     std::mt19937 random(1);
     for (Index v = 0; v < cloud.size(); ++v) {
         for (Index link = cloud.graph.first[v]; link < cloud.graph.first[v + 1]; ++link) {
             const Index u = cloud.graph.neighbor[link];
             if (u < v) continue;
-            const auto length = static_cast<std::uint8_t>(random() % 3 == 0 ? 63 : 1 + random() % 63);
+            const auto length =
+                static_cast<std::uint8_t>(random() % 3 == 0 ? longest_link : 1 + random() % longest_link);
             lengths[link] = lengths[*find_link(cloud.graph, u, v)] = length;
         }
     }
@@ -136,7 +139,7 @@ TEST(Flood, PassesOnByAnyNumberOfLinks) {
         std::vector<std::uint8_t> lengths(graph.neighbor.size());
         for (Index v = 0; v < graph.size(); ++v)
             for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link)
-                lengths[link] = static_cast<std::uint8_t>(1 + (v + graph.neighbor[link]) % 63);
+                lengths[link] = static_cast<std::uint8_t>(1 + (v + graph.neighbor[link]) % longest_link);
         const std::vector<Index> samples =
             test::random_vertices(graph.size(), std::min<std::size_t>(graph.size() / 2 + 1, 20), 3);
         Machine machine;
@@ -212,7 +215,7 @@ TEST(Flood, StartsAtAnyDistance) {
     const Graph graph{{0, 0, 1, 2}, {2, 1}}; // one vertex alone, two that are linked
     const std::vector<std::uint8_t> lengths{5, 5};
     Machine machine;
-    for (Index distance = 0; distance < 600; ++distance) {
+    for (Index distance = 0; distance < 2100; ++distance) {
         InfluenceRows nearest = flood(graph, lengths, {}, machine.workers, machine.progress);
         const std::vector<FloodStart> starts{{0, 0, 0}, {1, 1, distance}};
         add_starts(nearest, graph, lengths, starts, machine.workers, machine.progress);
@@ -366,7 +369,7 @@ struct Chain {
             if (v + 1 < vertices) graph.neighbor.push_back(v + 1);
             graph.first.push_back(static_cast<Index>(graph.neighbor.size()));
         }
-        lengths.assign(graph.neighbor.size(), 63);
+        lengths.assign(graph.neighbor.size(), longest_link);
         for (Index s = 0; s < sample_count; ++s) samples.push_back(s);
     }
 
@@ -377,7 +380,7 @@ struct Chain {
             ASSERT_EQ(row.count(), std::min<std::size_t>(samples.size(), influences_per_row));
             for (std::size_t k = 0; k < row.count(); ++k) {
                 const Index s = row.sample.at(k);
-                ASSERT_EQ(row.distance.at(k), 63 * (v > s ? v - s : s - v)) << v;
+                ASSERT_EQ(row.distance.at(k), longest_link * (v > s ? v - s : s - v)) << v;
             }
         }
     }
@@ -385,9 +388,9 @@ struct Chain {
 
 TEST(Flood, WidensRowsForWaysThatNarrowOnesCannotTell) {
     Machine machine;
-    // 65,535 levels are 1040 links of 63 and a bit.
+    // 65,535 levels are 257 links.
     for (const auto& [vertices, wide] :
-         {std::pair{1030U, false}, std::pair{1100U, true}, std::pair{9000U, true}}) {
+         {std::pair{250U, false}, std::pair{270U, true}, std::pair{9000U, true}}) {
         const Chain chain(vertices, 3);
         const InfluenceRows nearest =
             flood(chain.graph, chain.lengths, chain.samples, machine.workers, machine.progress);
@@ -409,7 +412,7 @@ TEST(Flood, WidensRowsWhenAnAddedSampleIsTooFarForThem) {
         flood(chain.graph, chain.lengths, chain.samples, machine.workers, machine.progress);
     const InfluenceRows before = nearest;
     ASSERT_FALSE(nearest.are_wide());
-    chain.lengths.assign(chain.graph.neighbor.size(), 63);
+    chain.lengths.assign(chain.graph.neighbor.size(), longest_link);
     const std::vector<Index> added{4999};
     const FloodPatch patch = add_starts(nearest, chain.graph, chain.lengths, starts_of(added, 1),
                                         machine.workers, machine.progress);
@@ -418,7 +421,7 @@ TEST(Flood, WidensRowsWhenAnAddedSampleIsTooFarForThem) {
         const WideRow row = nearest[v];
         ASSERT_EQ(row.count(), 2U);
         for (std::size_t k = 0; k < 2; ++k)
-            ASSERT_EQ(row.distance.at(k), row.sample.at(k) == 0 ? v : 63 * (4999 - v));
+            ASSERT_EQ(row.distance.at(k), row.sample.at(k) == 0 ? v : longest_link * (4999 - v));
     }
     put_back(patch, nearest);
     EXPECT_TRUE(same_rows(nearest, before));
@@ -456,14 +459,15 @@ TEST(LinkLengths, FollowTheLengthOfTheLinks) {
             const int levels = cloud.lengths[link];
             ASSERT_EQ(levels, cloud.lengths[*find_link(cloud.graph, u, v)]);
             ASSERT_GE(levels, 1);
-            ASSERT_LE(levels, 63);
-            if (levels > 5 && levels < 63) ratio.push_back(levels / (cloud.at(v) - cloud.at(u)).norm());
+            ASSERT_LE(levels, int{longest_link});
+            if (levels > 23 && levels < int{longest_link})
+                ratio.push_back(levels / (cloud.at(v) - cloud.at(u)).norm());
         }
     }
-    // From six levels on, rounding by half a level is a twelfth at most.
+    // From 24 levels on, rounding by half a level is a 48th at most.
     const auto [least, most] = std::ranges::minmax(ratio);
     EXPECT_GT(ratio.size(), 100U);
-    EXPECT_LT(most / least, (1 + 1.0 / 11) / (1 - 1.0 / 13));
+    EXPECT_LT(most / least, (1 + 1.0 / 47) / (1 - 1.0 / 49));
 }
 
 TEST(LinkLengths, DoNotDependOnTheUnit) {

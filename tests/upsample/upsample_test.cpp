@@ -19,11 +19,9 @@ using namespace knead::test;
 
 constexpr double epsilon = 1.2e-7; // one step of a float at 1
 // In a random scene every value that is summed is below 4 (A) or 2 (p and b); a row of eight, then three
-// products, then the point, are 12 rounded steps or so, plus the rounding of the weights, which need not sum
-// to exactly 1.
+// products, then the point, are 12 rounded steps or so.
 constexpr double position_tolerance = 40 * 4 * epsilon;
-// The root of a weight is kept to half a 65,535th of the largest, so the weight to as much of that at most,
-// and motions lie less than 4 apart.
+// A weight is kept to half a 65,535th, the heaviest to seven halves, and motions lie less than 4 apart.
 constexpr double blend_tolerance = position_tolerance + influences_per_row * 4 / 65535.0;
 // The blend of rotations has a norm of at most 1, so the cofactor's rounding is about twice that of the map,
 // and normalising divides it by the length of the product, below which normals are not compared.
@@ -167,7 +165,7 @@ TEST_P(EveryUpsampler, GivesTheSameBytesAgainAndOnAnyNumberOfThreads) {
 }
 
 // Five steps of a float, for devices that fuse products and sums, round quotients and roots less exactly, or
-// flush tiny numbers to zero.
+// flush tiny numbers to zero; of normals, which maps that nearly flatten them magnify, twice as many.
 TEST_P(EveryUpsampler, AgreesWithTheReference) {
     std::vector<Scene> scenes{random_scene(50'021, 300, 9), random_scene(50'021, 300, 9), wide_scene()};
     scenes[1].weights = InfluenceWeights::paper;

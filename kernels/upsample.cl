@@ -117,14 +117,16 @@ __attribute__((always_inline)) inline void add_motion(__global const float* moti
 }
 
 // Adds what a handle has for a place: the points themselves.
-__attribute__((always_inline)) inline void add_place(__global const float* motion, real weight, vector p, real* blend) {
+__attribute__((always_inline)) inline void add_place(__global const float* motion, real weight, vector p,
+                                                     real* blend) {
     const vector half_way = {weight * (0.5f * p.x), weight * (0.5f * p.y), weight * (0.5f * p.z)};
     blend[7] += half_way.x;
     blend[11] += half_way.y;
     blend[15] += half_way.z;
 #pragma unroll
     for (int row = 0; row < 3; ++row)
-        blend[12 + row] += motion[row] * half_way.x + motion[4 + row] * half_way.y + motion[8 + row] * half_way.z;
+        blend[12 + row] +=
+            motion[row] * half_way.x + motion[4 + row] * half_way.y + motion[8 + row] * half_way.z;
 }
 
 inline real weight_of(truth share) {
@@ -147,9 +149,9 @@ __attribute__((always_inline)) inline void blend_motions(reading how, size_t gro
     __global const float* const others_leave = how.motions + 16 * (size_t)own.motion;
     add_motion(others_leave, weight_of(left), blend);
     // Handles come last.
-    for (uint entry = end; entry > own.first_entry && how.motion[entry - 1] >= how.first_handle; --entry)
-        add_place(how.motions + 16 * (size_t)how.motion[entry - 1], weight_of(share_of(how.share, entry - 1, lane)),
-                  p, blend);
+    for (uint entry = end; entry-- > own.first_entry && how.motion[entry] >= how.first_handle;)
+        add_place(how.motions + 16 * (size_t)how.motion[entry], weight_of(share_of(how.share, entry, lane)), p,
+                  blend);
     if (own.motion >= how.first_handle) add_place(others_leave, weight_of(left), p, blend);
 }
 

@@ -103,8 +103,8 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
     for_lone_pegs([&](Index s, Index /*handle*/) { put_exactly(s, state.displacement[s]); });
 }
 
-// A turn about a point is b - A p in floats, and b misses A p by their rounding: a peg that is held keeps its
-// bytes all the same.
+// A turn about a point is A p + b in floats, where A p and b cancel but for their rounding: a peg that is
+// held keeps its bytes all the same. In a block that was not written it is there already.
 void Pipeline::put_exactly(Index sample, const Vec3d& displacement) {
     const RestShape& rest = input_.rest ? *input_.rest : opened_;
     const Index vertex = samples_[sample];
@@ -112,8 +112,11 @@ void Pipeline::put_exactly(Index sample, const Vec3d& displacement) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::size_t at = 3 * std::size_t{point} + axis;
             const double way = displacement[static_cast<Eigen::Index>(axis)];
-            posed_.positions[at] =
+            const float there =
                 way == 0 ? rest.positions[at] : static_cast<float>(double{rest.positions[at]} + way);
+            if (posed_.positions[at] == there) continue;
+            posed_.positions[at] = there;
+            written_[point / points_in_block] = upsampled_;
         }
 }
 

@@ -16,11 +16,11 @@ namespace {
 
 static_assert(points_in_block % points_in_group == 0);
 constexpr std::size_t grain = 16; // blocks
+
 // Of every so many entries, room for one more is kept for blocks that grow.
 constexpr std::size_t entries_for_one_spare = 32;
 
-// A group that is being made: each motion once, in the order in which they are met until
-// they are sorted.
+// A group that is being made: each motion once, in the order in which they are met.
 struct MadeGroup {
     static constexpr std::size_t most = points_in_group * influences_per_row;
     std::array<Index, most> motion;
@@ -49,7 +49,7 @@ struct MadeGroup {
         share[count].fill(0);
         return count++;
     }
-    // Their places by number.
+    // Where they are, by rising number.
     std::span<const std::uint8_t> sorted(std::array<std::uint8_t, most>& places) const {
         const auto used = std::span(places).first(count);
         std::iota(used.begin(), used.end(), std::uint8_t{0});

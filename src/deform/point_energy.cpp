@@ -2,6 +2,7 @@
 
 #include "base/require.h"
 #include "deform/stretch.h"
+#include "graph/balanced_weights.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -29,9 +30,6 @@ constexpr std::size_t points_a_sample = 32, fewest_points = 16384;
 // around so many samples.
 constexpr std::size_t samples_a_part = 16;
 
-// A blend that is flatter than this, or steeper, is not made up for.
-constexpr double least_slope = 0.55, most_slope = 1.7;
-
 // From 0 to 1 on the way between these, of which either may be the greater.
 double ramp(double at, double from, double to) {
     return std::clamp((at - from) / (to - from), 0.0, 1.0);
@@ -48,14 +46,27 @@ Index holder_of(const PointsBetween& between, Index vertex) {
     return turns ? no_index : handle;
 }
 
-// What moves a vertex that no handle does alone. A sample's own one goes with the sample, though smooth
-// weights blend it when it is moved: what samples do that every blend of them hides is told there alone.
-// Without it few samples may never come to rest (the survey's cylinder with 50 of them).
-Influence influence_at(const PointsBetween& between, Index vertex) {
+// Of the row's samples, seen from p.
+SampleOffsets offsets_of(const PointsBetween& between, const WideRow& row, const Vec3d& p) {
+    SampleOffsets offsets;
+    for (std::size_t k = 0; k < row.count(); ++k) {
+        if (row.sample[k] >= between.sample.size()) continue; // a handle
+        const Vec3f offset = (between.sample[row.sample[k]] - p).cast<float>();
+        offsets.x[k] = offset.x(), offsets.y[k] = offset.y(), offsets.z[k] = offset.z();
+    }
+    return offsets;
+}
+
+// What moves a vertex, at p, that no handle does alone. A sample's own one goes with the sample, though
+// smooth weights blend it when it is moved: what samples do that every blend of them hides is told there
+// alone. Without it few samples may never come to rest (the survey's cylinder with 50 of them).
+Influence influence_at(const PointsBetween& between, Index vertex, const Vec3d& p) {
     const WideRow row = between.nearest[vertex];
     const Index first_handle = between.nearest.first_handle;
     const bool is_sample = row.distance[0] == 0 && row.sample[0] < first_handle;
-    return influence_of(row, first_handle, is_sample ? InfluenceWeights::paper : between.weights);
+    if (is_sample || between.weights == InfluenceWeights::paper)
+        return influence_of(row, first_handle, InfluenceWeights::paper);
+    return influence_of(row, first_handle, between.weights, offsets_of(between, row, p));
 }
 
 // What a body does at a vertex.
@@ -79,7 +90,7 @@ public:
         if (const Index handle = holder_of(between_, vertex); handle != no_index) {
             add(handle_body(handle), 1, p);
         } else {
-            const Influence influence = influence_at(between_, vertex);
+            const Influence influence = influence_at(between_, vertex, p);
             for (std::size_t k = 0; k < influence.count; ++k)
                 add(body_of(influence.motion[k]), static_cast<double>(influence.weight[k]), p);
         }
@@ -143,14 +154,15 @@ Element& element_of(std::vector<Element>& elements, Index body) {
     return elements.back();
 }
 
-// G⁻ᵀ, G along the surface and the identity across it.
+// G⁻ᵀ, G along the surface and the identity across it; but where the blend climbs less than the positions do,
+// 1 for what would be more: at a rim, where all samples are on one side, it would count for too much.
 Mat3d correction_of(const Mat3d& slope, const Mat3d& along) {
     const Mat3d filled = along * slope * along + (Mat3d::Identity() - along);
     Eigen::SelfAdjointEigenSolver<Mat3d> squares;
     squares.computeDirect(filled.transpose() * filled);
     const auto inverse = [](double square) {
         const double slope_along = std::sqrt(std::max(square, 1e-6));
-        return 1 / (slope_along * std::clamp(slope_along, least_slope, most_slope));
+        return 1 / (slope_along * std::max(slope_along, 1.0));
     };
     const Vec3d inverses = squares.eigenvalues().unaryExpr(inverse);
     return filled * squares.eigenvectors() * inverses.asDiagonal() * squares.eigenvectors().transpose();

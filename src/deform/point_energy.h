@@ -20,8 +20,8 @@
 //
 // Blends of constants are no linear functions, they climb in steps. For the turns, which have no slope of
 // their own in a sample, that would count as resistance; so their gradients are ĝ_s = G⁻ᵀ g_s, with G =
-// Σ_s p_s g_sᵀ what the blend makes of the positions themselves: linear in the place, turns have the slope
-// that they should.
+// Σ_s p_s g_sᵀ what the blend makes of the positions themselves: linear in the place, turns have no more
+// slope than they should. (Balanced weights, graph/balanced_weights.h, have a G near the identity already.)
 //
 // Gradients are those of least squares over the neighbours of a point. ω = 3/dim · h² c stands for the
 // surface around it, with h² the mean square length of its links, c its share of all directions

@@ -7,6 +7,7 @@
 #include "base/require.h"
 #include "base/stopwatch.h"
 #include "cloud/extent.h"
+#include "graph/balanced_weights.h"
 #include "graph/bridges.h"
 #include "graph/edge_weights.h"
 #include "graph/link_lengths.h"
@@ -38,7 +39,10 @@ void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
         stale_.handles = true;
     }
     if (input.rest != input_.rest) stale_.weights = stale_.energy = stale_.systems = true;
-    stale_.upsampler |= input.rest != input_.rest;
+    if (input.rest != input_.rest) {
+        stale_.upsampler = true;
+        std::ranges::fill(changed_points_, std::uint8_t{1}); // other places, other weights
+    }
     input_ = input;
 
     // Each stage makes those that use it stale, and is done once it returned.
@@ -249,6 +253,19 @@ void Pipeline::prepare_systems() {
                         "; another number of samples or another stiffness may help");
 }
 
+Influence Pipeline::influence(Index vertex) const {
+    const UpsampleInput input = upsample_input();
+    const float* const p = &input.positions[3 * std::size_t{order_.first_point[vertex]}];
+    return influence_of(nearest_, input.weights, input.places, vertex, p);
+}
+
+// What the upsampler is told, but for what is known of the numbers in it.
+UpsampleInput Pipeline::upsample_input() const {
+    const RestShape& rest = input_.rest ? *input_.rest : opened_;
+    return {rest.positions,          rest.normals,  mover_of_point_, &nearest_,
+            input_.settings.weights, sample_places_};
+}
+
 void Pipeline::prepare_upsampler() {
     Stopwatch clock;
     const RestShape& rest = input_.rest ? *input_.rest : opened_;
@@ -269,9 +286,14 @@ void Pipeline::prepare_upsampler() {
     const auto largest = [](const std::vector<Index>& ends) {
         return ends.empty() ? 0 : std::ranges::max(ends);
     };
-    upsampler_.prepare({rest.positions, rest.normals, mover_of_point_, &nearest_, input_.settings.weights,
-                        largest(row_ends_), largest(mover_ends_), changed_points_},
-                       motions_.size());
+    sample_places_.clear();
+    for (const Vec3d& place : system_.rest.position)
+        for (const double coordinate : place) sample_places_.push_back(static_cast<float>(coordinate));
+    UpsampleInput input = upsample_input();
+    input.rows_end = largest(row_ends_);
+    input.mover_end = largest(mover_ends_);
+    input.changed = changed_points_;
+    upsampler_.prepare(input, motions_.size());
     std::ranges::fill(changed_points_, std::uint8_t{0});
     seconds_.device += clock.lap();
 }

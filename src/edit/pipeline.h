@@ -139,9 +139,7 @@ public:
     Index handle_of(Index label) const { return label == no_index ? no_index : slots_.handle[label]; }
     // Which motions move a vertex that no handle holds: those of samples, and from first_handle_motion() on,
     // which is not below samples().size(), those of handles, by their labels.
-    Influence influence(Index vertex) const {
-        return influence_of(nearest_, input_.settings.weights, vertex);
-    }
+    Influence influence(Index vertex) const;
     Index first_handle_motion() const { return static_cast<Index>(first_handle_motion_); }
     const SampleSystem& system() const { return system_; }
     const RestShape& opened() const { return opened_; } // the shape in the file
@@ -180,6 +178,7 @@ private:
     void find_energy(const SampleRest& rest);
     void prepare_systems();
     void prepare_upsampler();
+    UpsampleInput upsample_input() const;
     std::span<const float> vertex_positions() const; // as opened
     std::span<const HandleMotion> all_motions(const std::vector<HandleMotion>& motions);
     // Calls visit(sample, handle) for every handle of a single point that leaves rotation free.
@@ -239,6 +238,7 @@ private:
         std::vector<bool> turning;    // at each place, whether its handle leaves rotation free
     };
     MoverNumbers mover_numbers_;               // that they were made with
+    std::vector<float> sample_places_;         // 3 a sample, at rest
     std::vector<std::uint8_t> changed_points_; // blocks of them, as UpsampleInput has it
     Contacts contacts_;
     CarriedParts carried_;

@@ -87,8 +87,6 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
                                           : turn_of(state.rotation[s]);
             motions_[s] = motion_about(moved, state.displacement[s] - moved * system_.rest.position[s]);
         }
-        for (int axis = 0; axis < 3; ++axis)
-            motions_[s].place[axis] = static_cast<float>(system_.rest.position[s][axis]);
     });
     for (std::size_t h = 0; h < motions.size(); ++h)
         motions_[first_handle_motion_ + slots_.slot[h]] = motion_of_handle(motions[h]);
@@ -149,7 +147,7 @@ std::vector<float> Pipeline::rotations(const std::vector<HandleMotion>& motions,
     for (std::size_t carried = turns.size() - carried_.size(); carried < turns.size(); ++carried)
         turns[carried] = rotation_in(motions_[carried]);
     const std::span<const float> before = input_.rest ? input_.rest->rotations : std::span<const float>{};
-    return point_rotations(mover_of_point_, nearest_, input_.settings.weights, turns, before, workers_);
+    return point_rotations(upsample_input(), turns, before, workers_);
 }
 
 } // namespace knead

@@ -113,7 +113,7 @@ enum class InfluenceWeights {
 // So far from its border, as a share of d_max, a handle weighs what a sample there would; nearer by it more,
 // and without bound. Less leaves a seam of stretched links along the border, more is stiff beside it and
 // bends farther out (knead evaluate, the unevenness of links with 50 to 200 samples).
-inline constexpr float handle_reach = 0.2F;
+inline constexpr float handle_reach = 0.15F;
 
 // By how much a handle weighs more than a sample as far away.
 template<typename Number>

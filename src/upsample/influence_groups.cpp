@@ -64,17 +64,22 @@ enum class Wanted { count, shares };
 template<Wanted wanted, typename Rows>
 void make_group(const UpsampleInput& input, const Rows& rows, std::size_t first, std::size_t end,
                 MadeGroup& made) {
-    made.begin();
-    for (std::size_t i = first; i < end; ++i) {
+    const Index first_handle = input.rows->first_handle;
+    const SamplePlaces places{input.places, first_handle};
+    const auto movers_at = [&](std::size_t i) {
         const Index mover = input.mover[i];
-        const Movers movers = mover < rows.size()
-                                  ? movers_of(rows[mover], input.rows->first_handle, input.weights)
-                                  : moved_alone(static_cast<Index>(mover - rows.size()) + 1);
+        if (mover >= rows.size()) return moved_alone(static_cast<Index>(mover - rows.size()) + 1);
         if constexpr (wanted == Wanted::count)
-            made.add(movers);
+            return movers_of(rows[mover], first_handle, input.weights, AsTheyAre{});
+        const BalancedAbout balanced{&input.positions[3 * i], places, input.weights};
+        return movers_of(rows[mover], first_handle, input.weights, balanced);
+    };
+    made.begin();
+    for (std::size_t i = first; i < end; ++i)
+        if constexpr (wanted == Wanted::count)
+            made.add(movers_at(i));
         else
-            made.add(movers, i - first);
-    }
+            made.add(movers_at(i), i - first);
 }
 
 // Calls take(group, made) for each group of a block.

@@ -177,7 +177,7 @@ public:
                                std::span<float> normals, Held held) override {
         require_valid_frame(input_, motion_count_, motions, positions, normals);
         if (positions.empty()) return {};
-        pack_motions(motions, input_.weights, std::span(packed_).subspan(1));
+        pack_motions(motions, input_.weights, input_.places, std::span(packed_).subspan(1));
         const std::span<const Index> blocks =
             changes_.of_frame(std::span(packed_).subspan(1), positions, normals, held);
         if (!blocks.empty()) move(blocks, positions, normals);
@@ -205,7 +205,7 @@ private:
     void make_motions() {
         packed_.assign(motion_count_ + 1, {});
         // None of them moves anything; of the first one that stays so.
-        pack_motions(std::vector<Motion>(packed_.size()), input_.weights, packed_);
+        pack_motions(std::vector<Motion>(packed_.size()), input_.weights, {}, packed_);
         const cl_mem_flags where = shares_memory_ ? CL_MEM_USE_HOST_PTR : 0;
         motions_ =
             make_buffer(opened_.context.get(), CL_MEM_READ_ONLY | where,

@@ -2,12 +2,13 @@
 
 namespace knead {
 
-void pack_motions(std::span<const Motion> motions, InfluenceWeights weights, std::span<PackedMotion> packed) {
-    const float half = weights == InfluenceWeights::paper ? 0.0F : 0.5F;
+void pack_motions(std::span<const Motion> motions, InfluenceWeights weights, std::span<const float> places,
+                  std::span<PackedMotion> packed) {
+    const std::size_t with_place = weights == InfluenceWeights::paper ? 0 : places.size() / 3;
     for (std::size_t m = 0; m < motions.size(); ++m) {
         const float* const map = motions[m].map;
-        const float* const place = motions[m].place;
-        const float c[3] = {half * place[0], half * place[1], half * place[2]};
+        float c[3] = {0, 0, 0};
+        for (std::size_t axis = 0; m < with_place && axis < 3; ++axis) c[axis] = 0.5F * places[3 * m + axis];
         auto& column = packed[m].column;
         for (std::size_t row = 0; row < 3; ++row) {
             const float* const from = map + 4 * row;

@@ -12,7 +12,8 @@ struct alignas(64) PackedMotion {
     float column[4][4];
 };
 
-// One for each, of as many.
-void pack_motions(std::span<const Motion> motions, InfluenceWeights weights, std::span<PackedMotion> packed);
+// One for each, of as many. `places`: of UpsampleInput.
+void pack_motions(std::span<const Motion> motions, InfluenceWeights weights, std::span<const float> places,
+                  std::span<PackedMotion> packed);
 
 } // namespace knead

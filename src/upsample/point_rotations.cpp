@@ -1,6 +1,7 @@
 #include "upsample/point_rotations.h"
 
 #include "base/require.h"
+#include "graph/balanced_weights.h"
 
 #include <algorithm>
 
@@ -29,14 +30,16 @@ Quatd mean_turn(const Influence& influence, std::span<const Quatd> turns) {
 
 } // namespace
 
-std::vector<float> point_rotations(std::span<const Index> mover, const InfluenceRows& rows,
-                                   InfluenceWeights weights, std::span<const Quatd> turns,
+std::vector<float> point_rotations(const UpsampleInput& input, std::span<const Quatd> turns,
                                    std::span<const float> before, Workers& workers) {
-    require(before.empty() || before.size() == 4 * mover.size(), "a turn before for every point, or none");
-    std::vector<float> result(4 * mover.size());
-    workers.for_each(mover.size(), points_per_chunk, [&](std::size_t i) {
+    const std::size_t points = input.mover.size();
+    require(before.empty() || before.size() == 4 * points, "a turn before for every point, or none");
+    std::vector<float> result(4 * points);
+    workers.for_each(points, points_per_chunk, [&](std::size_t i) {
         float* const to = result.data() + 4 * i;
-        Quatd turn = mean_turn(influence_of(rows, weights, mover[i]), turns);
+        Quatd turn = mean_turn(
+            influence_of(*input.rows, input.weights, input.places, input.mover[i], &input.positions[3 * i]),
+            turns);
         if (!before.empty()) {
             // What does not turn any further keeps every bit.
             if (turn.w() == 1 && turn.vec().isZero(0)) return void(std::copy_n(before.data() + 4 * i, 4, to));

@@ -144,7 +144,8 @@ public:
         require_valid_input(input, motions, workers_);
         input_ = input;
         packed_.assign(motions + 1, {});
-        pack_motions(std::vector<Motion>(packed_.size()), input.weights, packed_); // and the first one stays
+        pack_motions(std::vector<Motion>(packed_.size()), input.weights, {},
+                     packed_); // and the first one stays
         if (input.mover.empty()) influences_ = {};
         if (!input.mover.empty()) influences_.prepare(input, workers_);
         changes_.prepare(input, motions, workers_);
@@ -153,7 +154,7 @@ public:
     std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
                                std::span<float> normals, Held held) override {
         require_valid_frame(input_, packed_.size() - 1, motions, positions, normals);
-        pack_motions(motions, input_.weights, std::span(packed_).subspan(1));
+        pack_motions(motions, input_.weights, input_.places, std::span(packed_).subspan(1));
         const std::span<const Index> blocks =
             changes_.of_frame(std::span(packed_).subspan(1), positions, normals, held);
         move(blocks, positions, normals);

@@ -1,7 +1,7 @@
 #pragma once
 // Private to this room: what moves one point, in shares that sum to all.
 
-#include "graph/influences.h"
+#include "graph/balanced_weights.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,24 @@ struct Movers {
     std::array<Index, influences_per_row> motion;
     std::array<float, influences_per_row> weight{};
     std::size_t count = 0;
-    std::size_t heaviest = 0;
+};
+
+// Weights by distance alone: enough to know which motions there are.
+struct AsTheyAre {
+    template<typename Number>
+    void operator()(const SampleRow<Number>&, std::array<float, influences_per_row>&) const {}
+};
+
+// Smooth weights balanced about a point. None that was 0 becomes more.
+struct BalancedAbout {
+    const float* p = nullptr;
+    const SamplePlaces& places;
+    InfluenceWeights weights = InfluenceWeights::smooth;
+
+    template<typename Number>
+    void operator()(const SampleRow<Number>& row, std::array<float, influences_per_row>& weight) const {
+        if (weights == InfluenceWeights::smooth) balance(offsets_from(p, row, places), weight);
+    }
 };
 
 inline Movers moved_alone(Index motion) {
@@ -38,8 +55,8 @@ bool is_usual(const SampleRow<Number>& row, Index first_handle, InfluenceWeights
            row.distance.front() != row.distance.back();
 }
 
-template<typename Number>
-Movers movers_of_usual(const SampleRow<Number>& row) {
+template<typename Number, typename Adjust>
+Movers movers_of_usual(const SampleRow<Number>& row, const Adjust& adjust) {
     const Number farthest = row.distance.back();
     Movers movers;
     for (std::size_t k = 0; k < influences_per_row; ++k) {
@@ -48,30 +65,35 @@ Movers movers_of_usual(const SampleRow<Number>& row) {
         movers.weight[k] = nearness * nearness;
         movers.count += row.distance[k] != farthest ? 1 : 0;
     }
+    adjust(row, movers.weight);
     return movers;
 }
 
-template<typename Number>
-Movers movers_of_unusual(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights) {
+template<typename Number, typename Adjust>
+Movers movers_of_unusual(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights,
+                         const Adjust& adjust) {
     const std::size_t count = row.count();
     if (count == 0) return moved_alone(0);
     const auto weight = weights_of(row, first_handle, weights);
+    auto adjusted = weight;
+    adjust(row, adjusted);
     Movers movers;
     for (std::size_t k = 0; k < count; ++k) {
         if (!(weight[k] > 0)) continue;
         movers.motion[movers.count] = Index{row.sample[k]} + 1;
-        movers.weight[movers.count] = weight[k];
-        if (weight[k] > movers.weight[movers.heaviest]) movers.heaviest = movers.count;
+        movers.weight[movers.count] = adjusted[k];
         ++movers.count;
     }
     return movers;
 }
 
-// By its row. `first_handle`: of InfluenceRows.
-template<typename Number>
-Movers movers_of(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights) {
-    return is_usual(row, first_handle, weights) ? movers_of_usual(row)
-                                                : movers_of_unusual(row, first_handle, weights);
+// By its row: the same motions in the same places, whatever the weights are adjusted to. `first_handle`: of
+// InfluenceRows.
+template<typename Number, typename Adjust>
+Movers movers_of(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights,
+                 const Adjust& adjust) {
+    return is_usual(row, first_handle, weights) ? movers_of_usual(row, adjust)
+                                                : movers_of_unusual(row, first_handle, weights, adjust);
 }
 
 // Their weights in parts of `whole_share`. What rounding leaves over, or takes too much, is the heaviest's.
@@ -86,7 +108,7 @@ inline std::array<std::uint16_t, influences_per_row> shares_of(const Movers& mov
         parts[k] = static_cast<std::int32_t>(w[k] * scale + 0.5F);
         left -= parts[k];
     }
-    parts[movers.heaviest] += left;
+    *std::ranges::max_element(parts) += left;
     std::array<std::uint16_t, influences_per_row> shares;
     for (std::size_t k = 0; k < influences_per_row; ++k) shares[k] = static_cast<std::uint16_t>(parts[k]);
     return shares;

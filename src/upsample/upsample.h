@@ -8,7 +8,8 @@
 //     p' = p + Σ_s w_s (x_s - p_s + ½ (A_s + A̅) (p - p_s)),   A̅ = Σ_s w_s A_s,   with smooth weights,
 //     p' = p + Σ_s w_s (A_s p + b_s)                                              with those of the paper,
 //
-// which are the same wherever all samples around it move alike. The second is Equation (4). Where a surface
+// which are the same wherever all samples around it move alike; smooth weights are balanced about p
+// (graph/balanced_weights.h). The second is Equation (4). Where a surface
 // is bent, each sample there sends the point along its own tangent, off to the outer side; in the first, the
 // way from sample to point is turned midway between both their turns, as the chord of an arc is. For a
 // handle, whose border is all around, p_s is p itself. Where nothing moves, A and b are zero and p' is p to
@@ -43,9 +44,6 @@ class Workers;
 // origin.
 struct Motion {
     float map[12] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}; // A00 A01 A02 b0  A10 A11 A12 b1  A20 A21 A22 b2
-    // p_s, for smooth weights. Of no account for what moves a point alone, and zero for the handles that rows
-    // name (InfluenceRows::first_handle).
-    float place[3] = {0, 0, 0};
 };
 
 // The rest shape and who moves it. Views: the arrays must stay unchanged for as long as an Upsampler holds
@@ -56,11 +54,13 @@ struct UpsampleInput {
     std::span<const Index> mover;     // n: what moves each point, as influence_of() reads it
     const InfluenceRows* rows = nullptr;
     InfluenceWeights weights = InfluenceWeights::smooth;
+    std::span<const float> places = {}; // 3 a sample: p_s of all that rows name, for smooth weights
     // One past the largest number in all rows, and one past the largest mover, if they are known: prepare()
     // reads them all to find out, else.
     std::optional<Index> rows_end = std::nullopt, mover_end = std::nullopt;
     // Of each block of points (point_blocks.h) 0 if what moves it is as it was when prepare() was called
-    // last, with these same arrays; empty if that is not known.
+    // last, with these same arrays, and with the points and the samples in the same places; empty if that is
+    // not known.
     std::span<const std::uint8_t> changed = {};
 };
 

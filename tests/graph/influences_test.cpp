@@ -140,7 +140,7 @@ TEST(Influences, OfAHandleGrowWithoutBoundTowardsItsBorder) {
         if (distance == 1) {
             EXPECT_GT(share, 0.99);
         }
-        if (distance == 400) {
+        if (distance == std::lround(2000 * handle_reach)) {
             narrow.first_handle = no_index;
             EXPECT_EQ(influence_of(narrow, InfluenceWeights::smooth, 0).weight, influence.weight);
         }

@@ -1,6 +1,7 @@
 #include "upsample/influence_groups.h"
 
 #include "base/workers.h"
+#include "graph/balanced_weights.h"
 #include "upsample/every_upsampler.h"
 #include "upsample/point_blocks.h"
 
@@ -45,7 +46,8 @@ TEST(InfluenceGroups, HaveTheWeightsOfEveryPoint) {
             InfluenceGroups influences;
             influences.prepare(scene.input(), workers);
             for (std::size_t i = 0; i < points; ++i) {
-                const Influence expected = influence_of(scene.rows, weights, scene.mover[i]);
+                const Influence expected =
+                    influence_of(scene.rows, weights, scene.places, scene.mover[i], &scene.positions[3 * i]);
                 std::map<Index, double> left;
                 for (std::size_t k = 0; k < expected.count; ++k)
                     left[expected.motion.at(k) + 1] += static_cast<double>(expected.weight.at(k));

@@ -1,5 +1,9 @@
 #include "upsample/scene.h"
 
+#include "graph/balanced_weights.h"
+
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <numeric>
 #include <random>
@@ -42,8 +46,37 @@ NarrowRow random_row(Random& random, std::size_t number, std::size_t motions) {
     return row;
 }
 
+Vec3d place_of(const Scene& scene, std::size_t motion, const Vec3d& p) {
+    return motion < scene.places.size() / 3 ? at(scene.places, motion) : p;
+}
+
+// What graph/balanced_weights.h says, in double. The weights sum to 1 before and after.
+void balance_exactly(const Scene& scene, const WideRow& row, const Vec3d& p, std::vector<double>& weight) {
+    Vec3d mean = Vec3d::Zero();
+    double square_reach = 0;
+    for (std::size_t k = 0; k < row.count(); ++k)
+        square_reach += (place_of(scene, row.sample.at(k), p) - p).squaredNorm() / double{influences_per_row};
+    if (square_reach == 0) return;
+    for (std::size_t k = 0; k < weight.size(); ++k) mean += weight[k] * place_of(scene, row.sample.at(k), p);
+    Mat3d spread =
+        (double{balance_ridge} * square_reach + double{balance_caution} * (p - mean).squaredNorm()) *
+        Mat3d::Identity();
+    for (std::size_t k = 0; k < weight.size(); ++k) {
+        const Vec3d arm = place_of(scene, row.sample.at(k), p) - mean;
+        spread += weight[k] * arm * arm.transpose();
+    }
+    const Vec3d lean = spread.inverse() * (p - mean);
+    double sum = 0;
+    for (std::size_t k = 0; k < weight.size(); ++k) {
+        const Vec3d arm = place_of(scene, row.sample.at(k), p) - mean;
+        const double factor = std::max(0.0, 1 + lean.dot(arm) / 2);
+        sum += weight[k] *= factor * factor;
+    }
+    for (double& w : weight) w /= sum;
+}
+
 // What graph/influences.h says of the weights, in double.
-std::vector<double> exact_weights(const WideRow& row, Index first_handle, InfluenceWeights kind) {
+std::vector<double> exact_weights_by_distance(const WideRow& row, Index first_handle, InfluenceWeights kind) {
     std::vector<double> weight;
     const double farthest = row.count() > 0 ? row.distance.at(row.count() - 1) : 0;
     for (std::size_t k = 0; k < row.count(); ++k) {
@@ -58,6 +91,12 @@ std::vector<double> exact_weights(const WideRow& row, Index first_handle, Influe
     double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
     if (sum == 0) weight.assign(row.count(), 1), sum = static_cast<double>(row.count());
     for (double& w : weight) w /= sum;
+    return weight;
+}
+
+std::vector<double> exact_weights(const Scene& scene, const WideRow& row, const Vec3d& p) {
+    std::vector<double> weight = exact_weights_by_distance(row, scene.rows.first_handle, scene.weights);
+    if (scene.weights == InfluenceWeights::smooth) balance_exactly(scene, row, p, weight);
     return weight;
 }
 
@@ -76,7 +115,7 @@ Eigen::Matrix<double, 3, 4> exact_blend(const Scene& scene, std::size_t point) {
         return sum;
     }
     const WideRow row = scene.rows[mover];
-    const std::vector<double> weights = exact_weights(row, scene.rows.first_handle, scene.weights);
+    const std::vector<double> weights = exact_weights(scene, row, at(scene.positions, point));
     for (std::size_t k = 0; k < weights.size(); ++k) add(weights[k], row.sample.at(k));
     return sum;
 }
@@ -102,8 +141,7 @@ Scene random_scene(std::size_t points, std::size_t motions, unsigned seed, bool 
         const Mat3d turn = Eigen::AngleAxisd(between(random, 0, 3.1), axis).toRotationMatrix();
         scene.motions.push_back(motion_of(turn, in_cube(random)));
         if (m >= scene.rows.first_handle) continue;
-        const Vec3d place = in_cube(random);
-        for (int i = 0; i < 3; ++i) scene.motions.back().place[i] = static_cast<float>(place[i]);
+        append(in_cube(random), scene.places);
     }
     return scene;
 }
@@ -132,13 +170,11 @@ Vec3d exact_position(const Scene& scene, std::size_t point) {
     if (scene.weights == InfluenceWeights::paper || mover >= scene.rows.size())
         return p + map.leftCols<3>() * p + map.col(3);
     const WideRow row = scene.rows[mover];
-    const std::vector<double> weights = exact_weights(row, scene.rows.first_handle, scene.weights);
+    const std::vector<double> weights = exact_weights(scene, row, p);
     Vec3d displacement = Vec3d::Zero();
     for (std::size_t k = 0; k < weights.size(); ++k) {
-        const Motion& motion = scene.motions[row.sample.at(k)];
-        const auto own = matrix_of(motion);
-        const bool of_handle = row.sample.at(k) >= scene.rows.first_handle;
-        const Vec3d place = of_handle ? p : Vec3d(Eigen::Map<const Vec3f>(motion.place).cast<double>());
+        const auto own = matrix_of(scene.motions[row.sample.at(k)]);
+        const Vec3d place = place_of(scene, row.sample.at(k), p);
         const Vec3d moved = own.leftCols<3>() * place + own.col(3); // x_s - p_s
         displacement += weights[k] * (moved + 0.5 * (own + map).leftCols<3>() * (p - place));
     }

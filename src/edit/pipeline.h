@@ -164,6 +164,7 @@ private:
     void prepare_handles(Progress& progress);
     bool turns_freely(Index label) const;
     Index first_handle_number() const;
+    std::vector<bool> find_pegs(std::span<const BorderVertex> borders) const;
     std::vector<FloodStart> handle_starts(std::span<const BorderVertex> borders) const;
     Index followed_by(std::size_t point) const;
     void find_pulled();

@@ -73,16 +73,31 @@ bool Pipeline::turns_freely(Index label) const {
     return label < slots_.handles.size() && slots_.handles[label].free_rotation;
 }
 
+// Of each label whether it leaves rotation free and has a sample at all of its border.
+std::vector<bool> Pipeline::find_pegs(std::span<const BorderVertex> borders) const {
+    std::vector<bool> is_peg(slots_.handles.size() + 1);
+    for (Index label = 0; label < is_peg.size(); ++label) is_peg[label] = turns_freely(label);
+    if (std::ranges::find(is_peg, true) == is_peg.end()) return is_peg;
+    std::vector<Index> with_sample(samples_);
+    std::ranges::sort(with_sample);
+    for (const BorderVertex& border : borders)
+        if (!std::ranges::binary_search(with_sample, border.vertex)) is_peg[border.label] = false;
+    return is_peg;
+}
+
 // Between samples, a handle is near where its border is near, not where a sample of it is: it starts from all
-// along the border, with the number of its own motion. One that leaves rotation free turns with each of its
-// samples, and those start for it.
+// along the border, with the number of its own motion. A peg turns with each of its samples, and those start
+// for it. (What is wider would be torn off between its samples: the border lies where the handle says, and
+// what is beside it where samples with turns of their own say.)
 std::vector<FloodStart> Pipeline::handle_starts(std::span<const BorderVertex> borders) const {
+    const std::vector<bool> is_peg = find_pegs(borders);
     std::vector<FloodStart> starts;
     for (const BorderVertex& border : borders)
-        if (!turns_freely(border.label))
-            starts.push_back({border.vertex, nearest_.first_handle + border.label});
-    for (auto s = static_cast<Index>(base_samples_); s < samples_.size(); ++s)
-        if (turns_freely(labels_.vertex[samples_[s]])) starts.push_back({samples_[s], s});
+        if (!is_peg[border.label]) starts.push_back({border.vertex, nearest_.first_handle + border.label});
+    for (auto s = static_cast<Index>(base_samples_); s < samples_.size(); ++s) {
+        const Index label = labels_.vertex[samples_[s]];
+        if (label != no_index && is_peg[label]) starts.push_back({samples_[s], s});
+    }
     return starts;
 }
 

@@ -142,20 +142,22 @@ TEST(Pipeline, FewSamplesLeaveNoSeamAtAHandlesBorder) {
     }
 }
 
-TEST(Pipeline, HandlesMovePointsByThemselvesUnlessTheyTurnFreely) {
+TEST(Pipeline, HandlesMovePointsByThemselvesUnlessTheyAreFreePegs) {
     Settings settings;
     settings.samples = 100;
     Desk desk(bar(6000), settings);
     desk.play(R"({"op":"handle","name":"top","role":"moving","rotation":"free","region":{"halfspace":)"
               R"({"point":[0,0,2],"normal":[0,0,1]}}})"
               "\n" +
-              box_handle("middle", "fixed", "[-9,-9,-0.2]", "[9,9,0.2]") + above("region", -1.5) +
-              drag(lift));
+              box_handle("middle", "fixed", "[-9,-9,-0.2]", "[9,9,0.2]") +
+              R"({"op":"handle","name":"peg","role":"fixed","rotation":"free","points":[3000]})"
+              "\n" +
+              above("region", -1.5) + drag(lift));
     const Pipeline& pipeline = desk.pipeline();
     const HandleLabels& labels = pipeline.labels();
     const auto samples = static_cast<Index>(pipeline.samples().size());
     std::set<Index> movers; // beyond the samples: the handles' numbers
-    bool by_samples_of_top = false;
+    bool by_samples_of_peg = false;
     for (Index v = 0; v < labels.vertex.size(); ++v) {
         if (labels.vertex[v] != no_index) continue;
         const Influence influence = pipeline.influence(v);
@@ -164,11 +166,11 @@ TEST(Pipeline, HandlesMovePointsByThemselvesUnlessTheyTurnFreely) {
             if (motion >= samples)
                 movers.insert(pipeline.handle_of(motion - pipeline.first_handle_motion()));
             else
-                by_samples_of_top |= pipeline.handle_of(labels.vertex[pipeline.samples()[motion]]) == 0;
+                by_samples_of_peg |= pipeline.handle_of(labels.vertex[pipeline.samples()[motion]]) == 2;
         }
     }
-    EXPECT_EQ(movers, (std::set<Index>{1, 3})); // 3: what is outside
-    EXPECT_TRUE(by_samples_of_top);
+    EXPECT_EQ(movers, (std::set<Index>{0, 1, 4})); // 4: what is outside
+    EXPECT_TRUE(by_samples_of_peg);
 }
 
 TEST(Pipeline, AHandleMayHoldEverything) {

@@ -107,7 +107,8 @@ void turn_with_handles(SampleSystem& system, std::span<const HandleMotion> handl
                        Workers& workers) {
     const auto increment = [&](Index s) -> Quatd {
         const Index handle = system.rest.handle[s];
-        if (handle == no_index) return Quatd::Identity(); // of a part without handles
+        // Of a part without handles, and of a handle that does not say how it turns.
+        if (handle == no_index || system.unknown[s] != no_index) return Quatd::Identity();
         return handles[handle].rotation * state.rotation[s].conjugate();
     };
     assemble_rotations(
@@ -226,26 +227,6 @@ Mat3d stretched_turn(const SampleSystem& system, const SampleState& state, std::
     return turn_of(state.rotation[s]) + state.rotation[s] * system.stretch[system.unknown[s]];
 }
 
-// What all bodies do, where points have an energy.
-void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state,
-                 Workers& workers) {
-    const std::size_t samples = system.rest.energy.samples;
-    workers.for_each(system.body.size(), grain_of(system.body.size()), [&](std::size_t s) {
-        Body& body = system.body[s];
-        if (s < samples) {
-            const Mat3d& turn = system.turn[s];
-            set_way(state.displacement[s], body);
-            set_columns(turn, body.turn);
-            set_columns(body.turned ? turn : stretched_turn(system, state, s), body.map);
-        } else {
-            const HandleMotion& motion = handles[s - samples];
-            set_way(motion.offset, body);
-            set_columns(motion.linear - Mat3d::Identity(), body.turn);
-            body.map = body.turn;
-        }
-    });
-}
-
 // How the samples of each handle that leaves rotation free turned, all together.
 void find_free_turns(SampleSystem& system, const SampleState& state) {
     for (Quatd& turn : system.free_turn) turn.coeffs().setZero();
@@ -260,6 +241,31 @@ void find_free_turns(SampleSystem& system, const SampleState& state) {
         else
             turn.setIdentity();
     }
+}
+
+// What all bodies do, where points have an energy. A handle that leaves rotation free takes points along as
+// it lies, and wants them turned as its samples are.
+void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state,
+                 Workers& workers) {
+    const std::size_t samples = system.rest.energy.samples;
+    const std::vector<bool>& turns_freely = system.rest.turns_freely;
+    find_free_turns(system, state);
+    workers.for_each(system.body.size(), grain_of(system.body.size()), [&](std::size_t s) {
+        Body& body = system.body[s];
+        if (s < samples) {
+            const Mat3d& turn = system.turn[s];
+            set_way(state.displacement[s], body);
+            set_columns(turn, body.turn);
+            set_columns(body.turned ? turn : stretched_turn(system, state, s), body.map);
+        } else {
+            const std::size_t handle = s - samples;
+            set_way(handles[handle].offset, body);
+            set_columns(handles[handle].linear - Mat3d::Identity(), body.map);
+            body.turn = body.map;
+            if (handle < turns_freely.size() && turns_freely[handle])
+                set_columns(turn_of(system.free_turn[handle]), body.turn);
+        }
+    });
 }
 
 // What handles with a falloff add to the right-hand sides. Around one that leaves rotation free the surface
@@ -347,10 +353,14 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
         find_turns(system, state, workers);
         find_bodies(system, handles, state, workers);
     }
+    find_free_turns(system, state);
+    const auto given = [&](Index s) -> const Quatd& {
+        return system.unknown[s] == no_index ? state.rotation[s] : system.free_turn[system.rest.handle[s]];
+    };
     assemble_rotations(
         system, system.smoothing, &BodyPair::turn,
-        [&](std::size_t begin, std::size_t end) { find_local_rotations(system, state, begin, end); },
-        [&](Index s) -> const Quatd& { return state.rotation[s]; }, workers);
+        [&](std::size_t begin, std::size_t end) { find_local_rotations(system, state, begin, end); }, given,
+        workers);
     system.rotations.solve(system.sides, 4, workers);
     for_solved_rotations(
         system, [&](Index s, const Quatd& rotation) { state.rotation[s] = rotation; }, workers);

@@ -77,10 +77,10 @@ struct PointsBetween {
     std::span<const std::uint8_t> hanging; // of each vertex: 1 for an outlier, which says nothing of the
                                            // surface; empty without any
     std::span<const Index> label;          // of each vertex: its handle, or no_index
-    const std::vector<bool>& turns_freely; // of each handle: whether it moves nothing by itself but what its
-                                           // samples move; may end early
-    std::span<const Vec3d> sample;         // rest positions
-    std::size_t handles;                   // handle h is body sample.size() + h
+    const std::vector<bool>& turns_freely; // of each handle: whether its points are blends like others, and
+                                           // it says where they go but not how they turn; may end early
+    std::span<const Vec3d> sample; // rest positions
+    std::size_t handles;           // handle h is body sample.size() + h
 };
 
 // How much of the energy is that of the points, 0 … 1, where so many samples are chosen among so many

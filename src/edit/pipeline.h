@@ -41,6 +41,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace knead {
@@ -164,7 +165,7 @@ private:
     void prepare_handles(Progress& progress);
     bool turns_freely(Index label) const;
     Index first_handle_number() const;
-    std::vector<bool> find_pegs(std::span<const BorderVertex> borders) const;
+    std::vector<std::pair<Index, Index>> find_hinges(std::span<const BorderVertex> borders) const;
     std::vector<FloodStart> handle_starts(std::span<const BorderVertex> borders) const;
     Index followed_by(std::size_t point) const;
     void find_pulled();

@@ -73,31 +73,41 @@ bool Pipeline::turns_freely(Index label) const {
     return label < slots_.handles.size() && slots_.handles[label].free_rotation;
 }
 
-// Of each label whether it leaves rotation free and has a sample at all of its border.
-std::vector<bool> Pipeline::find_pegs(std::span<const BorderVertex> borders) const {
-    std::vector<bool> is_peg(slots_.handles.size() + 1);
-    for (Index label = 0; label < is_peg.size(); ++label) is_peg[label] = turns_freely(label);
-    if (std::ranges::find(is_peg, true) == is_peg.end()) return is_peg;
-    std::vector<Index> with_sample(samples_);
-    std::ranges::sort(with_sample);
-    for (const BorderVertex& border : borders)
-        if (!std::ranges::binary_search(with_sample, border.vertex)) is_peg[border.label] = false;
-    return is_peg;
+// The handles that leave rotation free and have border without a sample, with the component where: ascending.
+std::vector<std::pair<Index, Index>> Pipeline::find_hinges(std::span<const BorderVertex> borders) const {
+    std::vector<std::pair<Index, Index>> hinges;
+    std::vector<Index> with_sample;
+    for (const BorderVertex& border : borders) {
+        if (!turns_freely(border.label)) continue;
+        if (with_sample.empty()) {
+            with_sample = samples_;
+            std::ranges::sort(with_sample);
+        }
+        if (!std::ranges::binary_search(with_sample, border.vertex))
+            hinges.emplace_back(border.label, components_->component[border.vertex]);
+    }
+    std::ranges::sort(hinges);
+    hinges.erase(std::unique(hinges.begin(), hinges.end()), hinges.end());
+    return hinges;
 }
 
 // Between samples, a handle is near where its border is near, not where a sample of it is: it starts from all
-// along the border, with the number of its own motion. A peg turns with each of its samples, and those start
-// for it. (What is wider would be torn off between its samples: the border lies where the handle says, and
-// what is beside it where samples with turns of their own say.)
+// along the border, with the number of its own motion. A peg, which leaves rotation free and has a sample all
+// along its border if it has any, turns with each of them, and those start for it. (What is wider would be
+// torn off between its samples: the border lies where the handle says, and what is beside it where samples
+// with turns of their own say.)
 std::vector<FloodStart> Pipeline::handle_starts(std::span<const BorderVertex> borders) const {
-    const std::vector<bool> is_peg = find_pegs(borders);
+    const std::vector<std::pair<Index, Index>> hinges = find_hinges(borders);
+    const auto is_peg = [&](Index label, Index vertex) {
+        return turns_freely(label) &&
+               !std::ranges::binary_search(hinges, std::pair{label, components_->component[vertex]});
+    };
     std::vector<FloodStart> starts;
     for (const BorderVertex& border : borders)
-        if (!is_peg[border.label]) starts.push_back({border.vertex, nearest_.first_handle + border.label});
-    for (auto s = static_cast<Index>(base_samples_); s < samples_.size(); ++s) {
-        const Index label = labels_.vertex[samples_[s]];
-        if (label != no_index && is_peg[label]) starts.push_back({samples_[s], s});
-    }
+        if (!is_peg(border.label, border.vertex))
+            starts.push_back({border.vertex, nearest_.first_handle + border.label});
+    for (auto s = static_cast<Index>(base_samples_); s < samples_.size(); ++s)
+        if (is_peg(labels_.vertex[samples_[s]], samples_[s])) starts.push_back({samples_[s], s});
     return starts;
 }
 

@@ -8,7 +8,7 @@
 // the point,
 //
 //     w_s ← w_s (1 + ½ β·(p_s - p̄))₊²,   β = (C + (λ r² + κ |p - p̄|²) I)⁻¹ (p - p̄),
-//     C = Σ_s w_s (p_s - p̄)(p_s - p̄)ᵀ,   r² the mean of |p_s - p|² over the row,
+//     C = Σ_s w_s (p_s - p̄)(p_s - p̄)ᵀ,   r² the mean of |p_s - p|² over all places of the row,
 //
 // with Σ w_s = 1 before, and up to a common factor after. To first order in β and without what is added to C
 // that is the correction of W. K. Liu, S. Jun, Y. F. Zhang, "Reproducing kernel particle methods", 1995: p̄

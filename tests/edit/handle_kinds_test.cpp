@@ -127,6 +127,13 @@ TEST(HandleKinds, AFreeLineIsAHingeWithoutASeam) {
             desk.play(R"({"op":"drag","handle":"top","pivot":[0.5,0.5,0],"frames":[)" + frames + "]}\n" +
                       settle(200));
             EXPECT_LT(most_stretch(desk), 1.4) << samples; // 2.1 for 200 when only the samples on it counted
+            // Settled, it stays as it is while the hand holds still.
+            desk.play(settle(1000));
+            const std::vector<float> settled = desk.shape();
+            desk.play(R"({"op":"drag","handle":"top","pivot":[0.5,0.5,0],"frames":[)" + turn('y', 80) +
+                      "]}\n");
+            const std::vector<float> held = desk.shape();
+            for (std::size_t i = 0; i < held.size(); ++i) ASSERT_NEAR(held[i], settled[i], 1e-5) << samples;
             const auto on_the_left = [&](const Vec3d& p) {
                 return p.x() < 0.5 - desk.document().cloud().origin.x();
             };

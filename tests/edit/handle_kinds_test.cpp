@@ -144,6 +144,36 @@ TEST(HandleKinds, AFreeLineIsAHingeWithoutASeam) {
     }
 }
 
+// A free handle holds a strip of a sheet and all of a crumb above it but the twin of one of its points, which
+// what the handle holds there takes along.
+TEST(HandleKinds, AFreeHandleTakesAlongWhatIsInsideOfItInEveryPart) {
+    std::vector<float> positions;
+    const PointCloud sheet = made(Shape::plane, 10'000);
+    const auto add = [&](const Vec3d& p) {
+        for (int axis = 0; axis < 3; ++axis) positions.push_back(static_cast<float>(p[axis]));
+    };
+    for (std::size_t i = 0; i < sheet.size(); ++i) add(at(sheet.positions, i) + sheet.origin);
+    std::string points;
+    const auto hold = [&](std::size_t i) { points += (points.empty() ? "" : ",") + std::to_string(i); };
+    for (std::size_t i = 0; i < sheet.size(); ++i)
+        if (std::abs(at(positions, i).x() - 0.5) < 0.05) hold(i);
+    const std::size_t crumb = sheet.size();
+    for (int i = 0; i < 25; ++i) {
+        hold(crumb + static_cast<std::size_t>(i));
+        add({0.5 + 0.01 * (i % 5), 0.5 + 0.01 * (i / 5), 0.06});
+    }
+    add({0.52, 0.52, 0.06}); // in the middle of the crumb
+    Settings settings;
+    settings.samples = 40;
+    Desk desk(make_cloud(positions), settings);
+    desk.play(R"({"op":"handle","name":"top","role":"moving","rotation":"free","points":[)" + points +
+              "]}\n" + drag(R"({"translate":[0,0,0.25]})") + settle(20));
+    const std::vector<float> shape = desk.shape();
+    const std::vector<float>& rest = desk.document().cloud().positions;
+    for (const std::size_t i : {crumb + 12, crumb + 25})
+        EXPECT_NEAR(shape[3 * i + 2] - rest[3 * i + 2], 0.25, 1e-5) << i - crumb;
+}
+
 TEST(HandleKinds, AFixedPegOfOnePointKeepsItsBits) {
     for (const std::uint64_t samples : {60U, 700U}) {
         Settings settings;

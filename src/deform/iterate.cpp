@@ -249,7 +249,6 @@ void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, co
                  Workers& workers) {
     const std::size_t samples = system.rest.energy.samples;
     const std::vector<bool>& turns_freely = system.rest.turns_freely;
-    find_free_turns(system, state);
     workers.for_each(system.body.size(), grain_of(system.body.size()), [&](std::size_t s) {
         Body& body = system.body[s];
         if (s < samples) {
@@ -270,9 +269,7 @@ void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, co
 
 // What handles with a falloff add to the right-hand sides. Around one that leaves rotation free the surface
 // goes with the anchor, and turns about it as the handle's own samples do.
-void add_pulls(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state) {
-    if (system.rest.pulled.empty()) return;
-    find_free_turns(system, state);
+void add_pulls(SampleSystem& system, std::span<const HandleMotion> handles) {
     for (const SoftHold& hold : system.rest.pulled) {
         Vec3d way = sent(handles[hold.handle], hold.anchor);
         if (hold.handle < system.free_turn.size())
@@ -287,6 +284,7 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
     const SampleRest& rest = system.rest;
     const std::size_t rows = system.moving_rows;
     find_turns(system, state, workers);
+    find_free_turns(system, state);
     find_bodies(system, handles, state, workers);
     workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
         look_ahead(system, state, row);
@@ -304,7 +302,7 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
         if (!rest.energy.first.empty()) given += force_of(bodies_around(rest.energy, system.body, i));
         Eigen::Map<Vec3d>(system.sides.data() + 3 * row) = given - 0.5 * turned; // p_i - p_j = -e
     });
-    add_pulls(system, handles, state);
+    add_pulls(system, handles);
     system.positions.solve({system.sides.data(), 3 * rows}, 3, workers);
 
     double longest = 0;
@@ -347,13 +345,13 @@ Mat3d sample_gradient(const SampleSystem& system, const SampleState& state, Inde
 double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
                Workers& workers) {
     place_handles(system, handles, state);
+    find_free_turns(system, state);
     // Of the state alone, whatever was computed before: what is undone and done again has the same bits.
     if (system.midway > 0) {
         find_stretches(system, state, workers);
         find_turns(system, state, workers);
         find_bodies(system, handles, state, workers);
     }
-    find_free_turns(system, state);
     const auto given = [&](Index s) -> const Quatd& {
         return system.unknown[s] == no_index ? state.rotation[s] : system.free_turn[system.rest.handle[s]];
     };

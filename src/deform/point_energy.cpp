@@ -46,17 +46,6 @@ Index holder_of(const PointsBetween& between, Index vertex) {
     return turns ? no_index : handle;
 }
 
-// Of the row's samples, seen from p.
-SampleOffsets offsets_of(const PointsBetween& between, const WideRow& row, const Vec3d& p) {
-    SampleOffsets offsets;
-    for (std::size_t k = 0; k < row.count(); ++k) {
-        if (row.sample[k] >= between.sample.size()) continue; // a handle
-        const Vec3f offset = (between.sample[row.sample[k]] - p).cast<float>();
-        offsets.x[k] = offset.x(), offsets.y[k] = offset.y(), offsets.z[k] = offset.z();
-    }
-    return offsets;
-}
-
 // What moves a vertex, at p, that no handle does alone. A sample's own one goes with the sample, though
 // smooth weights blend it when it is moved: what samples do that every blend of them hides is told there
 // alone. Without it few samples may never come to rest (the survey's cylinder with 50 of them).
@@ -64,9 +53,8 @@ Influence influence_at(const PointsBetween& between, Index vertex, const Vec3d& 
     const WideRow row = between.nearest[vertex];
     const Index first_handle = between.nearest.first_handle;
     const bool is_sample = row.distance[0] == 0 && row.sample[0] < first_handle;
-    if (is_sample || between.weights == InfluenceWeights::paper)
-        return influence_of(row, first_handle, InfluenceWeights::paper);
-    return influence_of(row, first_handle, between.weights, offsets_of(between, row, p));
+    return influence_of(row, first_handle, is_sample ? InfluenceWeights::paper : between.weights,
+                        offsets_from(p, row, between.sample));
 }
 
 // What a body does at a vertex.

@@ -255,8 +255,8 @@ void Pipeline::prepare_systems() {
 
 Influence Pipeline::influence(Index vertex) const {
     const UpsampleInput input = upsample_input();
-    const float* const p = &input.positions[3 * std::size_t{order_.first_point[vertex]}];
-    return influence_of(nearest_, input.weights, input.places, vertex, p);
+    return influence_of(nearest_, input.weights, input.places, vertex,
+                        point_at(input.positions, order_.first_point[vertex]));
 }
 
 // What the upsampler is told, but for what is known of the numbers in it.
@@ -286,9 +286,7 @@ void Pipeline::prepare_upsampler() {
     const auto largest = [](const std::vector<Index>& ends) {
         return ends.empty() ? 0 : std::ranges::max(ends);
     };
-    sample_places_.clear();
-    for (const Vec3d& place : system_.rest.position)
-        for (const double coordinate : place) sample_places_.push_back(static_cast<float>(coordinate));
+    sample_places_ = system_.rest.position;
     UpsampleInput input = upsample_input();
     input.rows_end = largest(row_ends_);
     input.mover_end = largest(mover_ends_);

@@ -240,7 +240,7 @@ private:
         std::vector<bool> turning;    // at each place, whether its handle leaves rotation free
     };
     MoverNumbers mover_numbers_;               // that they were made with
-    std::vector<float> sample_places_;         // 3 a sample, at rest
+    std::vector<Vec3d> sample_places_;         // at rest, while the upsampler sees them
     std::vector<std::uint8_t> changed_points_; // blocks of them, as UpsampleInput has it
     Contacts contacts_;
     CarriedParts carried_;

@@ -51,11 +51,11 @@ Influence influence_of(const WideRow& row, Index first_handle, InfluenceWeights 
     return result;
 }
 
-Influence influence_of(const InfluenceRows& rows, InfluenceWeights weights, std::span<const float> places,
-                       Index number, const float* p) {
+Influence influence_of(const InfluenceRows& rows, InfluenceWeights weights, std::span<const Vec3d> places,
+                       Index number, const Vec3d& p) {
     if (number >= rows.size()) return influence_of(rows, weights, number);
     const WideRow row = rows[number];
-    return influence_of(row, rows.first_handle, weights, offsets_from(p, row, {places, rows.first_handle}));
+    return influence_of(row, rows.first_handle, weights, offsets_from(p, row, places));
 }
 
 } // namespace knead

@@ -33,29 +33,22 @@ inline constexpr float balance_ridge = 0.05F;
 // uneven and, with 200 samples, an auxetic tube too wide (knead evaluate, the room and elasticity).
 inline constexpr float balance_caution = 3.0F;
 
-// p_s - p of each place of a row, in any unit; 0 for handles and empty places.
+// p_s - p of each place of a row, in any unit; 0 where there is no p_s.
 struct SampleOffsets {
     alignas(32) std::array<float, influences_per_row> x{}, y{}, z{};
 };
 
-// Where the samples are that rows name.
-struct SamplePlaces {
-    std::span<const float> place; // 3 a sample, at rest, relative to the cloud's origin
-    Index first_handle = 0;       // of InfluenceRows
-
-    bool has(std::size_t sample) const { return sample < first_handle && 3 * sample < place.size(); }
-};
-
-// As seen from p, 3 floats. Samples without a place are where p is.
+// As seen from p. `places`: p_s of each sample. What has a number beyond them is where p is: handles, and
+// empty places.
 template<typename Number>
-SampleOffsets offsets_from(const float* p, const SampleRow<Number>& row, const SamplePlaces& places) {
+SampleOffsets offsets_from(const Vec3d& p, const SampleRow<Number>& row, std::span<const Vec3d> places) {
     SampleOffsets offsets;
     for (std::size_t k = 0; k < influences_per_row; ++k) {
-        if (!places.has(row.sample[k])) continue; // `none` is beyond all of them
-        const float* const place = places.place.data() + 3 * std::size_t{row.sample[k]};
-        offsets.x[k] = place[0] - p[0];
-        offsets.y[k] = place[1] - p[1];
-        offsets.z[k] = place[2] - p[2];
+        if (row.sample[k] >= places.size()) continue;
+        const Vec3d offset = places[row.sample[k]] - p;
+        offsets.x[k] = static_cast<float>(offset.x());
+        offsets.y[k] = static_cast<float>(offset.y());
+        offsets.z[k] = static_cast<float>(offset.z());
     }
     return offsets;
 }
@@ -65,10 +58,10 @@ SampleOffsets offsets_from(const float* p, const SampleRow<Number>& row, const S
 void balance(const SampleOffsets& offsets, std::array<float, influences_per_row>& weight);
 
 // Like those of influences.h, with smooth weights balanced: by a row seen from a point, and by the number of
-// what moves the point p, 3 floats.
+// what moves the point p.
 Influence influence_of(const WideRow& row, Index first_handle, InfluenceWeights weights,
                        const SampleOffsets& offsets);
-Influence influence_of(const InfluenceRows& rows, InfluenceWeights weights, std::span<const float> places,
-                       Index number, const float* p);
+Influence influence_of(const InfluenceRows& rows, InfluenceWeights weights, std::span<const Vec3d> places,
+                       Index number, const Vec3d& p);
 
 } // namespace knead

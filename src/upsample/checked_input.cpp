@@ -44,8 +44,7 @@ void require_valid_input(const UpsampleInput& input, std::size_t motions, Worker
     require(input.rows != nullptr, "points need influences");
     const std::size_t movers = input.mover_end ? *input.mover_end : largest_of(input.mover, workers) + 1;
     require(movers <= input.rows->size() + motions, "what moves a point exists");
-    require(input.places.size() % 3 == 0 &&
-                input.places.size() / 3 <= std::min<std::size_t>(motions, input.rows->first_handle),
+    require(input.places.size() <= std::min<std::size_t>(motions, input.rows->first_handle),
             "samples alone have places, and a motion each");
     const Index end = input.rows_end ? *input.rows_end : end_of(*input.rows, workers);
     require(end <= motions, "every influence's motion exists");

@@ -64,15 +64,13 @@ enum class Wanted { count, shares };
 template<Wanted wanted, typename Rows>
 void make_group(const UpsampleInput& input, const Rows& rows, std::size_t first, std::size_t end,
                 MadeGroup& made) {
-    const Index first_handle = input.rows->first_handle;
-    const SamplePlaces places{input.places, first_handle};
+    const bool balanced = wanted == Wanted::shares && input.weights == InfluenceWeights::smooth;
     const auto movers_at = [&](std::size_t i) {
         const Index mover = input.mover[i];
         if (mover >= rows.size()) return moved_alone(static_cast<Index>(mover - rows.size()) + 1);
-        if constexpr (wanted == Wanted::count)
-            return movers_of(rows[mover], first_handle, input.weights, AsTheyAre{});
-        const BalancedAbout balanced{&input.positions[3 * i], places, input.weights};
-        return movers_of(rows[mover], first_handle, input.weights, balanced);
+        SampleOffsets offsets;
+        if (balanced) offsets = offsets_from(point_at(input.positions, i), rows[mover], input.places);
+        return movers_of(rows[mover], input.rows->first_handle, input.weights, balanced ? &offsets : nullptr);
     };
     made.begin();
     for (std::size_t i = first; i < end; ++i)

@@ -2,13 +2,12 @@
 
 namespace knead {
 
-void pack_motions(std::span<const Motion> motions, InfluenceWeights weights, std::span<const float> places,
+void pack_motions(std::span<const Motion> motions, InfluenceWeights weights, std::span<const Vec3d> places,
                   std::span<PackedMotion> packed) {
-    const std::size_t with_place = weights == InfluenceWeights::paper ? 0 : places.size() / 3;
+    const std::size_t with_place = weights == InfluenceWeights::paper ? 0 : places.size();
     for (std::size_t m = 0; m < motions.size(); ++m) {
         const float* const map = motions[m].map;
-        float c[3] = {0, 0, 0};
-        for (std::size_t axis = 0; m < with_place && axis < 3; ++axis) c[axis] = 0.5F * places[3 * m + axis];
+        const Vec3f c = m < with_place ? Vec3f(0.5F * places[m].cast<float>()) : Vec3f::Zero();
         auto& column = packed[m].column;
         for (std::size_t row = 0; row < 3; ++row) {
             const float* const from = map + 4 * row;

@@ -13,7 +13,7 @@ struct alignas(64) PackedMotion {
 };
 
 // One for each, of as many. `places`: of UpsampleInput.
-void pack_motions(std::span<const Motion> motions, InfluenceWeights weights, std::span<const float> places,
+void pack_motions(std::span<const Motion> motions, InfluenceWeights weights, std::span<const Vec3d> places,
                   std::span<PackedMotion> packed);
 
 } // namespace knead

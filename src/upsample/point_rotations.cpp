@@ -37,9 +37,9 @@ std::vector<float> point_rotations(const UpsampleInput& input, std::span<const Q
     std::vector<float> result(4 * points);
     workers.for_each(points, points_per_chunk, [&](std::size_t i) {
         float* const to = result.data() + 4 * i;
-        Quatd turn = mean_turn(
-            influence_of(*input.rows, input.weights, input.places, input.mover[i], &input.positions[3 * i]),
-            turns);
+        Quatd turn = mean_turn(influence_of(*input.rows, input.weights, input.places, input.mover[i],
+                                            point_at(input.positions, i)),
+                               turns);
         if (!before.empty()) {
             // What does not turn any further keeps every bit.
             if (turn.w() == 1 && turn.vec().isZero(0)) return void(std::copy_n(before.data() + 4 * i, 4, to));

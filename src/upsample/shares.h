@@ -19,24 +19,6 @@ struct Movers {
     std::size_t count = 0;
 };
 
-// Weights by distance alone: enough to know which motions there are.
-struct AsTheyAre {
-    template<typename Number>
-    void operator()(const SampleRow<Number>&, std::array<float, influences_per_row>&) const {}
-};
-
-// Smooth weights balanced about a point. None that was 0 becomes more.
-struct BalancedAbout {
-    const float* p = nullptr;
-    const SamplePlaces& places;
-    InfluenceWeights weights = InfluenceWeights::smooth;
-
-    template<typename Number>
-    void operator()(const SampleRow<Number>& row, std::array<float, influences_per_row>& weight) const {
-        if (weights == InfluenceWeights::smooth) balance(offsets_from(p, row, places), weight);
-    }
-};
-
 inline Movers moved_alone(Index motion) {
     Movers movers;
     movers.motion[0] = motion;
@@ -46,7 +28,7 @@ inline Movers moved_alone(Index motion) {
 }
 
 // Whether nothing about a row is special, as nearly everywhere: it is full, of samples that are not all as
-// far, and weights are smooth. Then all that are nearer than the last count, the first one most.
+// far, and weights are smooth. Then all that are nearer than the last count.
 template<typename Number>
 bool is_usual(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights) {
     Number last = 0;
@@ -55,8 +37,8 @@ bool is_usual(const SampleRow<Number>& row, Index first_handle, InfluenceWeights
            row.distance.front() != row.distance.back();
 }
 
-template<typename Number, typename Adjust>
-Movers movers_of_usual(const SampleRow<Number>& row, const Adjust& adjust) {
+template<typename Number>
+Movers movers_of_usual(const SampleRow<Number>& row, const SampleOffsets* offsets) {
     const Number farthest = row.distance.back();
     Movers movers;
     for (std::size_t k = 0; k < influences_per_row; ++k) {
@@ -65,35 +47,35 @@ Movers movers_of_usual(const SampleRow<Number>& row, const Adjust& adjust) {
         movers.weight[k] = nearness * nearness;
         movers.count += row.distance[k] != farthest ? 1 : 0;
     }
-    adjust(row, movers.weight);
+    if (offsets) balance(*offsets, movers.weight);
     return movers;
 }
 
-template<typename Number, typename Adjust>
+template<typename Number>
 Movers movers_of_unusual(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights,
-                         const Adjust& adjust) {
+                         const SampleOffsets* offsets) {
     const std::size_t count = row.count();
     if (count == 0) return moved_alone(0);
-    const auto weight = weights_of(row, first_handle, weights);
-    auto adjusted = weight;
-    adjust(row, adjusted);
+    const auto by_distance = weights_of(row, first_handle, weights);
+    auto weight = by_distance;
+    if (offsets) balance(*offsets, weight);
     Movers movers;
     for (std::size_t k = 0; k < count; ++k) {
-        if (!(weight[k] > 0)) continue;
+        if (!(by_distance[k] > 0)) continue;
         movers.motion[movers.count] = Index{row.sample[k]} + 1;
-        movers.weight[movers.count] = adjusted[k];
+        movers.weight[movers.count] = weight[k];
         ++movers.count;
     }
     return movers;
 }
 
-// By its row: the same motions in the same places, whatever the weights are adjusted to. `first_handle`: of
-// InfluenceRows.
-template<typename Number, typename Adjust>
+// By its row, balanced where there are offsets. Which motions they are goes by distance alone: without
+// offsets they are the same. `first_handle`: of InfluenceRows.
+template<typename Number>
 Movers movers_of(const SampleRow<Number>& row, Index first_handle, InfluenceWeights weights,
-                 const Adjust& adjust) {
-    return is_usual(row, first_handle, weights) ? movers_of_usual(row, adjust)
-                                                : movers_of_unusual(row, first_handle, weights, adjust);
+                 const SampleOffsets* offsets) {
+    return is_usual(row, first_handle, weights) ? movers_of_usual(row, offsets)
+                                                : movers_of_unusual(row, first_handle, weights, offsets);
 }
 
 // Their weights in parts of `whole_share`. What rounding leaves over, or takes too much, is the heaviest's.

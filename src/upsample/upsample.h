@@ -8,12 +8,11 @@
 //     p' = p + Σ_s w_s (x_s - p_s + ½ (A_s + A̅) (p - p_s)),   A̅ = Σ_s w_s A_s,   with smooth weights,
 //     p' = p + Σ_s w_s (A_s p + b_s)                                              with those of the paper,
 //
-// which are the same wherever all samples around it move alike; smooth weights are balanced about p
-// (graph/balanced_weights.h). The second is Equation (4). Where a surface
-// is bent, each sample there sends the point along its own tangent, off to the outer side; in the first, the
-// way from sample to point is turned midway between both their turns, as the chord of an arc is. For a
-// handle, whose border is all around, p_s is p itself. Where nothing moves, A and b are zero and p' is p to
-// the last bit.
+// which are the same wherever all samples around it move alike. Smooth weights are balanced about p
+// (graph/balanced_weights.h). The second is Equation (4). Where a surface is bent, each sample there sends
+// the point along its own tangent, off to the outer side; in the first, the way from sample to point is
+// turned midway between both their turns, as the chord of an arc is. For a handle, whose border is all
+// around, p_s is p itself. Where nothing moves, A and b are zero and p' is p to the last bit.
 //
 //     n' ∥ cof(I + A̅) n,    |n'| = |n|.
 //
@@ -54,7 +53,7 @@ struct UpsampleInput {
     std::span<const Index> mover;     // n: what moves each point, as influence_of() reads it
     const InfluenceRows* rows = nullptr;
     InfluenceWeights weights = InfluenceWeights::smooth;
-    std::span<const float> places = {}; // 3 a sample: p_s of all that rows name, for smooth weights
+    std::span<const Vec3d> places = {}; // p_s of all samples, at rest, for smooth weights
     // One past the largest number in all rows, and one past the largest mover, if they are known: prepare()
     // reads them all to find out, else.
     std::optional<Index> rows_end = std::nullopt, mover_end = std::nullopt;

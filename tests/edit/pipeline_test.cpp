@@ -1,6 +1,7 @@
 // The pipeline: which stages run when, how many samples there are, and clouds and handles at the edge.
 
 #include "edit/editing.h"
+#include "edit/seams.h"
 
 #include <cstring>
 #include <set>
@@ -111,24 +112,6 @@ TEST(Pipeline, ThinHandlesOwnSamples) {
     const std::vector<float> shape = desk.shape();
     EXPECT_EQ(at(shape, 0), at(desk.document().cloud().positions, 0));
     EXPECT_TRUE(all_finite(shape));
-}
-
-// The largest stretch, as a logarithm, of the links that only one end of is held.
-double widest_seam(const Desk& desk) {
-    const Pipeline& pipeline = desk.pipeline();
-    const std::vector<Index>& label = pipeline.labels().vertex;
-    const PointOrder& order = pipeline.order();
-    const auto length = [&](const std::vector<float>& shape, Index v, Index w) {
-        return (at(shape, order.first_point[v]) - at(shape, order.first_point[w])).norm();
-    };
-    double widest = 0;
-    for (Index v = 0; v < label.size(); ++v)
-        for (const Index w : pipeline.graph().row(v)) {
-            if (label[v] == no_index || label[w] != no_index) continue;
-            const double was = length(pipeline.opened().positions, v, w);
-            widest = std::max(widest, std::abs(std::log(length(pipeline.posed().positions, v, w) / was)));
-        }
-    return widest;
 }
 
 TEST(Pipeline, FewSamplesLeaveNoSeamAtAHandlesBorder) {

@@ -71,12 +71,10 @@ TEST(BalancedWeights, OfASurfaceReproducePlacesMoreNearlyThanThoseByDistance) {
     for (Index v = 30; v < cloud.size(); v += 60) samples.push_back(v);
     const InfluenceRows nearest =
         flood(cloud.graph, cloud.lengths, samples, machine.workers, machine.progress);
-    std::vector<float> places;
-    for (const Index v : samples)
-        for (int axis = 0; axis < 3; ++axis) places.push_back(static_cast<float>(cloud.at(v)[axis]));
+    std::vector<Vec3d> places;
+    for (const Index v : samples) places.push_back(cloud.at(v));
     double by_distance = 0, with_balance = 0;
     for (Index v = 0; v < cloud.size(); ++v) {
-        const Vec3f p = cloud.at(v).cast<float>();
         const auto square_miss = [&](const Influence& influence) {
             Vec3d mean = Vec3d::Zero();
             double sum = 0;
@@ -90,12 +88,11 @@ TEST(BalancedWeights, OfASurfaceReproducePlacesMoreNearlyThanThoseByDistance) {
             return (mean - cloud.at(v)).squaredNorm();
         };
         by_distance += square_miss(influence_of(nearest, InfluenceWeights::smooth, v));
-        with_balance += square_miss(influence_of(nearest, InfluenceWeights::smooth, places, v, p.data()));
+        with_balance += square_miss(influence_of(nearest, InfluenceWeights::smooth, places, v, cloud.at(v)));
     }
     EXPECT_LT(with_balance, 0.85 * by_distance); // what is left is across the surface, and at tips
     const auto some = static_cast<Index>(cloud.size() / 2);
-    const Vec3f p = cloud.at(some).cast<float>();
-    EXPECT_EQ(influence_of(nearest, InfluenceWeights::paper, places, some, p.data()).weight,
+    EXPECT_EQ(influence_of(nearest, InfluenceWeights::paper, places, some, cloud.at(some)).weight,
               influence_of(nearest, InfluenceWeights::paper, some).weight)
         << "the paper's weights are the paper's";
 }

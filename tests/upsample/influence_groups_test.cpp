@@ -47,7 +47,7 @@ TEST(InfluenceGroups, HaveTheWeightsOfEveryPoint) {
             influences.prepare(scene.input(), workers);
             for (std::size_t i = 0; i < points; ++i) {
                 const Influence expected =
-                    influence_of(scene.rows, weights, scene.places, scene.mover[i], &scene.positions[3 * i]);
+                    influence_of(scene.rows, weights, scene.places, scene.mover[i], at(scene.positions, i));
                 std::map<Index, double> left;
                 for (std::size_t k = 0; k < expected.count; ++k)
                     left[expected.motion.at(k) + 1] += static_cast<double>(expected.weight.at(k));

@@ -47,7 +47,7 @@ NarrowRow random_row(Random& random, std::size_t number, std::size_t motions) {
 }
 
 Vec3d place_of(const Scene& scene, std::size_t motion, const Vec3d& p) {
-    return motion < scene.places.size() / 3 ? at(scene.places, motion) : p;
+    return motion < scene.places.size() ? scene.places[motion] : p;
 }
 
 // What graph/balanced_weights.h says, in double. The weights sum to 1 before and after.
@@ -141,7 +141,7 @@ Scene random_scene(std::size_t points, std::size_t motions, unsigned seed, bool 
         const Mat3d turn = Eigen::AngleAxisd(between(random, 0, 3.1), axis).toRotationMatrix();
         scene.motions.push_back(motion_of(turn, in_cube(random)));
         if (m >= scene.rows.first_handle) continue;
-        append(in_cube(random), scene.places);
+        scene.places.push_back(in_cube(random));
     }
     return scene;
 }

@@ -13,7 +13,7 @@ struct Scene {
     std::vector<Index> mover;
     InfluenceRows rows;
     InfluenceWeights weights = InfluenceWeights::smooth;
-    std::vector<float> places; // of samples
+    std::vector<Vec3d> places; // of samples
     std::vector<Motion> motions;
 
     UpsampleInput input() const { return {positions, normals, mover, &rows, weights, places}; }

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace knead {
@@ -27,16 +28,38 @@ constexpr double hardly_less = 0.8;
 // Surroundings that were pressed to less than this of their volume cannot be taken back to what they were.
 constexpr double flat = 1e-3;
 
-// What pulls at samples pulls at the coarse one nearest to them, altogether as much.
+// The coarse sample of the handle that is nearest to the one that a hold turns with.
+Index coarse_of_handle(const SampleRest& rest, const CoarseSamples& coarse, const SoftHold& hold) {
+    const auto distance = [&](Index c) {
+        const Index s = coarse.sample[c];
+        return rest.handle[s] == hold.handle ? (rest.position[s] - rest.position[hold.turner]).squaredNorm()
+                                             : std::numeric_limits<double>::infinity();
+    };
+    Index best = 0;
+    for (Index c = 1; c < coarse.sample.size(); ++c)
+        if (distance(c) < distance(best)) best = c;
+    return best;
+}
+
+// What pulls at samples pulls at the coarse one nearest to them, altogether as much. One of a handle that
+// leaves rotation free goes with what is held next to it.
 std::vector<SoftHold> pulled_together(const SampleRest& rest, const CoarseSamples& coarse) {
     std::map<std::pair<Index, Index>, SoftHold> holds;
     for (const SoftHold& hold : rest.pulled) {
         const Index nearest = coarse.nearest[hold.sample];
         if (nearest == no_index || rest.handle[coarse.sample[nearest]] != no_index) continue;
         SoftHold& together = holds[{nearest, hold.handle}];
-        const bool turns_freely = hold.handle < rest.turns_freely.size() && rest.turns_freely[hold.handle];
-        together = {nearest, hold.handle, together.weight + hold.weight,
-                    turns_freely ? hold.anchor : rest.position[coarse.sample[nearest]]};
+        const Vec3d& place = rest.position[coarse.sample[nearest]];
+        together.sample = nearest;
+        together.handle = hold.handle;
+        together.weight += hold.weight;
+        if (hold.turner == no_index) {
+            together.anchor = place;
+        } else if (together.turner == no_index ||
+                   (hold.anchor - place).squaredNorm() < (together.anchor - place).squaredNorm()) {
+            together.anchor = hold.anchor;
+            together.turner = coarse_of_handle(rest, coarse, hold);
+        }
     }
     std::vector<SoftHold> result;
     result.reserve(holds.size());

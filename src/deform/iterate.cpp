@@ -267,13 +267,12 @@ void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, co
     });
 }
 
-// What handles with a falloff add to the right-hand sides. Around one that leaves rotation free the surface
-// goes with the anchor, and turns about it as the handle's own samples do.
-void add_pulls(SampleSystem& system, std::span<const HandleMotion> handles) {
+// What handles with a falloff add to the right-hand sides.
+void add_pulls(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state) {
     for (const SoftHold& hold : system.rest.pulled) {
         Vec3d way = sent(handles[hold.handle], hold.anchor);
-        if (hold.handle < system.free_turn.size())
-            way += turn_of(system.free_turn[hold.handle]) * (system.rest.position[hold.sample] - hold.anchor);
+        if (hold.turner != no_index)
+            way += turn_of(state.rotation[hold.turner]) * (system.rest.position[hold.sample] - hold.anchor);
         Eigen::Map<Vec3d>(system.sides.data() + 3 * system.unknown[hold.sample]) += hold.weight * way;
     }
 }
@@ -302,7 +301,7 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
         if (!rest.energy.first.empty()) given += force_of(bodies_around(rest.energy, system.body, i));
         Eigen::Map<Vec3d>(system.sides.data() + 3 * row) = given - 0.5 * turned; // p_i - p_j = -e
     });
-    add_pulls(system, handles);
+    add_pulls(system, handles, state);
     system.positions.solve({system.sides.data(), 3 * rows}, 3, workers);
 
     double longest = 0;

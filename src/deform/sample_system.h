@@ -80,8 +80,8 @@ struct SoftHold {
     Index handle = 0;
     double weight = 0;            // μ, of the size of the weights of the links; > 0
     Vec3d anchor = Vec3d::Zero(); // it is to go as far as the handle sends this: its own rest position, or,
-                                  // for a handle that leaves rotation free, one place for all, about which
-                                  // it then turns as the handle's samples do
+                                  // for a handle that leaves rotation free, what is held next to it
+    Index turner = no_index;      // about which it then turns as this sample of the handle does
 };
 
 // What stays while an edit lasts.

@@ -80,8 +80,9 @@ Surroundings surroundings_of(const Mat3d& spread) {
     for (int k = 0; k < 3; ++k) {
         const double counts = how_much_counts(values[k] / values[2]);
         const Vec3d axis = solver.eigenvectors().col(k);
-        if (counts > 0) result.inverse += (counts / values[k]) * axis * axis.transpose();
-        result.open -= counts * axis * axis.transpose();
+        const Mat3d square = axis * axis.transpose(); // times counts afterwards: (c a) aᵀ is not symmetric
+        if (counts > 0) result.inverse += (counts / values[k]) * square;
+        result.open -= counts * square;
         if (k == 0) result.thickness = counts;
     }
     return result;

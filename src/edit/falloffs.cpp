@@ -1,10 +1,12 @@
 #include "edit/falloffs.h"
 
+#include "base/require.h"
 #include "graph/distances.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <unordered_map>
 
 namespace knead {
@@ -45,18 +47,35 @@ std::vector<std::vector<Index>> held_vertices(const std::vector<bool>& wanted,
     return vertices;
 }
 
-// Where the samples of each handle lie at rest, in the middle.
-std::vector<Vec3d> middles_of_handles(const SampleRest& rest, std::size_t handles) {
-    std::vector<Vec3d> middle(handles, Vec3d::Zero());
-    std::vector<double> count(handles, 0);
-    for (std::size_t s = 0; s < rest.handle.size(); ++s) {
-        if (!(rest.handle[s] < handles)) continue;
-        middle[rest.handle[s]] += rest.position[s];
-        ++count[rest.handle[s]];
+// The handle's sample that is nearest to a vertex that it holds, told once for each vertex.
+class NearestOfHandle {
+public:
+    NearestOfHandle(std::span<const Index> label, std::span<const Index> samples,
+                    std::span<const float> positions)
+        : label_(label), samples_(samples), positions_(positions) {
+        for (Index s = 0; s < samples.size(); ++s)
+            if (label[samples[s]] != no_index) of_handle_[label[samples[s]]].push_back(s);
     }
-    for (std::size_t h = 0; h < handles; ++h) middle[h] /= std::max(count[h], 1.0);
-    return middle;
-}
+
+    Index to(Index vertex) {
+        const auto [known, is_new] = nearest_.try_emplace(vertex, no_index);
+        if (!is_new) return known->second;
+        double smallest = std::numeric_limits<double>::infinity();
+        for (const Index s : of_handle_[label_[vertex]]) {
+            const double distance =
+                (point_at(positions_, samples_[s]) - point_at(positions_, vertex)).squaredNorm();
+            if (distance < smallest) smallest = distance, known->second = s;
+            if (distance == 0) break;
+        }
+        return known->second;
+    }
+
+private:
+    std::span<const Index> label_, samples_;
+    std::span<const float> positions_;
+    std::unordered_map<Index, std::vector<Index>> of_handle_;
+    std::unordered_map<Index, Index> nearest_;
+};
 
 // Σ w |e|² of a sample.
 double spread_at(const SampleRest& rest, Index sample) {
@@ -85,30 +104,35 @@ std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span
     std::unordered_map<Index, Index> sample_of;
     for (Index s = 0; s < samples.size(); ++s)
         if (label[samples[s]] == no_index) sample_of.emplace(samples[s], s);
+    NearestOfHandle nearest_sample(label, samples, positions);
     std::vector<Pulled> pulled;
     for (Index h = 0; h < held.size(); ++h) {
         if (!pulls[h]) continue;
         for (const Reached& near : reached_within(graph, positions, held[h], falloff[h])) {
             const auto sample = sample_of.find(near.vertex);
             if (sample != sample_of.end() && near.distance < falloff[h])
-                pulled.push_back({sample->second, h, near.distance / falloff[h], falloff[h]});
+                pulled.push_back({sample->second, h, near.distance / falloff[h], falloff[h], near.source,
+                                  handles[h].free_rotation ? nearest_sample.to(near.source) : no_index});
         }
     }
     return pulled;
 }
 
 std::vector<SoftHold> soft_holds(const std::vector<Handle>& handles, std::span<const Pulled> pulled,
-                                 const SampleRest& rest) {
-    const std::vector<Vec3d> middle = middles_of_handles(rest, handles.size());
+                                 std::span<const Vec3d> held, const SampleRest& rest) {
+    require(held.size() == pulled.size(), "a place for each that is pulled");
     std::vector<SoftHold> holds;
-    for (const Pulled& each : pulled) {
+    for (std::size_t k = 0; k < pulled.size(); ++k) {
+        const Pulled& each = pulled[k];
         if (is_leaf(rest, each.sample)) continue; // it goes where the other end of its link is pulled
         const double distance = std::max(each.way * each.falloff, nearest * rest.cloud_size);
         const double share = (1 - each.way) / distance;
         const double weight = strength * share * share * spread_at(rest, each.sample);
-        const Vec3d anchor =
-            handles[each.handle].free_rotation ? middle[each.handle] : rest.position[each.sample];
-        if (weight > 0) holds.push_back({each.sample, each.handle, weight, anchor});
+        if (!(weight > 0)) continue;
+        if (handles[each.handle].free_rotation)
+            holds.push_back({each.sample, each.handle, weight, held[k], each.turner});
+        else
+            holds.push_back({each.sample, each.handle, weight, rest.position[each.sample]});
     }
     return holds;
 }

@@ -16,13 +16,15 @@ struct Pulled {
     Index handle = 0;
     double way = 0; // from the handle along the surface, as a part of the falloff: 0 … 1
     double falloff = 0;
+    Index held = 0;   // the vertex of the handle that this is the way from
+    Index turner = 0; // the handle's sample next to that
 };
 
 // Who is pulled by whom. `label`: the handle of each vertex, and `blocks` what find_held() made of these;
 // `samples`: the vertex of each sample; `positions`: 3 floats a vertex; `cloud_size`: in their unit. Held
-// samples are not pulled. A handle that is
-// smaller than 3 % of the cloud has a falloff of up to 6 % whatever its own is: a surface cannot carry a
-// point, and what pulls at one draws out a spike, the sharper the more samples there are.
+// samples are not pulled. A handle that is smaller than 3 % of the cloud has a falloff of up to 6 % whatever
+// its own is: a surface cannot carry a point, and what pulls at one draws out a spike, the sharper the more
+// samples there are.
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> label,
                                    std::span<const HeldBlock> blocks, std::span<const Index> samples,
                                    const Graph& graph, std::span<const float> positions, double cloud_size);
@@ -33,7 +35,10 @@ std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span
 // vanishes smoothly at the falloff's end:
 //
 //     μ_i = 4 ((1 - t)/d)² Σ_j w_ij |e_ij|²,  d = the distance, t = d / falloff.
+//
+// Around a handle that leaves rotation free, what is pulled goes with what is held next to it, and turns
+// about that as the surface does there. `held`: of each entry of `pulled` where its `held` is at rest.
 std::vector<SoftHold> soft_holds(const std::vector<Handle>& handles, std::span<const Pulled> pulled,
-                                 const SampleRest& rest);
+                                 std::span<const Vec3d> held, const SampleRest& rest);
 
 } // namespace knead

@@ -24,7 +24,7 @@ namespace knead {
 
 namespace {
 
-constexpr int relaxing_rounds = 2;
+constexpr int relaxing_rounds = 3;
 
 } // namespace
 
@@ -173,7 +173,8 @@ void Pipeline::prepare_samples(Progress& progress) {
     every_point_ = !input_.settings.samples || *input_.settings.samples >= vertices;
     if (!every_point_) {
         if (!hanging_.empty()) std::erase_if(samples_, [&](Index v) { return hanging_[v] != 0; });
-        auto chosen = octree_samples(order_.cube, vertex_positions(), samples_, *input_.settings.samples);
+        auto chosen = octree_samples(order_.cube, vertex_positions(), samples_, *input_.settings.samples,
+                                     OfCell::aside);
         shuffle_in_runs(chosen);
         samples_ = relaxed(std::move(chosen), *graph_, link_lengths_, vertex_positions(), hanging_,
                            relaxing_rounds, workers_, progress);
@@ -239,7 +240,10 @@ void Pipeline::prepare_systems() {
     rest.stiffness = input_.settings.stiffness;
     rest.poisson = input_.settings.poisson;
     for (const Handle& handle : slots_.handles) rest.turns_freely.push_back(handle.free_rotation);
-    rest.pulled = soft_holds(slots_.handles, pulled_, rest);
+    std::vector<Vec3d> held;
+    for (const Pulled& each : pulled_)
+        held.push_back(point_at(rest_shape.positions, order_.first_point[each.held]));
+    rest.pulled = soft_holds(slots_.handles, pulled_, held, rest);
     if (stale_.energy) find_energy(rest);
     stale_.energy = false;
     rest.energy = energy_;

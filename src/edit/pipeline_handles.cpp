@@ -73,17 +73,22 @@ bool Pipeline::turns_freely(Index label) const {
     return label < slots_.handles.size() && slots_.handles[label].free_rotation;
 }
 
-// The handles that leave rotation free and have border without a sample, with the component where: ascending.
+// The handles that leave rotation free and turn as one, with the component where: they have one sample, or
+// border without any. Ascending.
 std::vector<std::pair<Index, Index>> Pipeline::find_hinges(std::span<const BorderVertex> borders) const {
     std::vector<std::pair<Index, Index>> hinges;
     std::vector<Index> with_sample;
+    std::vector<std::size_t> own; // samples of each handle
     for (const BorderVertex& border : borders) {
         if (!turns_freely(border.label)) continue;
         if (with_sample.empty()) {
             with_sample = samples_;
             std::ranges::sort(with_sample);
+            own.resize(slots_.handles.size());
+            for (const Index v : samples_)
+                if (labels_.vertex[v] < own.size()) ++own[labels_.vertex[v]];
         }
-        if (!std::ranges::binary_search(with_sample, border.vertex))
+        if (own[border.label] == 1 || !std::ranges::binary_search(with_sample, border.vertex))
             hinges.emplace_back(border.label, components_->component[border.vertex]);
     }
     std::ranges::sort(hinges);
@@ -92,10 +97,11 @@ std::vector<std::pair<Index, Index>> Pipeline::find_hinges(std::span<const Borde
 }
 
 // Between samples, a handle is near where its border is near, not where a sample of it is: it starts from all
-// along the border, with the number of its own motion. A peg, which leaves rotation free and has a sample all
-// along its border if it has any, turns with each of them, and those start for it. (What is wider would be
-// torn off between its samples: the border lies where the handle says, and what is beside it where samples
-// with turns of their own say.)
+// along the border, with the number of its own motion. A row of pegs, which leaves rotation free and has
+// samples all along its border, turns with each of them, and those start for it. (What is wider would be torn
+// off between its samples: the border lies where the handle says, and what is beside it where samples with
+// turns of their own say. A lone one would be torn off where samples are few: weights of samples share out
+// what is right at one of them, too.)
 std::vector<FloodStart> Pipeline::handle_starts(std::span<const BorderVertex> borders) const {
     const std::vector<std::pair<Index, Index>> hinges = find_hinges(borders);
     const auto is_peg = [&](Index label, Index vertex) {

@@ -11,6 +11,7 @@ namespace knead {
 struct Reached {
     Index vertex = 0;
     double distance = 0; // along links, in the units of the positions
+    Index source = 0;    // from this one
 };
 
 // All vertices within `limit` of the nearest of the sources, which are different: the sources themselves, as

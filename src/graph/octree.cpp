@@ -1,14 +1,17 @@
 #include "graph/octree.h"
 
+#include "graph/scrambled.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <queue>
 
 namespace knead {
 
 namespace {
+
+constexpr double way_aside = 0.5; // of that to any one vertex
 
 // A range of `among`.
 struct Cell {
@@ -46,26 +49,22 @@ std::size_t middle_of(const Cell& cell, const MortonCube& cube, std::span<const 
         std::partition_point(lower, upper, [&](Index v) { return !(code(v) & bit); }) - among.begin());
 }
 
-Index nearest_to_mean(const Cell& cell, std::span<const float> positions, std::span<const Index> among) {
+Index sample_of(const Cell& cell, OfCell which, std::span<const float> positions,
+                std::span<const Index> among) {
+    const auto own = among.subspan(cell.begin, cell.end - cell.begin);
     Vec3d sum = Vec3d::Zero();
-    for (std::size_t i = cell.begin; i < cell.end; ++i) sum += point_at(positions, among[i]);
-    const Vec3d mean = sum / static_cast<double>(cell.end - cell.begin);
-    Index nearest = among[cell.begin];
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = cell.begin; i < cell.end; ++i) {
-        const double squared = (point_at(positions, among[i]) - mean).squaredNorm();
-        if (squared < smallest) {
-            smallest = squared;
-            nearest = among[i];
-        }
-    }
-    return nearest;
+    for (const Index v : own) sum += point_at(positions, v);
+    Vec3d target = sum / static_cast<double>(own.size());
+    if (which == OfCell::aside)
+        target += way_aside * (point_at(positions, own[scrambled(own.front()) % own.size()]) - target);
+    return *std::ranges::min_element(
+        own, {}, [&](Index v) { return (point_at(positions, v) - target).squaredNorm(); });
 }
 
 } // namespace
 
 std::vector<Index> octree_samples(const MortonCube& cube, std::span<const float> positions,
-                                  std::span<const Index> among, std::size_t count) {
+                                  std::span<const Index> among, std::size_t count, OfCell which) {
     if (among.size() <= count) return {among.begin(), among.end()};
     if (count == 0) return {};
     std::priority_queue<Cell> cells;
@@ -79,7 +78,7 @@ std::vector<Index> octree_samples(const MortonCube& cube, std::span<const float>
     }
     std::vector<Index> samples;
     samples.reserve(count);
-    for (; !cells.empty(); cells.pop()) samples.push_back(nearest_to_mean(cells.top(), positions, among));
+    for (; !cells.empty(); cells.pop()) samples.push_back(sample_of(cells.top(), which, positions, among));
     std::ranges::sort(samples);
     return samples;
 }

@@ -88,6 +88,38 @@ TEST(OctreeSamples, AreFoundWhereThePointsShareACellOfTheCurve) {
     EXPECT_TRUE(std::ranges::adjacent_find(samples, std::ranges::greater_equal()) == samples.end());
 }
 
+// How many of these vertices of a plane, whose edge is 1, have another one in the same row: less than a
+// twentieth of their spacing farther along `axis`, where evenly scattered ones have it by chance.
+double share_in_rows(const Cloud& cloud, const std::vector<Index>& samples, int axis) {
+    const double spacing = 1 / std::sqrt(static_cast<double>(samples.size()));
+    std::size_t in_rows = 0;
+    for (const Index s : samples) {
+        const auto is_beside = [&](Index t) {
+            const Vec3d way = cloud.at(t) - cloud.at(s);
+            return t != s && way.norm() < 2.5 * spacing && std::abs(way[axis]) < 0.05 * spacing;
+        };
+        in_rows += std::ranges::any_of(samples, is_beside) ? 1 : 0;
+    }
+    return static_cast<double>(in_rows) / static_cast<double>(samples.size());
+}
+
+TEST(OctreeSamples, AsideOfTheMiddlesLieInNoRows) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::plane, 40000));
+    const std::vector<Index> all = all_of(cloud);
+    for (const std::size_t count : {256U, 512U}) {
+        const auto sampled = [&](OfCell which) {
+            const auto samples = octree_samples(cloud.cube, cloud.positions, all, count, which);
+            EXPECT_EQ(samples.size(), count);
+            EXPECT_TRUE(std::ranges::adjacent_find(samples, std::ranges::greater_equal()) == samples.end());
+            return samples;
+        };
+        for (const int axis : {0, 1}) {
+            EXPECT_GT(share_in_rows(cloud, sampled(OfCell::middle), axis), 0.75);
+            EXPECT_LT(share_in_rows(cloud, sampled(OfCell::aside), axis), 0.65);
+        }
+    }
+}
+
 TEST(OctreeSamples, AreTheSameEveryTime) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::knot, 3000));
     EXPECT_EQ(samples_of(cloud, 333), samples_of(cloud, 333));

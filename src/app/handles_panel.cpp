@@ -18,7 +18,7 @@ namespace knead {
 
 namespace {
 
-constexpr float fewest_rows = 3; // of the list
+constexpr float fewest_rows = 6; // of the list
 
 void selection_words(const Ui& ui) {
     const std::size_t selected = ui.editor.selected;
@@ -223,12 +223,16 @@ void handle_list(const Ui& ui, const std::vector<Handle>& handles) {
     const float content = ImGui::GetCurrentWindow()->ContentSize.y; // of the last frame
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0});
     if (ImGui::BeginChild("list", {0, height})) {
+        // A handle is chosen before the document has it, and what was added in this frame can be scrolled to
+        // in the next one.
+        const bool is_measured = ImGui::GetScrollMaxY() + height > whole - 1;
         for (std::size_t i = 0; i < handles.size(); ++i) {
             handle_row(ui, handles[i], i);
-            const bool chosen = handles[i].name == ui.editor.chosen;
-            if (chosen && state.listed_chosen != handles[i].name && whole > height) ImGui::SetScrollHereY();
+            if (handles[i].name != ui.editor.chosen || state.listed_chosen == handles[i].name) continue;
+            if (whole > height) ImGui::SetScrollHereY();
+            if (is_measured) state.listed_chosen = handles[i].name;
         }
-        state.listed_chosen = ui.editor.chosen;
+        if (ui.editor.chosen.empty()) state.listed_chosen.clear();
     }
     ImGui::EndChild();
     ImGui::PopStyleVar();

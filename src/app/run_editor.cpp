@@ -360,7 +360,10 @@ void draw(Loop& loop) {
     const Stopwatch clock;
     loop.window.begin_frame();
     draw_panels(loop);
+    const bool played = loop.state.playback.playing;
     play_on(loop.ui);
+    if (played && !loop.state.playback.playing) // the panels have said otherwise
+        loop.frames_to_draw = std::max(loop.frames_to_draw, 2);
     carry_out_wishes(loop);
     clear_window(loop, size);
     const bool another_cloud = loop.editor.changes.cloud;

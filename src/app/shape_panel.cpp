@@ -33,10 +33,14 @@ void send_rested(const Ui& ui) {
 void stiffness_slider(const Ui& ui, const Settings& settings) {
     auto stiffness = static_cast<float>(settings.stiffness);
     if (bar_slider("Stiffness", stiffness, 1e-4f, 10.0f, "%.4g",
-                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat)) {
+                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat |
+                       ImGuiSliderFlags_AlwaysClamp)) {
         SettingsChange wanted;
-        // Two digits are what a hand can mean; a session file then reads 0.013 and not 0.01298734.
-        const double unit = std::pow(10.0, std::floor(std::log10(static_cast<double>(stiffness))) - 1);
+        // Two digits are what a hand can mean; a session file then reads 0.013 and not 0.01298734. Typed are
+        // as many as are shown.
+        const double digits = ImGui::IsItemActive() ? 2 : 4;
+        const double unit =
+            std::pow(10.0, std::floor(std::log10(static_cast<double>(stiffness))) + 1 - digits);
         wanted.stiffness = std::max(1e-4, std::round(static_cast<double>(stiffness) / unit) * unit);
         change(ui, wanted);
     }
@@ -125,7 +129,8 @@ void samples_slider(const Ui& ui, const Settings& settings) {
     if (bar_slider("Samples", samples, 50, 20000, "%d",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
         SettingsChange wanted;
-        const int step = samples < 1000 ? 50 : samples < 5000 ? 250 : 1000;
+        const bool is_typed = !ImGui::IsItemActive(); // a hand means round numbers
+        const int step = is_typed ? 1 : samples < 1000 ? 50 : samples < 5000 ? 250 : 1000;
         wanted.samples = static_cast<std::uint64_t>(std::max(50, (samples + step / 2) / step * step));
         change(ui, wanted);
     }
@@ -139,8 +144,10 @@ void samples_slider(const Ui& ui, const Settings& settings) {
     sample_choice(ui, settings);
     if (!ui.editor.chooses_samples) return;
     const SampleChoice& suited = ui.editor.document->suited;
-    const bool waits = suited.samples != settings.samples && ui.editor.document->posed;
-    faint_text(waits ? "From the next commit on: " + words_about(suited) : words_about(suited));
+    const bool waits = suited.samples != settings.samples;
+    const char* const when =
+        ui.editor.document->posed ? "From the next commit on: " : "From the next edit on: ";
+    faint_text(waits ? when + words_about(suited) : words_about(suited));
 }
 
 void iterations_slider(const Ui& ui, const Settings& settings) {

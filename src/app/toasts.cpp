@@ -4,6 +4,8 @@
 #include "app/ui.h"
 #include "app/widgets.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 
 namespace knead {
@@ -67,6 +69,8 @@ Drawn draw_toast(const Ui& ui, const Toast& toast, int number, ImVec2 corner) {
     ImGui::Begin(id.c_str(), nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+    if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId)) // over the welcome card, too
+        ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
     const ImU32 color = with_alpha(color_of(toast.notice.kind), toast.shown);
     const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
     ImDrawList& list = *ImGui::GetWindowDrawList();

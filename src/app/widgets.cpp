@@ -122,16 +122,45 @@ float share(double value, double lowest, double highest, bool logarithmic) {
 }
 
 template<typename Number>
+std::string as_words(const char* format, Number value) {
+    char words[48];
+    std::snprintf(words, sizeof words, format, value);
+    return words;
+}
+
+// What is being typed into a slider counts once it is done, and not at all if it is given up: Esc puts the
+// text back. Returns whether `value` became what was typed.
+template<typename Number>
+bool take_typed(const char* id, bool is_typed, Number before, const char* format, Number& value) {
+    ImGuiStorage& storage = *ImGui::GetStateStorage();
+    const ImGuiID typing = ImGui::GetID((std::string(id) + " typing").c_str());
+    const ImGuiID typed = ImGui::GetID((std::string(id) + " typed").c_str());
+    const bool was_typed = storage.GetBool(typing, false);
+    storage.SetBool(typing, is_typed);
+    if (is_typed) {
+        storage.SetFloat(typed, static_cast<float>(value));
+        value = before;
+        return false;
+    }
+    if (!was_typed) return false;
+    const auto wanted = static_cast<Number>(storage.GetFloat(typed));
+    if (as_words(format, wanted) == as_words(format, before)) return false;
+    value = wanted;
+    return true;
+}
+
+template<typename Number>
 bool slide(const char* name, ImGuiDataType type, Number& value, Number lowest, Number highest,
            const char* format, int flags) {
     const std::string id = std::string("##") + name;
     const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id.c_str()));
-    const bool changed = bar_slider_of(name, type, &value, &lowest, &highest, format, flags);
-    if (typed) return changed;
-    char words[48];
-    std::snprintf(words, sizeof words, format, value);
+    const Number before = value;
+    const bool slid = bar_slider_of(name, type, &value, &lowest, &highest, format, flags);
+    const bool changed = take_typed(id.c_str(), typed, before, format, value) || (slid && !typed);
+    if (typed) return false;
+    const std::string words = as_words(format, value);
     const bool logarithmic = (flags & ImGuiSliderFlags_Logarithmic) != 0;
-    draw_bar(name, words,
+    draw_bar(name, words.c_str(),
              share(static_cast<double>(value), static_cast<double>(lowest), static_cast<double>(highest),
                    logarithmic));
     return changed;

@@ -41,6 +41,10 @@ ReplayOptions options_from(const Arguments& arguments) {
     return options;
 }
 
+bool overrides_settings(const Arguments& arguments) {
+    return !arguments.settings.empty() || !arguments.samples.empty();
+}
+
 nlohmann::ordered_json number_or_null(const std::optional<double>& number) {
     return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json(nullptr);
 }
@@ -134,6 +138,11 @@ int run_replay(const Arguments& arguments, Terminal& terminal) {
     }
     ReplayReport report =
         replay(session, options, terminal, [&](const std::string& words) { terminal.warn(words); });
+    if (arguments.record_checks && !arguments.dry_run && overrides_settings(arguments)) {
+        report.warnings.emplace_back("the checks were recorded with other settings than the session has; it "
+                                     "holds them only with the same --set or --samples");
+        terminal.warn(report.warnings.back());
+    }
     if (pictures) {
         for (std::filesystem::path& path : pictures->targets()) report.written.push_back(std::move(path));
         if (const std::string words = pictures->words_about_other_frames(); !words.empty()) {

@@ -23,6 +23,9 @@ constexpr double least_for_solving = frame_seconds / 3;
 // 30 with 100,000).
 constexpr double growth = 1.15;
 
+// Fewer than these take hardly less: what they wait for is not theirs, and says nothing about more of them.
+constexpr double fewest_telling = 1000;
+
 // What handles ask for: two samples across the smallest, eight between any two, and 20 for a border of each
 // from the fifth that they share. Handles of less than 1/1250 of the points get a falloff instead
 // (edit/falloffs.h).
@@ -54,7 +57,8 @@ double allowed_by(double points) {
 double affordable(const std::optional<FrameCost>& cost) {
     if (!cost || cost->solving <= 0) return std::numeric_limits<double>::infinity();
     const double left = std::max(frame_seconds - cost->upsampling, least_for_solving);
-    return static_cast<double>(cost->samples) * std::pow(left / cost->solving, 1 / growth);
+    return std::max(fewest_telling, static_cast<double>(cost->samples)) *
+           std::pow(left / cost->solving, 1 / growth);
 }
 
 // Where handles are content with so many, and the machine can do so many.

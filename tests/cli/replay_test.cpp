@@ -294,6 +294,15 @@ TEST_F(Replay, RecordsOverNoCloudAndNoShapeThatHasACheckSName) {
     EXPECT_EQ(replay({"--record-checks", "--out", "s-check.ply"}).code, 0);
 }
 
+TEST_F(Replay, RecordingWithOtherSettingsThanTheSessionHasSaysSo) {
+    session(edit);
+    EXPECT_EQ(replay({"--record-checks"}).err.find("other settings"), std::string::npos);
+    const Outcome outcome = replay({"--record-checks", "--set", "poisson=0.4"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_NE(outcome.err.find("other settings"), std::string::npos) << outcome.err;
+    EXPECT_NE(replay({"--record-checks", "--samples", "all"}).err.find("other settings"), std::string::npos);
+}
+
 TEST_F(Replay, RecordingLeavesChecksThatItDidNotRecord) {
     session(edit + R"({"op":"check","positions":"s-check-by-hand.ply","tolerance":1e-9})"
                    "\n");

@@ -137,4 +137,10 @@ TEST(SampleChoice, GoesWhereMuchDoesAndLeavesNumbersThatItWouldNotChoose) {
     EXPECT_EQ(choose_samples_again(needs_of(900, plain, 0.003), 500).samples, std::nullopt);
 }
 
+// What 50 samples wait for, a window that is drawn beside them above all, is not theirs.
+TEST(SampleChoice, FewSamplesSayLittleOfMany) {
+    const SampleNeeds after_few{36'000, {2, 0.2, 0.4}, FrameCost{50, 0.005, 0.001}};
+    EXPECT_EQ(choose_samples_again(after_few, 50).samples, 2000U);
+}
+
 } // namespace knead::test

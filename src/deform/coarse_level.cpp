@@ -28,16 +28,16 @@ constexpr double hardly_less = 0.8;
 // Surroundings that were pressed to less than this of their volume cannot be taken back to what they were.
 constexpr double flat = 1e-3;
 
-// The coarse sample of the handle that is nearest to the one that a hold turns with.
+// The coarse sample of the handle that is nearest to the one that a hold turns with; no_index if it has none.
 Index coarse_of_handle(const SampleRest& rest, const CoarseSamples& coarse, const SoftHold& hold) {
-    const auto distance = [&](Index c) {
+    Index best = no_index;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (Index c = 0; c < coarse.sample.size(); ++c) {
         const Index s = coarse.sample[c];
-        return rest.handle[s] == hold.handle ? (rest.position[s] - rest.position[hold.turner]).squaredNorm()
-                                             : std::numeric_limits<double>::infinity();
-    };
-    Index best = 0;
-    for (Index c = 1; c < coarse.sample.size(); ++c)
-        if (distance(c) < distance(best)) best = c;
+        if (rest.handle[s] != hold.handle) continue;
+        const double distance = (rest.position[s] - rest.position[hold.turner]).squaredNorm();
+        if (distance < smallest) smallest = distance, best = c;
+    }
     return best;
 }
 

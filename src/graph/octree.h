@@ -17,9 +17,9 @@ enum class OfCell { middle, aside };
 
 // `count` of the vertices: cells of an octree are halved (along x, then y, then z, so three halvings are one
 // step of an octree), always the one with most vertices times edge, until there are `count` of them; each
-// gives one vertex. Where a surface has 27 times as many points as
-// elsewhere, samples so are 3 times as close: by number alone they would be 5 times as close and too few
-// elsewhere, by size alone a dense detail would get none.
+// gives one vertex. Where a surface has 27 times as many points as elsewhere, samples so are 3 times as
+// close: by number alone they would be 5 times as close and too few elsewhere, by size alone a dense detail
+// would get none.
 //
 // `positions`: 3 floats a vertex, along the curve through `cube`; `among`: the vertices to choose from,
 // ascending. Returns vertices, ascending; all of `among` if there are no more than `count`.

@@ -16,8 +16,8 @@ namespace knead {
 namespace {
 
 constexpr std::size_t fewest_points = 100'000;
-constexpr std::uint64_t samples_asked = 5000;
-constexpr double radius_of_third = 0.03; // of the cloud's size
+constexpr std::array<std::uint64_t, 2> samples_asked{1000, 5000}; // around few, the energy is that of points
+constexpr double radius_of_third = 0.03;                          // of the cloud's size
 
 struct TimedStage {
     const char* name;
@@ -62,11 +62,12 @@ void show_frame(Pipeline& pipeline, const PipelineInput& input) {
     pipeline.upsample(motions, state);
 }
 
-HandleTimingRow measure_plane(const PointCloud& cloud, bool is_first, std::size_t repeats,
-                              Upsampler& upsampler, Workers& workers, Progress& progress) {
+HandleTimingRow measure_plane(const PointCloud& cloud, std::uint64_t samples, bool is_first,
+                              std::size_t repeats, Upsampler& upsampler, Workers& workers,
+                              Progress& progress) {
     Pipeline pipeline(cloud, workers, upsampler);
     PipelineInput two;
-    two.settings.samples = samples_asked;
+    two.settings.samples = samples;
     two.handles = two_handles(cloud);
     pipeline.prepare(two, progress);
     PipelineInput three = two;
@@ -113,9 +114,10 @@ HandleTiming measure_handle_timing(std::size_t most_points, const Table1Options&
     timing.device = choice.upsampler->device();
     for (std::size_t points = fewest_points; points <= most_points; points *= 10) {
         const PointCloud cloud = made_cloud(Shape::plane, points, workers, progress);
-        for (const bool is_first : {false, true})
-            timing.rows.push_back(
-                measure_plane(cloud, is_first, options.repeats, *choice.upsampler, workers, progress));
+        for (const std::uint64_t samples : samples_asked)
+            for (const bool is_first : {false, true})
+                timing.rows.push_back(measure_plane(cloud, samples, is_first, options.repeats,
+                                                    *choice.upsampler, workers, progress));
     }
     if (std::string words = choice.upsampler->take_warning(); !words.empty())
         timing.warnings.push_back(std::move(words));

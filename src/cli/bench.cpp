@@ -152,7 +152,7 @@ void add_bench(CLI::App& app, Job& job) {
         command
             ->add_option("--handles", arguments->handles,
                          "Instead: how soon a handle more, or less, is live on planes of 100,000 points up "
-                         "to so many, with 5000 samples")
+                         "to so many, with 1000 and with 5000 samples")
             ->check(CLI::Range(std::size_t{100'000}, std::size_t{1'000'000'000}));
     command->add_option("--picture", arguments->picture, "With --growth: draw it into this file (SVG)")
         ->needs(growth);

@@ -4,33 +4,6 @@
 
 namespace knead {
 
-namespace {
-
-[[gnu::always_inline]] inline Vec3d vector_of(const Four& four) {
-    return {four[0], four[1], four[2]};
-}
-
-// Adds matrix · by, a column of a product or all of it.
-[[gnu::always_inline]] inline void add_product(const Columns& matrix, const Vec3d& by, Four& sum) {
-    sum += matrix.of[0] * by[0] + matrix.of[1] * by[1] + matrix.of[2] * by[2];
-}
-[[gnu::always_inline]] inline void add_product(const Columns& matrix, const Mat3d& by, Columns& sum) {
-    for (int column = 0; column < 3; ++column)
-        sum.of[column] +=
-            matrix.of[0] * by(0, column) + matrix.of[1] * by(1, column) + matrix.of[2] * by(2, column);
-}
-
-} // namespace
-
-void set_way(const Vec3d& way, Body& body) {
-    body.way = Four{way[0], way[1], way[2], 0};
-}
-
-void set_columns(const Mat3d& matrix, Columns& columns) {
-    for (int column = 0; column < 3; ++column)
-        columns.of[column] = Four{matrix(0, column), matrix(1, column), matrix(2, column), 0};
-}
-
 BodiesAround bodies_around(const PointEnergy& energy, std::span<const Body> all, Index sample) {
     const std::size_t first = energy.first[sample], count = energy.first[sample + 1] - first;
     return {std::span(energy.pair).subspan(first, count), std::span(energy.slopes).subspan(first, count),

@@ -2,20 +2,12 @@
 // What the bodies of a PointEnergy do, and what those around a sample add to an iteration: sums over some
 // ten thousand pairs, so they are made by four numbers at once.
 
-#include "base/types.h"
+#include "deform/fours.h"
 #include "deform/point_energy.h"
 
 #include <span>
 
 namespace knead {
-
-// The three numbers of a vector, and one more that is 0, in the vectors of GCC and Clang.
-using Four = double __attribute__((vector_size(32)));
-
-// A matrix, column by column.
-struct alignas(32) Columns { // which GCC does not see to by itself where the processor may be an old one
-    Four of[3] = {};
-};
 
 // What a body does: it sends p to p + map p + way, or, a sample, about its place.
 struct Body {
@@ -26,9 +18,6 @@ struct Body {
     bool turned = true;    // ... and how it turns
     Index from = no_index; // of a handle: one of its samples
 };
-
-void set_way(const Vec3d& way, Body& body);
-void set_columns(const Mat3d& matrix, Columns& columns);
 
 // The pairs of one sample, and their bodies' numbers in `all`.
 struct BodiesAround {

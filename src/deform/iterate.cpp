@@ -253,12 +253,12 @@ void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, co
         Body& body = system.body[s];
         if (s < samples) {
             const Mat3d& turn = system.turn[s];
-            set_way(state.displacement[s], body);
+            set_four(state.displacement[s], body.way);
             set_columns(turn, body.turn);
             set_columns(body.turned ? turn : stretched_turn(system, state, s), body.map);
         } else {
             const std::size_t handle = s - samples;
-            set_way(handles[handle].offset, body);
+            set_four(handles[handle].offset, body.way);
             set_columns(handles[handle].linear - Mat3d::Identity(), body.map);
             body.turn = body.map;
             if (handle < turns_freely.size() && turns_freely[handle])

@@ -15,13 +15,15 @@ TEST(HandleTiming, MeasuresEveryStage) {
     options.device = "reference";
     SilentProgress progress;
     const HandleTiming timing = measure_handle_timing(100'000, options, progress);
-    ASSERT_EQ(timing.rows.size(), 2U);
+    ASSERT_EQ(timing.rows.size(), 4U); // few samples and more, a handle at the end and at the beginning
     EXPECT_TRUE(timing.rows.back().is_first);
+    EXPECT_GT(timing.rows.back().samples, 5000U);
+    EXPECT_LE(timing.rows.back().samples, 6003U); // a fifth more, and one a handle
     const HandleTimingRow& row = timing.rows.front();
     EXPECT_FALSE(row.is_first);
     EXPECT_EQ(row.points, 100'000U);
-    EXPECT_GT(row.samples, 5000U);
-    EXPECT_LE(row.samples, 6003U); // a fifth more, and one a handle
+    EXPECT_GT(row.samples, 1000U);
+    EXPECT_LE(row.samples, 1203U);
     EXPECT_GT(row.in_handle, 100U);
     double stages = 0;
     for (const Summary& stage : {row.sampling, row.geodesic, row.factorize, row.device, row.frame}) {

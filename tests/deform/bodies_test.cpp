@@ -29,7 +29,7 @@ struct Plain {
             map.push_back(matrix());
             turn.push_back(matrix());
             body.push_back({});
-            set_way(way[s], body[s]);
+            set_four(way[s], body[s].way);
             set_columns(map[s], body[s].map);
             set_columns(turn[s], body[s].turn);
             body[s].placed = s % 3 == 0;

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -15,15 +17,17 @@ namespace {
 // A bar with samples between two handles, and its rows of influences.
 struct Held {
     test::Machine machine;
-    test::Cloud cloud = test::cloud_of(test::shape_positions(Shape::bar, 3000));
+    test::Cloud cloud;
     std::vector<Index> label, vertices;
     std::vector<Vec3d> sample;
     std::vector<bool> turning;
     InfluenceRows nearest;
     std::vector<std::uint8_t> hanging;
-    Numbering point = Numbering::as_they_stand(cloud.size());
+    Numbering point;
 
-    Held() {
+    explicit Held(std::size_t points = 3000)
+        : cloud(test::cloud_of(test::shape_positions(Shape::bar, points))),
+          point(Numbering::as_they_stand(cloud.size())) {
         for (Index v = 0; v < cloud.size(); ++v) {
             const double z = cloud.at(v).z();
             label.push_back(z < -2 ? 0 : z > 2 ? 1 : no_index);
@@ -139,6 +143,26 @@ TEST(PointEnergy, IsTheSumOverThePoints) {
         for (Index at = energy.first[t]; at < energy.first[t + 1]; ++at)
             of_pairs += energy.pair[at].way * way[t].dot(way[energy.body[at]]);
     EXPECT_NEAR(of_pairs, of_points, 1e-9 * of_points);
+}
+
+// Of many points some are asked, and evenly: no part of the bar tells more than where all its points are.
+TEST(PointEnergy, AsksSomeOfManyPointsEverywhere) {
+    const Held few(6000), many(60'000);
+    const auto shares = [](const Held& held) { // of the confidence, along the bar
+        const PointEnergy energy = held.energy(InfluenceWeights::smooth, 2);
+        std::array<double, 4> share{};
+        double sum = 0;
+        for (Index t = 0; t < energy.samples; ++t) {
+            const double z = std::clamp(held.sample[t].z(), -2.0, 1.999);
+            share.at(static_cast<std::size_t>(z + 2)) += energy.confidence[t];
+            sum += energy.confidence[t];
+        }
+        for (double& each : share) each /= sum;
+        return share;
+    };
+    const std::array<double, 4> of_all = shares(few), of_some = shares(many);
+    for (std::size_t part = 0; part < of_all.size(); ++part)
+        EXPECT_NEAR(of_some.at(part), of_all.at(part), 0.05) << part;
 }
 
 // Though smooth weights blend it when it is moved: so the energy knows of turns that blends hide.

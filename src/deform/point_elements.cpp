@@ -1,0 +1,236 @@
+#include "deform/point_elements.h"
+
+#include "base/new_processors.h"
+#include "deform/stretch.h"
+#include "graph/balanced_weights.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace knead {
+
+bool hangs(const PointsBetween& between, Index vertex) {
+    return !between.hanging.empty() && between.hanging[vertex] != 0;
+}
+
+Index holder_of(const PointsBetween& between, Index vertex) {
+    const Index handle = between.label[vertex];
+    const bool turns = handle < between.turns_freely.size() && between.turns_freely[handle];
+    return turns ? no_index : handle;
+}
+
+namespace {
+
+Vec3d position_of(const PointsBetween& between, Index vertex) {
+    return point_at(between.positions, between.point[vertex]);
+}
+
+// What moves a vertex, at p, that no handle does alone. A sample's own one goes with the sample, though
+// smooth weights blend it when it is moved: what samples do that every blend of them hides is told there
+// alone. Without it few samples may never come to rest (the survey's cylinder with 50 of them).
+Influence influence_at(const PointsBetween& between, Index vertex, const Vec3d& p) {
+    const WideRow row = between.nearest[vertex];
+    const Index first_handle = between.nearest.first_handle;
+    const bool is_sample = row.distance[0] == 0 && row.sample[0] < first_handle;
+    return influence_of(row, first_handle, is_sample ? InfluenceWeights::paper : between.weights,
+                        offsets_from(p, row, between.sample));
+}
+
+// What a body does at a vertex.
+struct Blend {
+    Vec3d arm = Vec3d::Zero();   // w c
+    Vec3d place = Vec3d::Zero(); // w p_s
+    double weight = 0;           // w
+    Index body = 0;
+};
+
+// Those of one vertex after another, in the same memory.
+class Blends {
+public:
+    explicit Blends(const PointsBetween& between) : between_(between) {}
+
+    std::span<const Blend> read(Index vertex) {
+        const Vec3d p = position_of(between_, vertex);
+        count_ = 0;
+        if (const Index handle = holder_of(between_, vertex); handle != no_index) {
+            add(handle_body(handle), 1, p);
+        } else {
+            const Influence influence = influence_at(between_, vertex, p);
+            for (std::size_t k = 0; k < influence.count; ++k)
+                add(body_of(influence.motion[k]), static_cast<double>(influence.weight[k]), p);
+        }
+        if (between_.weights == InfluenceWeights::smooth) bow(p);
+        return {blend_.data(), count_};
+    }
+
+private:
+    bool is_sample(Index body) const { return body < between_.sample.size(); }
+    Index handle_body(Index handle) const { return static_cast<Index>(between_.sample.size()) + handle; }
+    Index body_of(Index motion) const {
+        return motion < between_.nearest.first_handle ? motion
+                                                      : handle_body(motion - between_.nearest.first_handle);
+    }
+
+    void add(Index body, double weight, const Vec3d& p) {
+        const Vec3d place = is_sample(body) ? between_.sample[body] : p;
+        const Vec3d arm = is_sample(body) ? Vec3d(p - place) : p;
+        blend_[count_++] = {weight * arm, weight * place, weight, body};
+    }
+
+    // Along arcs: a sample's own arm counts half, and for all of them half of where the blend falls short.
+    void bow(const Vec3d& p) {
+        Vec3d short_of = p;
+        for (std::size_t k = 0; k < count_; ++k) short_of -= blend_[k].place;
+        for (std::size_t k = 0; k < count_; ++k) {
+            Blend& blend = blend_[k];
+            if (is_sample(blend.body)) blend.arm *= 0.5;
+            blend.arm += 0.5 * blend.weight * short_of;
+        }
+    }
+
+    const PointsBetween& between_;
+    std::array<Blend, influences_per_row> blend_;
+    std::size_t count_ = 0;
+};
+
+// Adds what blends say, of the elements at these places, from that way off with the weight that the inverse
+// spread gives it: to the gradients, and to G.
+KNEAD_FOR_NEW_PROCESSORS_TOO
+void add_slopes(std::span<const Blend> blends, std::span<const std::size_t> place, const Vec3d& way,
+                std::span<Element> elements, Columns& slope) {
+    Four along = {}, arm = {}, of_place = {};
+    set_four(way, along);
+    for (std::size_t k = 0; k < blends.size(); ++k) {
+        Element& element = elements[place[k]];
+        set_four(blends[k].arm, arm);
+        set_four(blends[k].place, of_place);
+        element.gradient += blends[k].weight * along;
+        add_outer(arm, way, element.arms);
+        add_outer(of_place, way, slope);
+    }
+}
+
+// G⁻ᵀ, G along the surface and the identity across it; but where the blend climbs less than the positions do,
+// 1 for what would be more: at a rim, where all samples are on one side, it would count for too much.
+Mat3d correction_of(const Mat3d& slope, const Mat3d& along) {
+    const Mat3d filled = along * slope * along + (Mat3d::Identity() - along);
+    Eigen::SelfAdjointEigenSolver<Mat3d> squares;
+    squares.computeDirect(filled.transpose() * filled);
+    const auto inverse = [](double square) {
+        const double slope_along = std::sqrt(std::max(square, 1e-6));
+        return 1 / (slope_along * std::max(slope_along, 1.0));
+    };
+    const Vec3d inverses = squares.eigenvalues().unaryExpr(inverse);
+    return filled * squares.eigenvectors() * inverses.asDiagonal() * squares.eigenvectors().transpose();
+}
+
+bool is_zero(const Four& four) {
+    return vector_of(four).isZero(0);
+}
+
+// Drops elements that say nothing: of the farthest around, with smooth weights.
+void drop_nothing(Contribution& contribution) {
+    std::size_t kept = 0;
+    for (std::size_t at = 0; at < contribution.element.size(); ++at) {
+        const Element& element = contribution.element[at];
+        if (element.weight == 0 && is_zero(element.gradient) && std::ranges::all_of(element.arms.of, is_zero))
+            continue;
+        contribution.body[kept] = contribution.body[at];
+        contribution.element[kept++] = element;
+    }
+    contribution.body.resize(kept);
+    contribution.element.resize(kept);
+}
+
+// The links of a vertex to others that do not hang.
+struct Links {
+    Mat3d spread = Mat3d::Zero(); // Σ e eᵀ
+    Vec3d pull = Vec3d::Zero();   // Σ e
+    double effort = 0;            // Σ |e|
+};
+
+Links links_of(const PointsBetween& between, const Vec3d& position, std::span<const Index> row) {
+    Links links;
+    for (const Index other : row) {
+        const Vec3d edge = position_of(between, other) - position;
+        links.spread += edge * edge.transpose();
+        links.pull += edge;
+        links.effort += edge.norm();
+    }
+    return links;
+}
+
+} // namespace
+
+ContributionFinder::ContributionFinder(const PointsBetween& between)
+    : between_(between), place_(between.sample.size() + between.handles, no_index) {}
+
+// Where the element of a body stands.
+std::size_t ContributionFinder::place_of(Index body) {
+    Index& place = place_[body];
+    if (place == no_index) {
+        place = static_cast<Index>(found_.body.size());
+        found_.body.push_back(body);
+        found_.element.emplace_back();
+    }
+    return place;
+}
+
+// Adds what a vertex and its neighbours say of the gradients. Returns G. `inverse`: of the spread of its
+// links.
+Mat3d ContributionFinder::add_gradients(Index vertex, const Vec3d& position, const Mat3d& inverse) {
+    Columns slope;
+    Blends blends(between_);
+    std::array<std::size_t, influences_per_row> place{};
+    const auto add = [&](Index at, const Vec3d& way) {
+        const std::span<const Blend> all = blends.read(at);
+        for (std::size_t k = 0; k < all.size(); ++k) place[k] = place_of(all[k].body);
+        add_slopes(all, place, way, found_.element, slope);
+    };
+    Vec3d sum = Vec3d::Zero();
+    for (const Index other : row_) {
+        const Vec3d way = inverse * (position_of(between_, other) - position);
+        sum += way;
+        add(other, way);
+    }
+    add(vertex, -sum);
+    for (const Blend& blend : blends.read(vertex)) {
+        Element& element = found_.element[place_[blend.body]];
+        element.weight = blend.weight;
+        if (blend.body < between_.sample.size())
+            element.square_reach = (position - between_.sample[blend.body]).squaredNorm();
+    }
+    return matrix_of(slope);
+}
+
+const Contribution& ContributionFinder::find(Index vertex) {
+    found_.body.clear();
+    found_.element.clear();
+    row_.clear();
+    for (const Index other : between_.graph.row(vertex))
+        if (!hangs(between_, other)) row_.push_back(other);
+    if (row_.size() < 2) return found_;
+    const Vec3d position = position_of(between_, vertex);
+    const Links links = links_of(between_, position, row_);
+    if (!(links.effort > 0)) return found_;
+    const Surroundings surroundings = surroundings_of(links.spread);
+    const Mat3d along = Mat3d::Identity() - surroundings.open;
+    set_columns(along, found_.along);
+    found_.dimension = std::max(1.0, along.trace());
+    const double square_length = links.spread.trace() / static_cast<double>(row_.size());
+    const double share = 1 - std::numbers::pi / 4 * links.pull.norm() / links.effort;
+    found_.measure = 3 / found_.dimension * square_length * share;
+    const Mat3d slope = add_gradients(vertex, position, surroundings.inverse);
+    for (const Index body : found_.body) place_[body] = no_index;
+    drop_nothing(found_);
+    const Mat3d correction = correction_of(slope, along);
+    for (Element& element : found_.element)
+        set_four(correction * vector_of(element.gradient), element.corrected);
+    return found_;
+}
+
+} // namespace knead

@@ -28,11 +28,11 @@ struct BodiesAround {
 };
 BodiesAround bodies_around(const PointEnergy& energy, std::span<const Body> all, Index sample);
 
-// Σ_s u_s (Σ 2ω w_t g_s)ᵀ + (A_s - I) Σ 2ω w_t H_s - γ (M_s - I) Σ 2ω w_t w_s P: what they add to the sum of
+// Σ_s u_s (Σ 2ω v_t g_s)ᵀ + (A_s - I) Σ 2ω v_t H_s - γ (M_s - I) Σ 2ω v_t v_s P: what they add to the sum of
 // step 1 of sample_system.h. γ: `midway`.
 Mat3d local_sum_of(const BodiesAround& around, double midway);
 
-// Σ_s (M_s - I) Σ ω w_s P g_t - (A_s - I) Σ ω H_s g_t, and for those that are placed less u_s Σ ω g_t·g_s:
+// Σ_s (M_s - I) Σ ω v_s P g_t - (A_s - I) Σ ω H_s g_t, and for those that are placed less u_s Σ ω g_t·g_s:
 // what they add to the right-hand side of step 3.
 Vec3d force_of(const BodiesAround& around);
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace knead {
 
@@ -17,19 +18,16 @@ bool hangs(const PointsBetween& between, Index vertex) {
     return !between.hanging.empty() && between.hanging[vertex] != 0;
 }
 
-Index holder_of(const PointsBetween& between, Index vertex) {
-    const Index handle = between.label[vertex];
-    const bool turns = handle < between.turns_freely.size() && between.turns_freely[handle];
-    return turns ? no_index : handle;
-}
-
 namespace {
+
+// A handle, and a row.
+constexpr std::size_t most_blends = 1 + influences_per_row;
 
 Vec3d position_of(const PointsBetween& between, Index vertex) {
     return point_at(between.positions, between.point[vertex]);
 }
 
-// What moves a vertex, at p, that no handle does alone. A sample's own one goes with the sample, though
+// What moves a vertex, at p, by its row. A sample's own one goes with the sample, though
 // smooth weights blend it when it is moved: what samples do that every blend of them hides is told there
 // alone. Without it few samples may never come to rest (the survey's cylinder with 50 of them).
 Influence influence_at(const PointsBetween& between, Index vertex, const Vec3d& p) {
@@ -40,11 +38,45 @@ Influence influence_at(const PointsBetween& between, Index vertex, const Vec3d& 
                         offsets_from(p, row, between.sample));
 }
 
+bool turns_freely(const PointsBetween& between, Index handle) {
+    return handle < between.turns_freely.size() && between.turns_freely[handle];
+}
+
+// Whether one in a row is a handle whose samples, in that row, tell how it turns.
+bool turns_as_its_samples(const PointsBetween& between, Index motion) {
+    const Index first_handle = between.nearest.first_handle;
+    return motion >= first_handle && motion - first_handle < between.turns_by_samples.size() &&
+           between.turns_by_samples[motion - first_handle];
+}
+
+// v of each place of the row at p, by its weights w: those of the samples alone where a handle is among them
+// that turns as its samples do.
+std::array<float, influences_per_row> turning_of(const PointsBetween& between, Index vertex, const Vec3d& p,
+                                                 const Influence& influence) {
+    const auto is_told = [&](Index motion) { return turns_as_its_samples(between, motion); };
+    const auto motions = std::span(influence.motion).first(influence.count);
+    if (std::ranges::none_of(motions, is_told)) return influence.weight;
+    WideRow row = between.nearest[vertex];
+    const Index farthest = row.distance[influence.count - 1];
+    for (std::size_t k = 0; k < influence.count; ++k)
+        if (is_told(row.sample[k])) row.distance[k] = farthest;
+    std::array<float, influences_per_row> share =
+        weights_of(row, between.nearest.first_handle, between.weights);
+    for (std::size_t k = 0; k < influence.count; ++k)
+        if (is_told(row.sample[k])) share[k] = 0;
+    if (!(std::accumulate(share.begin(), share.end(), 0.0F) > 0)) return influence.weight;
+    if (between.weights == InfluenceWeights::smooth) balance(offsets_from(p, row, between.sample), share);
+    const float sum = std::accumulate(share.begin(), share.end(), 0.0F);
+    for (float& each : share) each /= sum;
+    return share;
+}
+
 // What a body does at a vertex.
 struct Blend {
     Vec3d arm = Vec3d::Zero();   // w c
-    Vec3d place = Vec3d::Zero(); // w p_s
+    Vec3d place = Vec3d::Zero(); // v p_s
     double weight = 0;           // w
+    double share = 0;            // v
     Index body = 0;
 };
 
@@ -54,16 +86,13 @@ public:
     explicit Blends(const PointsBetween& between) : between_(between) {}
 
     std::span<const Blend> read(Index vertex) {
-        const Vec3d p = position_of(between_, vertex);
         count_ = 0;
-        if (const Index handle = holder_of(between_, vertex); handle != no_index) {
-            add(handle_body(handle), 1, p);
-        } else {
-            const Influence influence = influence_at(between_, vertex, p);
-            for (std::size_t k = 0; k < influence.count; ++k)
-                add(body_of(influence.motion[k]), static_cast<double>(influence.weight[k]), p);
-        }
-        if (between_.weights == InfluenceWeights::smooth) bow(p);
+        p_ = short_of_ = position_of(between_, vertex);
+        const Index handle = between_.label[vertex];
+        const bool is_held = handle != no_index;
+        if (is_held) add(handle_body(handle), 1, turns_freely(between_, handle) ? 0 : 1);
+        if (!is_held || turns_freely(between_, handle)) add_row(vertex, is_held);
+        if (between_.weights == InfluenceWeights::smooth) bow();
         return {blend_.data(), count_};
     }
 
@@ -75,25 +104,35 @@ private:
                                                       : handle_body(motion - between_.nearest.first_handle);
     }
 
-    void add(Index body, double weight, const Vec3d& p) {
-        const Vec3d place = is_sample(body) ? between_.sample[body] : p;
-        const Vec3d arm = is_sample(body) ? Vec3d(p - place) : p;
-        blend_[count_++] = {weight * arm, weight * place, weight, body};
+    // What the row of a vertex says: of how it turns alone, if a handle moves it.
+    void add_row(Index vertex, bool is_held) {
+        const Influence influence = influence_at(between_, vertex, p_);
+        const auto share = turning_of(between_, vertex, p_, influence);
+        for (std::size_t k = 0; k < influence.count; ++k)
+            add(body_of(influence.motion[k]), is_held ? 0 : static_cast<double>(influence.weight[k]),
+                static_cast<double>(share[k]));
+    }
+
+    void add(Index body, double weight, double share) {
+        const Vec3d place = is_sample(body) ? between_.sample[body] : p_;
+        const Vec3d arm = is_sample(body) ? Vec3d(p_ - place) : p_;
+        blend_[count_++] = {weight * arm, share * place, weight, share, body};
+        short_of_ -= weight * place;
     }
 
     // Along arcs: a sample's own arm counts half, and for all of them half of where the blend falls short.
-    void bow(const Vec3d& p) {
-        Vec3d short_of = p;
-        for (std::size_t k = 0; k < count_; ++k) short_of -= blend_[k].place;
+    void bow() {
         for (std::size_t k = 0; k < count_; ++k) {
             Blend& blend = blend_[k];
             if (is_sample(blend.body)) blend.arm *= 0.5;
-            blend.arm += 0.5 * blend.weight * short_of;
+            blend.arm += 0.5 * blend.weight * short_of_;
         }
     }
 
     const PointsBetween& between_;
-    std::array<Blend, influences_per_row> blend_;
+    Vec3d p_ = Vec3d::Zero();        // where the vertex is
+    Vec3d short_of_ = Vec3d::Zero(); // p - Σ w p_s
+    std::array<Blend, most_blends> blend_;
     std::size_t count_ = 0;
 };
 
@@ -109,6 +148,7 @@ void add_slopes(std::span<const Blend> blends, std::span<const std::size_t> plac
         set_four(blends[k].arm, arm);
         set_four(blends[k].place, of_place);
         element.gradient += blends[k].weight * along;
+        element.corrected += blends[k].share * along;
         add_outer(arm, way, element.arms);
         add_outer(of_place, way, slope);
     }
@@ -137,7 +177,8 @@ void drop_nothing(Contribution& contribution) {
     std::size_t kept = 0;
     for (std::size_t at = 0; at < contribution.element.size(); ++at) {
         const Element& element = contribution.element[at];
-        if (element.weight == 0 && is_zero(element.gradient) && std::ranges::all_of(element.arms.of, is_zero))
+        if (element.share == 0 && is_zero(element.gradient) && is_zero(element.corrected) &&
+            std::ranges::all_of(element.arms.of, is_zero))
             continue;
         contribution.body[kept] = contribution.body[at];
         contribution.element[kept++] = element;
@@ -185,7 +226,7 @@ std::size_t ContributionFinder::place_of(Index body) {
 Mat3d ContributionFinder::add_gradients(Index vertex, const Vec3d& position, const Mat3d& inverse) {
     Columns slope;
     Blends blends(between_);
-    std::array<std::size_t, influences_per_row> place{};
+    std::array<std::size_t, most_blends> place{};
     const auto add = [&](Index at, const Vec3d& way) {
         const std::span<const Blend> all = blends.read(at);
         for (std::size_t k = 0; k < all.size(); ++k) place[k] = place_of(all[k].body);
@@ -200,7 +241,7 @@ Mat3d ContributionFinder::add_gradients(Index vertex, const Vec3d& position, con
     add(vertex, -sum);
     for (const Blend& blend : blends.read(vertex)) {
         Element& element = found_.element[place_[blend.body]];
-        element.weight = blend.weight;
+        element.share += blend.share;
         if (blend.body < between_.sample.size())
             element.square_reach = (position - between_.sample[blend.body]).squaredNorm();
     }
@@ -229,7 +270,7 @@ const Contribution& ContributionFinder::find(Index vertex) {
     drop_nothing(found_);
     const Mat3d correction = correction_of(slope, along);
     for (Element& element : found_.element)
-        set_four(correction * vector_of(element.gradient), element.corrected);
+        set_four(correction * vector_of(element.corrected), element.corrected);
     return found_;
 }
 

@@ -14,8 +14,8 @@ namespace knead {
 struct Element {
     Four gradient = {};      // g, of its weight
     Columns arms;            // H
-    Four corrected = {};     // ĝ
-    double weight = 0;       // w
+    Four corrected = {};     // ĝ, of its share in the turns
+    double share = 0;        // v
     double square_reach = 0; // |p - p_s|² of a sample
 };
 
@@ -30,9 +30,6 @@ struct Contribution {
 
 // Whether a vertex is an outlier, which says nothing of the surface.
 bool hangs(const PointsBetween& between, Index vertex);
-
-// The handle that moves a vertex alone, or no_index.
-Index holder_of(const PointsBetween& between, Index vertex);
 
 // Finds one after another, in the same memory.
 class ContributionFinder {

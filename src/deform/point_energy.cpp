@@ -39,13 +39,14 @@ double ramp(double at, double from, double to) {
     return std::clamp((at - from) / (to - from), 0.0, 1.0);
 }
 
-// Whether a vertex can add anything: not where one handle moves it and all its neighbours.
+// Whether a vertex can add anything: not where one handle moves and turns it and all its neighbours.
 bool is_between(const PointsBetween& between, Index vertex) {
     if (hangs(between, vertex)) return false;
-    const Index handle = holder_of(between, vertex);
+    const Index handle = between.label[vertex];
     if (handle == no_index) return true;
+    if (handle < between.turns_freely.size() && between.turns_freely[handle]) return true;
     return std::ranges::any_of(between.graph.row(vertex),
-                               [&](Index other) { return holder_of(between, other) != handle; });
+                               [&](Index other) { return between.label[other] != handle; });
 }
 
 // Whether each vertex can, a bit each.
@@ -122,7 +123,7 @@ KNEAD_FOR_NEW_PROCESSORS_TOO
 void add_pairs(const Meeting& meeting, const Columns& along, std::span<PairSums> pairs) {
     const Element& t = meeting.own;
     const Four pulled = meeting.measure * t.gradient, turned = meeting.measure * t.corrected;
-    const double twice = 2 * meeting.measure * t.weight;
+    const double twice = 2 * meeting.measure * t.share;
     Four pulled_along = {};
     add_product(along, pulled, pulled_along);
     for (std::size_t at = 0; at < meeting.all.size(); ++at) {
@@ -131,12 +132,12 @@ void add_pairs(const Meeting& meeting, const Columns& along, std::span<PairSums>
         sums.way += dot_of(pulled, s.gradient);
         sums.turn += dot_of(turned, s.corrected);
         add_product(s.arms, pulled, sums.map_force);
-        sums.target_force += s.weight * pulled_along;
-        if (!(t.weight > 0)) continue; // a neighbour's
+        sums.target_force += s.share * pulled_along;
+        if (!(t.share > 0)) continue; // a neighbour's
         sums.way_slope += twice * s.gradient;
         for (int column = 0; column < 3; ++column) {
             sums.map_slope.of[column] += twice * s.arms.of[column];
-            sums.target_spread.of[column] += twice * s.weight * along.of[column];
+            sums.target_spread.of[column] += twice * s.share * along.of[column];
         }
     }
 }
@@ -164,9 +165,9 @@ public:
 private:
     // What a point says of one sample itself.
     void add_own(const Contribution& at, const Element& own, Index place) {
-        part_.spread[place] += 2 * at.measure * own.weight * matrix_of(at.along);
-        part_.confidence[place] += 2 * at.dimension * at.measure * own.weight;
-        part_.reach[place] += 2 * at.dimension * at.measure * own.weight * own.square_reach;
+        part_.spread[place] += 2 * at.measure * own.share * matrix_of(at.along);
+        part_.confidence[place] += 2 * at.dimension * at.measure * own.share;
+        part_.reach[place] += 2 * at.dimension * at.measure * own.share * own.square_reach;
     }
 
     // Where a body stands in the part's `met`.

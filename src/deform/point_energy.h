@@ -9,18 +9,21 @@
 //
 //     D = Σ_s u_s g_sᵀ + Σ_s A_s H_s,    g_s = ∇w_s,  H_s = ∇(w_s c_s),
 //
-// and so is what it should be, A̅ P = Σ_s w_s M_s P, with M_s the turns (and elastic targets) beyond the
+// and so is what it should be, A̅ P = Σ_s v_s M_s P, with M_s the turns (and elastic targets) beyond the
 // identity and P the surface's projection. The energy of sample_system.h over the points, Σ ω |D - A̅ P|² +
 // β Σ ω |∇r|², restricted to shapes that so few samples can make, is then a sum over pairs of bodies, whose
 // coefficients are sums over points: Galerkin's method, with the blends of the samples as the finite
-// elements. (Reduced deformables by frames: B. Gilles, G. Bousquet, F. Faure, D. Pai, "Frame-based elastic
+// elements. The turns' own weights v_s, in the place of w_s in A̅, are w_s, but beside and in a handle that
+// leaves rotation free: where it has samples that are asked like others, they turn as the surface there wants,
+// each for itself, and the handle has no share in turns. It moves the points that it holds alone, though.
+// (Reduced deformables by frames: B. Gilles, G. Bousquet, F. Faure, D. Pai, "Frame-based elastic
 // models", 2011; by blended handles: A. Jacobson and others, "Fast automatic skinning transformations",
 // 2012.) The fixed point is then nearer to that of every point a sample than by links alone (knead
 // evaluate).
 //
 // Blends of constants are no linear functions, they climb in steps. For the turns, which have no slope of
-// their own in a sample, that would count as resistance; so their gradients are ĝ_s = G⁻ᵀ g_s, with G =
-// Σ_s p_s g_sᵀ what the blend makes of the positions themselves: linear in the place, turns have no more
+// their own in a sample, that would count as resistance; so their gradients are ĝ_s = G⁻ᵀ ∇v_s, with G =
+// Σ_s p_s ∇v_sᵀ what the blend makes of the positions themselves: linear in the place, turns have no more
 // slope than they should. (Balanced weights, graph/balanced_weights.h, have a G near the identity already.)
 //
 // Gradients are those of least squares over the neighbours of a point. ω = 3/dim · h² c stands for the
@@ -44,14 +47,14 @@ struct BodyPair {
     double way = 0;                     // Σ ω g_t·g_s
     double turn = 0;                    // Σ ω ĝ_t·ĝ_s
     Vec3d map_force = Vec3d::Zero();    // Σ ω H_s g_t
-    Vec3d target_force = Vec3d::Zero(); // Σ ω w_s P g_t
+    Vec3d target_force = Vec3d::Zero(); // Σ ω v_s P g_t
 };
 
 // And for the turns. (Each step reads but one of the two, and takes as long as reading takes.)
 struct PairSlopes {
-    Vec3d way_slope = Vec3d::Zero();     // Σ 2ω w_t g_s
-    Mat3d map_slope = Mat3d::Zero();     // Σ 2ω w_t H_s
-    Mat3d target_spread = Mat3d::Zero(); // Σ 2ω w_t w_s P
+    Vec3d way_slope = Vec3d::Zero();     // Σ 2ω v_t g_s
+    Mat3d map_slope = Mat3d::Zero();     // Σ 2ω v_t H_s
+    Mat3d target_spread = Mat3d::Zero(); // Σ 2ω v_t v_s P
 };
 
 struct PointEnergy {
@@ -62,8 +65,8 @@ struct PointEnergy {
     std::vector<Index> body;  // of each pair: s, ascending within t, which is among them
     std::vector<BodyPair> pair;
     std::vector<PairSlopes> slopes; // of each pair
-    std::vector<Mat3d> spread;      // Σ 2ω w_t P, of each sample
-    std::vector<double> confidence; // Σ 2 dim ω w_t, of each sample
+    std::vector<Mat3d> spread;      // Σ 2ω v_t P, of each sample
+    std::vector<double> confidence; // Σ 2 dim ω v_t, of each sample
     std::vector<double> reach;      // of each sample: how far the points are that it moves, rms
 };
 
@@ -77,8 +80,10 @@ struct PointsBetween {
     std::span<const std::uint8_t> hanging; // of each vertex: 1 for an outlier, which says nothing of the
                                            // surface; empty without any
     std::span<const Index> label;          // of each vertex: its handle, or no_index
-    const std::vector<bool>& turns_freely; // of each handle: whether its points are blends like others, and
-                                           // it says where they go but not how they turn; may end early
+    const std::vector<bool>& turns_freely; // of each handle: whether it says where its points go, but not
+                                           // how they turn; may end early
+    std::vector<bool> turns_by_samples;    // of each handle: whether it is one of these, and samples that it
+                                           // holds are in the rows around; may end early
     std::span<const Vec3d> sample; // rest positions
     std::size_t handles;           // handle h is body sample.size() + h
 };

@@ -32,9 +32,9 @@
 // over links, and links count a hundredth beside them, for what no point tells of. With D - A̅ P in the place
 // of x_j - x_i - M_ij e:
 //
-//     1. r*_t is the rotation nearest to Σ 2ω w_t (R_t P + D - A̅ P), A̅ = (1 - γ) M_t + γ Σ_s w_s M_s,
-//     2. L_ts = Σ ω ĝ_t·ĝ_s and C_t = Σ 2 dim ω w_t,
-//     3. L_ts = Σ ω g_t·g_s and b_t = -Σ_s (A_s Σ ω H_s g_t - M_s Σ ω w_s P g_t).
+//     1. r*_t is the rotation nearest to Σ 2ω v_t (R_t P + D - A̅ P), A̅ = (1 - γ) M_t + γ Σ_s v_s M_s,
+//     2. L_ts = Σ ω ĝ_t·ĝ_s and C_t = Σ 2 dim ω v_t,
+//     3. L_ts = Σ ω g_t·g_s and b_t = -Σ_s (A_s Σ ω H_s g_t - M_s Σ ω v_s P g_t).
 //
 // The A_s of a sample is R (I + θ (U - I)), with U what its links say of the stretch around it before the
 // iteration turns anything, and no strain beyond a factor of e². That feeds back: where the points that a

@@ -201,22 +201,28 @@ void Pipeline::prepare_samples(Progress& progress) {
     seconds_.geodesic += clock.lap();
 }
 
+// Of each handle whether it leaves rotation free and holds enough base samples, which flood, to tell how it
+// turns all over: its own do not.
+std::vector<bool> Pipeline::turns_by_samples() const {
+    constexpr std::size_t enough_samples = 4;
+    std::vector<std::size_t> count(slots_.handles.size(), 0);
+    for (const Index v : std::span(samples_).first(base_samples_))
+        if (const Index label = labels_.vertex[v]; turns_freely(label)) ++count[label];
+    std::vector<bool> result;
+    for (const std::size_t samples : count) result.push_back(samples >= enough_samples);
+    return result;
+}
+
 // Where samples are few enough that what lies between them has to be asked.
 void Pipeline::find_energy(const SampleRest& rest) {
     energy_ = {};
     const double share = share_of_points(base_samples_, order_.vertices()); // whatever handles add
     if (every_point_ || share == 0) return;
     const RestShape& shape = input_.rest ? *input_.rest : opened_;
-    const PointsBetween between{*graph_,
-                                shape.positions,
-                                order_.first_point,
-                                nearest_,
-                                input_.settings.weights,
-                                hanging_,
-                                labels_.vertex,
-                                rest.turns_freely,
-                                rest.position,
-                                slots_.handles.size() + 1}; // and what is outside
+    const PointsBetween between{*graph_,        shape.positions,          order_.first_point,
+                                nearest_,       input_.settings.weights,  hanging_,
+                                labels_.vertex, rest.turns_freely,        turns_by_samples(),
+                                rest.position,  slots_.handles.size() + 1}; // and what is outside
     energy_ = point_energy(between, workers_);
     energy_.share = share;
 }

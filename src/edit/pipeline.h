@@ -164,6 +164,7 @@ private:
     void prepare_samples(Progress& progress);
     void prepare_handles(Progress& progress);
     bool turns_freely(Index label) const;
+    std::vector<bool> turns_by_samples() const;
     Index first_handle_number() const;
     std::vector<std::pair<Index, Index>> find_hinges(std::span<const BorderVertex> borders) const;
     std::vector<FloodStart> handle_starts(std::span<const BorderVertex> borders) const;

@@ -40,6 +40,13 @@ Profile lifted(std::uint64_t samples, const std::string& keys, const std::string
     return {desk.shape(), cloud.positions, Vec3d(0.5, 0.5, 0) - cloud.origin};
 }
 
+// Of two shapes of one cloud.
+double rms_between(const std::vector<float>& a, const std::vector<float>& b) {
+    double square = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) square += std::pow(double{a[i]} - double{b[i]}, 2);
+    return std::sqrt(3 * square / static_cast<double>(a.size()));
+}
+
 TEST(HandleKinds, ASinglePointDrawsNoSpike) {
     const Profile coarse = lifted(300, "", "0.006");
     const Profile fine = lifted(3000, "", "0.006");
@@ -111,11 +118,34 @@ TEST(HandleKinds, AFreeLineWithAFalloffTearsNothing) {
         EXPECT_LT(widest_seam(desk), 0.5) << samples;
         const std::vector<float> shape = desk.shape();
         if (with_all.empty()) with_all = shape;
-        double square = 0;
-        for (std::size_t i = 0; i < shape.size(); ++i)
-            square += std::pow(double{shape[i]} - double{with_all[i]}, 2);
-        const double rms = std::sqrt(3 * square / static_cast<double>(shape.size()));
-        EXPECT_LT(rms / desk.diagonal(), 4e-3) << samples;
+        EXPECT_LT(rms_between(shape, with_all) / desk.diagonal(), 4e-3) << samples;
+    }
+}
+
+// A cap of a sphere leaves rotation free and is turned sideways: at its border the surface turns as it wants,
+// on each side in another way, however few samples tell so.
+TEST(HandleKinds, AFreeAreaBendsAtItsBorderWithFewSamples) {
+    std::vector<float> with_all;
+    for (const std::uint64_t samples : {8000U, 1000U, 200U}) {
+        Settings settings;
+        settings.samples = samples;
+        Desk desk(made(Shape::sphere, 8000), settings);
+        const double lowest = bounds_of(desk.document().cloud()).lowest.z();
+        const auto beyond = [&](double share, const char* side) { // of the diameter, from below
+            const double z = lowest * (1 - 2 * share);
+            return R"("region":{"halfspace":{"point":[0,0,)" + std::to_string(z) + R"(],"normal":[0,0,)" +
+                   side + "]}}}\n";
+        };
+        std::string frames;
+        for (int degrees = 5; degrees <= 40; degrees += 5)
+            frames += (frames.empty() ? "" : ",") + turn('x', degrees);
+        desk.play(R"({"op":"handle","name":"rest","role":"fixed",)" + beyond(0.2, "-1") +
+                  R"({"op":"handle","name":"top","role":"moving","rotation":"free",)" + beyond(0.75, "1") +
+                  R"({"op":"drag","handle":"top","pivot":[0,0,0],"frames":[)" + frames + "]}\n" +
+                  settle(1000));
+        const std::vector<float> shape = desk.shape();
+        if (with_all.empty()) with_all = shape;
+        EXPECT_LT(rms_between(shape, with_all) / desk.diagonal(), 1.2e-3) << samples;
     }
 }
 

@@ -439,4 +439,13 @@ std::vector<Index> Document::resolve(const HandleLine& line, const std::string& 
     return resolve_points(line, cloud_, file_position, place);
 }
 
+std::string words_about_swallowed(const Document& document, const std::string& handle) {
+    const std::vector<Handle>& handles = document.handles();
+    const auto found = std::ranges::find(handles, handle, &Handle::name);
+    if (found == handles.end() ||
+        document.pipeline().moves_points(static_cast<Index>(found - handles.begin())))
+        return {};
+    return "handle \"" + handle + "\" moves nothing: handles that were made later hold all of its points";
+}
+
 } // namespace knead

@@ -227,4 +227,8 @@ private:
     FrameLog log_;
 };
 
+// That this handle moves nothing, as handles that were declared later hold all of its points; "" where it
+// does. After an act that prepared it: a drag.
+std::string words_about_swallowed(const Document& document, const std::string& handle);
+
 } // namespace knead

@@ -47,6 +47,7 @@ void LiveWork::carry_out(task::BeginDrag& task) {
                            document_->motions()[static_cast<std::size_t>(handle)],
                            document_->cloud().origin});
     publisher_.strays(document_->pipeline().strays());
+    publisher_.swallowed(*document_, task.handle);
     publish_view();
 }
 

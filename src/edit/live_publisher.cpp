@@ -113,6 +113,10 @@ void LivePublisher::demand(const HandleDemand& demand) {
     tell(Notice::About::demand, words_about_demand(demand), told_of_demand_);
 }
 
+void LivePublisher::swallowed(const Document& document, const std::string& handle) {
+    tell(Notice::About::swallowed, words_about_swallowed(document, handle), told_of_swallowed_);
+}
+
 void LivePublisher::note_spacings(const Pipeline& pipeline) {
     if (!pipeline.shared_graph() || pipeline.shared_graph() == graph_seen_) return;
     graph_seen_ = pipeline.shared_graph();

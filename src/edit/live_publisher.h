@@ -37,6 +37,8 @@ public:
     // back where it is no longer so.
     void strays(const Pipeline::Strays& strays);
     void demand(const HandleDemand& demand);
+    // And a handle that is dragged and has no points left to move.
+    void swallowed(const Document& document, const std::string& handle);
 
 private:
     void note_changes(const RestShape& shape, const Pipeline& pipeline);
@@ -52,7 +54,7 @@ private:
     std::vector<std::uint64_t> changed_in_; // of each block of points, the frame
     // Which of the pipeline's the last frame shows; 0: it shows another shape.
     std::uint64_t shown_upsampling_ = 0;
-    std::string told_of_strays_, told_of_demand_;
+    std::string told_of_strays_, told_of_demand_, told_of_swallowed_;
     // Copies for the window, which may look at them while the pipeline makes others.
     std::uint64_t samples_seen_ = 0;
     std::shared_ptr<const std::vector<Index>> sample_vertices_;

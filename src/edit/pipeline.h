@@ -154,6 +154,10 @@ public:
     };
     Strays strays() const { return strays_; }
 
+    // Whether a handle of the list moves any point: not where others that were declared later hold all that
+    // it holds. Of what is prepared.
+    bool moves_points(Index handle) const;
+
     const StageSeconds& seconds() const { return seconds_; }
 
 private:

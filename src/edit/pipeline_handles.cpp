@@ -170,6 +170,14 @@ void Pipeline::count_strays() {
     strays_.points = points;
 }
 
+// It looks at all points only of a handle that holds no vertex: it may still hold outliers or twins.
+bool Pipeline::moves_points(Index handle) const {
+    const Index label = slots_.slot[handle];
+    for (const HeldBlock& block : held_blocks_)
+        if (std::ranges::find(block.extents, label, &HeldExtent::label) != block.extents.end()) return true;
+    return std::ranges::find(labels_.point, label) != labels_.point.end();
+}
+
 // The handle that moves a point alone, or no_index. Beside what a handle holds itself, that is what is right
 // there, inside of it: twins of what it holds, and outliers that hang on it.
 Index Pipeline::followed_by(std::size_t point) const {

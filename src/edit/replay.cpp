@@ -141,10 +141,13 @@ private:
     void act(Document& document, const HandleLine& line, std::size_t /*number*/, const std::string& place) {
         document.declare(line, place);
     }
-    void act(Document& document, const DragLine& line, std::size_t /*number*/, const std::string& place) {
+    void act(Document& document, const DragLine& line, std::size_t number, const std::string& place) {
         document.drag(line, place, progress_);
         checked_ = false;
-        if (!options_.rehearse) warn_of_strays(document);
+        if (options_.rehearse) return;
+        warn_of_strays(document);
+        if (const std::string words = words_about_swallowed(document, line.handle); !words.empty())
+            add_warning(session_.place(number) + ": " + words);
     }
     void act(Document& document, const SettleLine& line, std::size_t /*number*/,
              const std::string& /*place*/) {

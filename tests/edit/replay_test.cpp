@@ -179,6 +179,19 @@ TEST(Replay, WarnsOnceOfPartsWithoutAHandle) {
     EXPECT_SAYS(warning("bridge"), "too far from what holds a handle");
 }
 
+TEST(Replay, WarnsOfADragThatMovesNothing) {
+    const ScratchFolder folder;
+    const std::string later = R"({"op":"handle","name":"cap","role":"fixed","region":)";
+    const auto cap = [&](const char* height) {
+        return later + R"({"halfspace":{"point":[0,0,)" + height + R"(],"normal":[0,0,1]}}})" + "\n";
+    };
+    const Told swallowed = told(session_in(folder, ends + cap("1.5") + drag(lift)));
+    ASSERT_EQ(swallowed.warnings.size(), 1U);
+    EXPECT_SAYS(swallowed.warnings[0], "s.knead:5: handle \"top\" moves nothing");
+    for (const std::string& words : told(session_in(folder, ends + cap("2.3") + drag(lift))).warnings)
+        EXPECT_EQ(words.find("moves nothing"), std::string::npos) << words; // some points are left to it
+}
+
 TEST(Replay, SettingsGivenFromOutsideWinOverHeaderAndLines) {
     const ScratchFolder folder;
     const Session session = session_in(folder, set(R"("samples":100)") + ends + drag(lift) +

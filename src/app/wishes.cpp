@@ -167,8 +167,8 @@ void fulfil(Work& work, const WishDemonstration& wish) {
         work.state.opening_demonstration = true;
     } else
         add_toast(work.state, {Notice::Kind::error,
-                               std::string(name) + " is not installed beside knead; `knead make creature "
-                                                   "--points 30000 --out creature.ply` makes the creature"});
+                               std::string(name) + " does not lie beside knead, where it belongs. Install "
+                                                   "knead anew, or open a scan of your own (Ctrl+O)."});
 }
 
 void fulfil(Work& work, const WishPress& wish) {

@@ -19,20 +19,30 @@ enum class Trouble {
     output = 5,       // a file that cannot be written
 };
 
+// What to do about it, where that is something else at the command line than in the window. Who shows the
+// error puts it into words: cli/cures.h, and edit/cures.h for the window.
+enum class Cure {
+    told,         // in the error's own words, or there is nothing
+    give_cloud,   // name the cloud that a session is to be opened with
+    open_session, // the file is no cloud but a session, and is of use as one
+};
+
 // One sentence for the person at the keyboard: what happened, where, and what to do about it.
 class Error : public std::runtime_error {
 public:
     // `place` is the file, with a line or an offset where one is known ("wave.knead:12", "scan.ply: byte
-    // 812"); it may be empty for an argument. `words` says what is wrong and the cure, without a full stop at
-    // its end. Both are shown in one line, without_controls().
-    Error(Trouble trouble, const std::string& place, const std::string& words)
+    // 812"); it may be empty for an argument. `words` says what is wrong and, unless `cure` does, what helps,
+    // without a full stop at its end. Both are shown in one line, without_controls().
+    Error(Trouble trouble, const std::string& place, const std::string& words, Cure cure = Cure::told)
         : std::runtime_error(without_controls(place.empty() ? words : place + ": " + words)),
-          trouble_(trouble) {}
+          trouble_(trouble), cure_(cure) {}
 
     Trouble trouble() const { return trouble_; }
+    Cure cure() const { return cure_; }
 
 private:
     Trouble trouble_;
+    Cure cure_;
 };
 
 // Thrown out of a long stage when its Progress says that it was cancelled. Not an error: nothing is wrong.

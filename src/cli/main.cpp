@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "cli/commands.h"
+#include "cli/cures.h"
 
 #include <CLI/CLI.hpp>
 
@@ -32,7 +33,7 @@ int run(const knead::Job& job, knead::Terminal& terminal) {
         terminal.say("knead: stopped; nothing was written");
         return exit_interrupted;
     } catch (const knead::Error& error) {
-        terminal.say(std::string("knead: ") + error.what());
+        terminal.say(std::string("knead: ") + error.what() + knead::advice_for(error.cure()));
         return static_cast<int>(error.trouble());
     } catch (const std::bad_alloc&) {
         terminal.say("knead: there is not enough memory for this");

@@ -1,6 +1,7 @@
 #include "edit/editor.h"
 
 #include "base/error.h"
+#include "edit/cures.h"
 #include "edit/editor_steps.h"
 #include "edit/tool_steps.h"
 #include "view/framing.h"
@@ -371,7 +372,7 @@ void apply(Editor& editor, const Command& command) {
         if (is_act(command) && !may_act(editor)) return;
         std::visit([&](const auto& c) { carry_out(editor, c); }, command);
     } catch (const Error& error) {
-        say(editor, Notice::Kind::error, error.what());
+        say(editor, Notice::Kind::error, words_in_window(error));
     } catch (const std::bad_alloc&) {
         say(editor, Notice::Kind::error, "There is not enough memory for this.");
     }

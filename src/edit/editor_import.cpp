@@ -2,6 +2,7 @@
 
 #include "base/counts.h"
 #include "base/error.h"
+#include "edit/cures.h"
 #include "edit/editor_steps.h"
 #include "edit/json_text.h"
 
@@ -163,7 +164,7 @@ void handles_from_session(Editor& editor, const std::filesystem::path& session) 
                        session.filename().string() + " has no handles at its end.");
         post_handles(editor, with_points(editor, read, handles));
     } catch (const Error& error) {
-        say(editor, Notice::Kind::error, std::string("No handles were made. ") + error.what());
+        say(editor, Notice::Kind::error, "No handles were made. " + words_in_window(error));
     }
 }
 

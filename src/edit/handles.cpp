@@ -5,9 +5,12 @@
 #include "graph/point_order.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -55,6 +58,25 @@ std::vector<Index> points_in(const Region& region, const PointCloud& cloud,
         if (is_finite(cloud, i) && std::visit(Contains{file_position(i)}, region))
             points.push_back(static_cast<Index>(i));
     return points;
+}
+
+// "between [0.000, 0.000, 0.000] and [1.000, 2.000, 0.500]": to a thousandth of its size
+std::string whereabouts(const PointCloud& cloud, const std::function<Vec3d(std::size_t)>& file_position) {
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+        if (is_finite(cloud, i)) box.extend(file_position(i));
+    const double size = std::max(box.diagonal().norm(), 1e-12);
+    const int digits = std::max(0, static_cast<int>(std::ceil(3 - std::log10(size))));
+    const auto shown = [&](const Vec3d& corner) {
+        std::string text = "[";
+        for (const double coordinate : corner) {
+            char number[400]; // the largest double takes 309 places before the point
+            std::snprintf(number, sizeof number, "%.*f", digits, coordinate);
+            text.append(text.size() > 1 ? ", " : "").append(number);
+        }
+        return text + "]";
+    };
+    return "between " + shown(box.min()) + " and " + shown(box.max());
 }
 
 void exchange(const std::optional<HandleChange::Place>& gone, const std::optional<HandleChange::Place>& come,
@@ -162,9 +184,9 @@ std::vector<Index> resolve_points(const HandleLine& line, const PointCloud& clou
     } else {
         points = points_in(std::get<Region>(line.points), cloud, file_position);
         if (points.empty())
-            throw Error(
-                Trouble::input, place,
-                named + " holds no points: its \"region\" is empty; `knead info` shows where the cloud lies");
+            throw Error(Trouble::input, place,
+                        named + " holds no points: its \"region\" is empty; the cloud lies " +
+                            whereabouts(cloud, file_position));
     }
     return points;
 }

@@ -22,8 +22,8 @@ Session session_to_open(const OpenRequest& request, Progress& progress, std::str
     if (request.restore) return restored_session(*request.restore, remark);
     if (is_session(request.file, progress)) return read_session(request.file);
     if (request.cloud)
-        throw Error(Trouble::usage, "--cloud",
-                    "takes the place of a session's cloud, and " + request.file.string() + " is no session");
+        throw Error(Trouble::usage, request.file.string(),
+                    "is no session, and only a session can be opened with another cloud");
     Session session;
     session.cloud = std::filesystem::absolute(request.file);
     session.settings = changed({}, request.settings);

@@ -138,7 +138,7 @@ void LiveWork::guarded(Do&& work) {
                                      bug.what() +
                                      ". Save the session under another name, and open that one again.");
     } catch (const std::exception& error) {
-        say(Notice::Kind::error, error.what());
+        say(Notice::Kind::error, words_in_window(error));
     }
 }
 
@@ -305,7 +305,7 @@ void run_live_document(OpenRequest request, Locked<LiveShared>& shared) {
     } catch (const std::bad_alloc&) {
         fail("There is not enough memory for this.");
     } catch (const std::exception& error) {
-        fail(error.what());
+        fail(words_in_window(error));
     }
 }
 

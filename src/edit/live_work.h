@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "edit/cures.h"
 #include "edit/known_files.h"
 #include "edit/live_drag.h"
 #include "edit/live_publisher.h"
@@ -149,7 +150,7 @@ void LiveWork::record(Record&& write) {
         std::forward<Record>(write)();
         told_of_journal_ = false;
     } catch (const Error& error) {
-        if (!std::exchange(told_of_journal_, true)) say(Notice::Kind::error, error.what());
+        if (!std::exchange(told_of_journal_, true)) say(Notice::Kind::error, words_in_window(error));
     }
 }
 

@@ -11,7 +11,7 @@ PointCloud read_named_cloud(const std::filesystem::path& path, const std::string
     try {
         return read_cloud(path, progress);
     } catch (const Error& error) {
-        throw Error(error.trouble(), place, key + ": " + error.what());
+        throw Error(error.trouble(), place, key + ": " + error.what(), error.cure());
     }
 }
 
@@ -20,9 +20,8 @@ PointCloud read_session_cloud(const Session& session, const std::optional<std::f
     const std::filesystem::path path = instead ? *instead : session.resolve(session.cloud);
     std::error_code ignored;
     if (!instead && !std::filesystem::exists(path, ignored))
-        throw Error(Trouble::input, session.place(1),
-                    "\"cloud\": there is no file " + path.string() +
-                        "; if it is elsewhere now, give it with --cloud");
+        throw Error(Trouble::input, session.place(1), "\"cloud\": there is no file " + path.string(),
+                    Cure::give_cloud);
     PointCloud cloud = instead ? read_cloud(path, progress)
                                : read_named_cloud(path, session.place(1), "\"cloud\"", progress);
     if (session.points && *session.points != cloud.size())
@@ -31,9 +30,8 @@ PointCloud read_session_cloud(const Session& session, const std::optional<std::f
                         " points, but " + path.string() + " has " + std::to_string(cloud.size()));
     if (session.sha256 && !instead && *session.sha256 != sha256_of_file(path))
         throw Error(Trouble::input, session.place(1),
-                    "\"sha256\": " + path.string() +
-                        " is not the file that the session was recorded on; give it with --cloud to use it "
-                        "all the same");
+                    "\"sha256\": " + path.string() + " is another file than the session was recorded on",
+                    Cure::give_cloud);
     refuse_empty_cloud(cloud, path);
     return cloud;
 }

@@ -13,6 +13,7 @@ namespace {
 struct Signature {
     std::string_view begins;
     std::string_view words; // "is ..."
+    Cure cure = Cure::told;
 };
 
 constexpr std::array<Signature, 11> signatures = {{
@@ -25,7 +26,7 @@ constexpr std::array<Signature, 11> signatures = {{
     {"glTF", "is a glTF file"},
     {"\x1F\x8B", "is compressed with gzip; unpack it first"},
     {"PK\x03\x04", "is a ZIP archive; unpack it first"},
-    {"{\"knead\"", "is a knead session, not a cloud; 'knead replay' runs it"},
+    {"{\"knead\"", "is a knead session, not a cloud", Cure::open_session},
     {"ply", "begins like a PLY file, but 'ply' must stand alone on its first line; correct that line"},
 }};
 
@@ -51,8 +52,10 @@ void refuse_foreign_file(std::span<const std::byte> first_bytes, const std::stri
     for (const std::string_view begin : {text, first_line(text)})
         for (const Signature& signature : signatures) {
             if (!is(begin, signature)) continue;
-            const bool has_cure = signature.words.find(';') != std::string_view::npos;
-            throw Error(Trouble::input, shown, std::string(signature.words) + (has_cure ? "" : cure));
+            const bool has_cure =
+                signature.cure != Cure::told || signature.words.find(';') != std::string_view::npos;
+            throw Error(Trouble::input, shown, std::string(signature.words) + (has_cure ? "" : cure),
+                        signature.cure);
         }
 }
 

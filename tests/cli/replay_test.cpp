@@ -225,9 +225,11 @@ TEST_F(Replay, RefusesCloudsThatAreNotTheRecordedOne) {
     expect_failure(3, "799", {"--cloud", "bar.ply"}); // another cloud must have as many points, too
     session(edit, R"("path":"bar.ply","points":800,"sha256":")" + std::string(64, '0') + "\"");
     expect_failure(3, "s.knead:1: \"sha256\"");
+    expect_failure(3, "say with --cloud which file to use");
     EXPECT_EQ(replay({"--cloud", "bar.ply"}).code, 0);
     session(edit, R"("path":"missing.ply")");
-    expect_failure(3, "missing.ply");
+    expect_failure(3, "missing.ply; say with --cloud which file to use");
+    expect_failure(3, "`knead replay` runs it", {"--cloud", "s.knead"});
     EXPECT_EQ(replay({"--cloud", "bar.ply"}).code, 0);
     write_text(folder / "broken.ply", "ply\nformat ascii 1.0\nelement vertex 2\n");
     expect_failure(3, "broken.ply", {"--cloud", "broken.ply"});

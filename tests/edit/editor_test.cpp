@@ -208,6 +208,24 @@ TEST_F(BarEditor, AHandleIsToldHowItHoldsAndKeepsItThroughItsRole) {
     EXPECT_EQ(high().falloff, 0);
 }
 
+TEST_F(BarEditor, ASessionWithoutItsCloudIsToldInWordsOfTheWindow) {
+    write_text(folder_ / "s.knead", R"({"knead":1,"cloud":{"path":"moved.ply"}})"
+                                    "\n");
+    OpenRequest request;
+    request.file = folder_ / "s.knead";
+    open(editor_, request);
+    ASSERT_TRUE(wait_until([&] { return refresh(editor_) && editor_.without_cloud; }));
+    EXPECT_NE(editor_.without_cloud->why.find("moved.ply"), std::string::npos);
+    EXPECT_EQ(editor_.without_cloud->why.find("--"), std::string::npos);
+
+    request = std::exchange(editor_.without_cloud, std::nullopt)->request;
+    request.cloud = folder_ / "s.knead"; // taken by mistake
+    open(editor_, request);
+    ASSERT_TRUE(wait_until([&] { return refresh(editor_) && editor_.without_cloud; }));
+    EXPECT_EQ(editor_.without_cloud->why.find("replay"), std::string::npos);
+    EXPECT_NE(editor_.without_cloud->why.find("Ctrl+O"), std::string::npos);
+}
+
 TEST_F(BarEditor, MirroringElsewhereMakesAnotherHandle) {
     make_handles();
     const auto names = [&] {

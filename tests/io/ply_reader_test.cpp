@@ -209,7 +209,7 @@ TEST(PlyReader, names_other_formats_and_says_what_to_do) {
         {"", "is empty"},
         {"\xEF\xBB\xBFply\nformat ascii 1.0\n", "byte-order mark"},
         {"\xFF\xFEp\0l\0y\0"s, "UTF-16"},
-        {R"({"knead":1})", "knead replay"},
+        {R"({"knead":1})", "is a knead session, not a cloud"},
         {"PLY\nformat", "'ply' alone"},
         {"plywood\n", "stand alone"},
     };

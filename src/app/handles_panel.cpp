@@ -188,10 +188,10 @@ void handle_row(const Ui& ui, const Handle& handle, std::size_t number) {
         ImGui::SetNextItemWidth(width - text - height);
         name_field(ui, handle);
     } else {
-        list.PushClipRect(corner, {corner.x + width - height, corner.y + height}, true);
-        list.AddText({corner.x + text, middle - ImGui::GetFontSize() / 2}, palette::text,
-                     handle.name.c_str());
-        list.PopClipRect();
+        const float end = corner.x + width - height - ui.scaled(4);
+        const float top = middle - ImGui::GetFontSize() / 2;
+        ImGui::RenderTextEllipsis(&list, {corner.x + text, top}, {end, corner.y + height}, end, end,
+                                  handle.name.c_str(), nullptr, nullptr);
     }
     ImGui::SetCursorScreenPos({corner.x + width - height, corner.y});
     if (icon_button("more", Icon::more, height, false, "More: role, rename, mirror, delete …"))

@@ -69,13 +69,22 @@ void falloff_menu(const Ui& ui, const Handle& handle) {
     const auto pull = [&](double part) {
         ui.tell(ChangeHold{handle.name, handle.free_rotation, part * diagonal});
     };
-    if (ImGui::MenuItem("None", nullptr, handle.falloff == 0)) pull(0);
-    for (const int percent : {2, 5, 10, 20, 40}) {
-        const double part = percent / 100.0;
-        const bool is_now = std::abs(handle.falloff - part * diagonal) < 1e-9 * diagonal;
+    const auto words_about = [&](double part) {
         char words[64];
-        std::snprintf(words, sizeof words, "%d %% of the cloud (%.3g)", percent, part * diagonal);
-        if (ImGui::MenuItem(words, nullptr, is_now)) pull(part);
+        std::snprintf(words, sizeof words, "%.2g %% of the cloud (%.3g)", 100 * part, part * diagonal);
+        return std::string(words);
+    };
+    const double least = least_falloff(ui.editor, handle) / diagonal;
+    const std::string lowest = least > 0 ? "Least: " + words_about(least) : "None";
+    if (ImGui::MenuItem(lowest.c_str(), nullptr, handle.falloff <= least * diagonal)) pull(0);
+    if (least > 0)
+        explain(
+            "A handle as small as this pulls at least so far: at a point alone the surface would be drawn "
+            "out to a spike");
+    for (const double part : {0.02, 0.05, 0.1, 0.2, 0.4}) {
+        if (part <= least) continue;
+        const bool is_now = std::abs(handle.falloff - part * diagonal) < 1e-9 * diagonal;
+        if (ImGui::MenuItem(words_about(part).c_str(), nullptr, is_now)) pull(part);
     }
 }
 
@@ -142,10 +151,10 @@ bool row_button(const Ui& ui, const Handle& handle, ImVec2 size, bool renaming) 
         ui.state.renaming = ui.state.name_text = handle.name;
         ui.state.renaming_begins = true;
     }
-    if (!ImGui::IsPopupOpen("menu"))
+    if (hovered && !ImGui::IsPopupOpen("menu"))
         explain(handle.name + ": " + words_for(handle.role) + ", " + counted(handle.points->size(), "point") +
                 (handle.free_rotation ? ", positions only" : "") +
-                (handle.falloff > 0 ? ", with a falloff" : "") +
+                (std::max(handle.falloff, least_falloff(ui.editor, handle)) > 0 ? ", with a falloff" : "") +
                 "\nClick chooses it, a double click renames it, the right button has more.");
     return hovered;
 }

@@ -136,7 +136,9 @@ std::optional<Box3> box_of_chosen(const Editor& editor);    // nothing when no h
 const Handle* chosen_handle(const Editor& editor);          // null: none
 // The middle of a handle's points as they are now; nothing for one without a finite point.
 std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle);
-std::optional<Gizmo> gizmo_of(const Editor& editor);          // of the chosen moving handle, where it is now
+std::optional<Gizmo> gizmo_of(const Editor& editor); // of the chosen moving handle, where it is now
+// How far the handle pulls what is around it, whatever its own falloff is; 0 for one that is large enough.
+double least_falloff(const Editor& editor, const Handle& handle);
 bool has_unsaved_session(const Editor& editor);               // an exported cloud is no saved session
 std::string free_name(const Editor& editor, HandleRole role); // for the next handle: "handle 2"
 bool can_undo(const Editor& editor);

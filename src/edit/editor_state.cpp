@@ -1,6 +1,7 @@
 // What follows from the editor's state.
 
 #include "edit/editor_steps.h"
+#include "edit/falloffs.h"
 #include "edit/measures.h"
 
 #include <algorithm>
@@ -81,6 +82,20 @@ std::optional<Gizmo> gizmo_of(const Editor& editor) {
     }
     if (editor.local_axes) gizmo.axes = axes;
     return gizmo;
+}
+
+double least_falloff(const Editor& editor, const Handle& handle) {
+    if (handle.role == HandleRole::region_of_interest) return 0;
+    const std::vector<float>& opened = editor.opened.opened->positions;
+    HeldExtent held;
+    std::optional<Vec3d> first;
+    for (const Index point : *handle.points) {
+        if (editor.ordered[point] == no_index) continue;
+        const Vec3d at = point_at(opened, editor.ordered[point]);
+        if (!first) first = at;
+        held.add(at - *first);
+    }
+    return held.count > 0 ? least_falloff(held, editor.opened.size) : 0;
 }
 
 Box3 box_of(const Editor& editor) {

@@ -19,10 +19,6 @@ constexpr double nearest = 0.0012; // of the cloud's size: nearer than this the 
 constexpr double small_handle = 0.03;  // of the cloud's size: the radius of one that needs no falloff
 constexpr double small_falloff = 0.06; // of the cloud's size, of a handle of one point
 
-double least_falloff(const HeldExtent& held, double cloud_size) {
-    return small_falloff * std::max(0.0, cloud_size - held.radius() / small_handle);
-}
-
 // What each handle holds in all.
 std::vector<HeldExtent> extents_of(std::size_t handles, std::span<const HeldBlock> blocks) {
     std::vector<HeldExtent> extents(handles);
@@ -87,6 +83,10 @@ double spread_at(const SampleRest& rest, Index sample) {
 }
 
 } // namespace
+
+double least_falloff(const HeldExtent& held, double cloud_size) {
+    return small_falloff * std::max(0.0, cloud_size - held.radius() / small_handle);
+}
 
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> label,
                                    std::span<const HeldBlock> blocks, std::span<const Index> samples,

@@ -20,11 +20,14 @@ struct Pulled {
     Index turner = 0; // the handle's sample next to that
 };
 
+// How far a handle that holds this pulls what is around it, whatever its own falloff is. One that is smaller
+// than 3 % of the cloud has up to 6 %: a surface cannot carry a point, and what pulls at one draws out a
+// spike, the sharper the more samples there are. 0 for a larger one.
+double least_falloff(const HeldExtent& held, double cloud_size);
+
 // Who is pulled by whom. `label`: the handle of each vertex, and `blocks` what find_held() made of these;
 // `samples`: the vertex of each sample; `positions`: 3 floats a vertex; `cloud_size`: in their unit. Held
-// samples are not pulled. A handle that is smaller than 3 % of the cloud has a falloff of up to 6 % whatever
-// its own is: a surface cannot carry a point, and what pulls at one draws out a spike, the sharper the more
-// samples there are.
+// samples are not pulled, and each handle's falloff is at least its least one.
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> label,
                                    std::span<const HeldBlock> blocks, std::span<const Index> samples,
                                    const Graph& graph, std::span<const float> positions, double cloud_size);

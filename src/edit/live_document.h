@@ -93,6 +93,7 @@ struct OpenedCloud {
     const RestShape* opened = nullptr;
     Bounds bounds;      // in the file's coordinates
     double spacing = 0; // the usual distance between neighbouring points
+    double size = 0;    // as cloud_size() of cloud/extent.h tells it
 };
 
 // What is saved with a cloud beside its own attributes.

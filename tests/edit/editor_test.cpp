@@ -208,6 +208,11 @@ TEST_F(BarEditor, AHandleIsToldHowItHoldsAndKeepsItThroughItsRole) {
     EXPECT_EQ(high().falloff, 0);
 }
 
+TEST_F(BarEditor, LargeHandlesNeedNoFalloff) {
+    make_handles();
+    for (const Handle& handle : editor_.document->handles) EXPECT_EQ(least_falloff(editor_, handle), 0);
+}
+
 TEST_F(BarEditor, ASessionWithoutItsCloudIsToldInWordsOfTheWindow) {
     write_text(folder_ / "s.knead", R"({"knead":1,"cloud":{"path":"moved.ply"}})"
                                     "\n");

@@ -79,8 +79,11 @@ struct DragTo {
     Transform transform; // on top of the pose at BeginDrag
 };
 struct EndDrag {};
-struct CancelDrag {}; // the pose at BeginDrag again
-struct SetPivot {     // of the gizmo; nothing: the handle's middle
+struct CancelDrag {};    // the pose at BeginDrag again
+struct RefuseTransform { // a key asked for one that would change nothing; the user hears why
+    TransformKind kind = TransformKind::rotate;
+};
+struct SetPivot { // of the gizmo; nothing: the handle's middle
     std::optional<glm::dvec3> pivot;
 };
 
@@ -126,9 +129,9 @@ struct SetPivotUnder { // a double click: the point under the cursor becomes the
 
 using Command =
     std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
-                 MakeHandle, ChooseHandle, RenameHandle, ChangeRole, ChangeHold, DeleteHandle, ResetPose,
-                 MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag, SetPivot, ChangeSettings,
-                 ChooseSamples, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying, AdvancePlaying,
-                 MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
+                 MakeHandle, ChooseHandle, RenameHandle, ChangeRole, ChangeHold, DeleteHandle,
+                 ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag, RefuseTransform, SetPivot,
+                 ChangeSettings, ChooseSamples, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying,
+                 AdvancePlaying, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
 
 } // namespace knead

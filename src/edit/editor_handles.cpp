@@ -301,6 +301,15 @@ void carry_out(Editor& editor, const CancelDrag& /*command*/) {
     editor.live->cancel_drag();
 }
 
+void carry_out(Editor& editor, const RefuseTransform& command) {
+    const bool scales = command.kind == TransformKind::scale;
+    say(editor, Notice::Kind::information,
+        (scales ? "Scaling \"" : "Turning \"") + editor.chosen +
+            "\" about itself changes nothing: it is one point that leaves rotation free. Move it with G; or "
+            "right-click it in the list and tick \"Holds rotation\", to " +
+            (scales ? "scale" : "turn") + " what is around it.");
+}
+
 void carry_out(Editor& editor, const SetPivot& command) {
     editor.pivot = command.pivot;
 }

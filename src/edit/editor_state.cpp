@@ -67,6 +67,24 @@ std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle) 
     return sum / count;
 }
 
+namespace {
+
+// Whether the handle is a place about which the surface turns as it likes, so that turning or scaling the
+// handle about itself changes nothing.
+bool is_free_place(const Editor& editor, const Handle& handle) {
+    if (!handle.free_rotation) return false;
+    std::optional<Vec3d> place;
+    for (const Index point : *handle.points) {
+        if (editor.ordered[point] == no_index) continue;
+        const Vec3d at = point_at(editor.opened.opened->positions, editor.ordered[point]);
+        if (place && at != *place) return false;
+        place = at;
+    }
+    return true;
+}
+
+} // namespace
+
 std::optional<Gizmo> gizmo_of(const Editor& editor) {
     const Handle* handle = chosen_handle(editor);
     if (!handle || handle->role != HandleRole::moving) return std::nullopt;
@@ -81,6 +99,7 @@ std::optional<Gizmo> gizmo_of(const Editor& editor) {
         axes = glm::angleAxis(transform.angle, transform.axis) * editor.drag->local_axes;
     }
     if (editor.local_axes) gizmo.axes = axes;
+    if (!editor.pivot) gizmo.rotate = gizmo.scale = !is_free_place(editor, *handle);
     return gizmo;
 }
 

@@ -64,6 +64,7 @@ void carry_out(Editor& editor, const BeginDrag& command);
 void carry_out(Editor& editor, const DragTo& command);
 void carry_out(Editor& editor, const EndDrag& command);
 void carry_out(Editor& editor, const CancelDrag& command);
+void carry_out(Editor& editor, const RefuseTransform& command);
 void carry_out(Editor& editor, const SetPivot& command);
 
 } // namespace knead

@@ -208,6 +208,33 @@ TEST_F(BarEditor, AHandleIsToldHowItHoldsAndKeepsItThroughItsRole) {
     EXPECT_EQ(high().falloff, 0);
 }
 
+TEST_F(BarEditor, APointThatLeavesRotationFreeSaysWhyItDoesNotTurn) {
+    editor_.camera.orthographic = true;
+    apply(editor_, SelectPointUnder{pixel_of({0, 0, 1})});
+    ASSERT_EQ(editor_.selected, 1U);
+    apply(editor_, MakeHandle{HandleRole::moving, "peg"});
+    calm();
+    EXPECT_TRUE(gizmo_of(editor_)->rotate) << "it turns what is around it";
+    EXPECT_GT(least_falloff(editor_, *chosen_handle(editor_)), 0);
+    apply(editor_, ChangeHold{"peg", true, 0});
+    calm();
+    EXPECT_FALSE(gizmo_of(editor_)->rotate);
+    EXPECT_TRUE(gizmo_of(editor_)->translate);
+    for (const char letter : {'R', 'S'}) {
+        editor_.notices.clear();
+        press(letter);
+        EXPECT_FALSE(editor_.tools.drag);
+        ASSERT_EQ(editor_.notices.size(), 1U);
+        EXPECT_NE(editor_.notices[0].words.find("leaves rotation free"), std::string::npos);
+    }
+    press('G');
+    EXPECT_TRUE(editor_.tools.drag);
+    press(Key::escape);
+    apply(editor_, SetPivot{glm::dvec3(0, 0, 0)}); // about which it can go round
+    press('R');
+    EXPECT_TRUE(editor_.tools.drag);
+}
+
 TEST_F(BarEditor, LargeHandlesNeedNoFalloff) {
     make_handles();
     for (const Handle& handle : editor_.document->handles) EXPECT_EQ(least_falloff(editor_, handle), 0);

@@ -34,7 +34,7 @@ std::string left_words(const Ui& ui) {
     const Tools& tools = ui.editor.tools;
     if (tools.drag) return transform_hint(*tools.drag);
     if (tools.select == SelectTool::polygon && !tools.band.empty())
-        return "Click corners · Enter or double click closes · Backspace takes one back · Esc gives up";
+        return "Click corners · Enter or double click closes · Ctrl+Z takes one back · Esc gives up";
     const std::string playback = playback_words(ui);
     return playback.empty() ? next_step(ui.editor) : playback;
 }

@@ -80,10 +80,11 @@ void close_polygon(const Hand& hand) {
 
 void band_key(const Hand& hand, const KeyPress& press) {
     Tools& tools = hand.tools;
+    const bool takes_back = press.held.ctrl && !press.held.shift && press.key == key('Z');
     if (press.key == Key::escape) return drop_band(tools);
-    if (!draws_polygon(tools)) return;
+    if (!draws_polygon(tools)) return takes_back ? drop_band(tools) : void();
     if (press.key == Key::enter) return close_polygon(hand);
-    if (press.key != Key::backspace) return;
+    if (press.key != Key::backspace && !takes_back) return;
     tools.band.pop_back();
     if (tools.band.empty()) drop_band(tools);
 }

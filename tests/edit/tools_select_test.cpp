@@ -110,6 +110,38 @@ TEST(SelectTools, PolygonTakesItsClicks) {
     }
 }
 
+TEST(SelectTools, TakingBackGoesCornerByCornerOfAPolygon) {
+    Bench bench;
+    bench.hit('P');
+    bench.click({100, 50});
+    bench.click({200, 50});
+    bench.click({300, 300});
+    EXPECT_TRUE(bench.hit('Z', ctrl));
+    EXPECT_EQ(bench.tools.band, (std::vector<glm::dvec2>{{100, 50}, {200, 50}}));
+    bench.hit('Z', {true, true, false}); // which is another key
+    EXPECT_EQ(bench.tools.band.size(), 2U);
+    bench.hit('Z', ctrl);
+    bench.hit('Z', ctrl);
+    EXPECT_EQ(bench.tools.doing, Doing::nothing);
+    EXPECT_TRUE(bench.commands.empty());
+    bench.hit('Z', ctrl);
+    bench.only<UndoStep>();
+}
+
+TEST(SelectTools, TakingBackDropsAnyOtherBand) {
+    for (const SelectTool tool : {SelectTool::box, SelectTool::lasso, SelectTool::brush}) {
+        Bench bench;
+        bench.tools.select = tool;
+        bench.press({100, 50});
+        bench.move({120, 80});
+        EXPECT_TRUE(bench.hit('Z', ctrl));
+        EXPECT_EQ(bench.tools.doing, Doing::nothing);
+        bench.move({200, 90});
+        bench.release({200, 90});
+        EXPECT_TRUE(bench.commands.empty());
+    }
+}
+
 TEST(SelectTools, APolygonCanBeDropped) {
     Bench bench;
     bench.hit('P');

@@ -26,7 +26,6 @@ void take_over_place(HandleColors& colors, const Handle& handle) {
     };
     const auto old = std::ranges::find_if(colors.places, has_its_points);
     if (old == colors.places.end()) return;
-    if (auto chosen = colors.chosen.extract(old->first)) colors.chosen[handle.name] = chosen.mapped();
     colors.places[handle.name] = old->second;
     colors.places.erase(old);
 }
@@ -53,8 +52,8 @@ void place_colors(HandleColors& colors, std::span<const Handle> handles) {
 }
 
 ImU32 handle_color(const HandleColors& colors, const Handle& handle) {
-    if (const auto found = colors.chosen.find(handle.name); found != colors.chosen.end())
-        return found->second;
+    if (colors.tried && colors.tried->handle == handle.name) return colors.tried->color;
+    if (handle.color) return rgb(*handle.color);
     const auto place = colors.places.find(handle.name);
     const std::size_t number = place == colors.places.end() ? 0 : place->second.number;
     switch (handle.role) {

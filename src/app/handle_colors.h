@@ -6,16 +6,21 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace knead {
 
-// By the handles' names. A handle keeps its colour when others come and go, when it is renamed, and when it
-// comes back by undo.
+// By the handles' names. A handle keeps its usual colour when others come and go, when it is renamed, and
+// when it comes back by undo. One that the user chose is the handle's own.
 struct HandleColors {
-    std::map<std::string, ImU32> chosen; // by the user
+    struct Tried {
+        std::string handle;
+        ImU32 color = 0;
+    };
+    std::optional<Tried> tried; // in the picker, whose hand has not let go of it yet
     struct Place {
         std::size_t number = 0; // in the row of usual colours
         std::weak_ptr<const std::vector<Index>> points;
@@ -27,7 +32,7 @@ struct HandleColors {
 // renamed what they had.
 void place_colors(HandleColors& colors, std::span<const Handle> handles);
 
-// The handle's colour: the one chosen, or one by its role and place.
+// The handle's colour: the one tried, the one chosen, or one by its role and place.
 ImU32 handle_color(const HandleColors& colors, const Handle& handle);
 Icon icon_of(HandleRole role);
 const char* words_for(HandleRole role); // "moving"

@@ -159,19 +159,37 @@ bool row_button(const Ui& ui, const Handle& handle, ImVec2 size, bool renaming) 
     return hovered;
 }
 
-// The square in the handle's colour; a click changes it.
+std::uint32_t hexadecimal(ImU32 color) {
+    const auto channel = [&](unsigned shift) { return (color >> shift) & 255U; };
+    return channel(IM_COL32_R_SHIFT) << 16U | channel(IM_COL32_G_SHIFT) << 8U | channel(IM_COL32_B_SHIFT);
+}
+
+// What is tried counts when the hand lets go of it, as one step to undo.
+void color_picker(const Ui& ui, const Handle& handle, ImU32 color) {
+    HandleColors& colors = ui.state.handle_colors;
+    ImVec4 mixed = as_vector(color);
+    if (ImGui::ColorPicker3("##picker", &mixed.x,
+                            ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs))
+        colors.tried = {handle.name, ImGui::ColorConvertFloat4ToU32(mixed)};
+    if (ImGui::IsItemDeactivatedAfterEdit() && colors.tried)
+        ui.tell(ColorHandle{handle.name, hexadecimal(colors.tried->color)});
+    if (!ImGui::Button("Usual colour", {-1, 0})) return;
+    colors.tried.reset();
+    ui.tell(ColorHandle{handle.name, std::nullopt});
+}
+
+// The square in the handle's colour, and while its menu asks for that, the picker.
 void color_swatch(const Ui& ui, const Handle& handle, ImVec2 middle) {
     const ImU32 color = handle_color(ui.state.handle_colors, handle);
     const float half = ui.scaled(6);
     ImGui::GetWindowDrawList()->AddRectFilled({middle.x - half, middle.y - half},
                                               {middle.x + half, middle.y + half}, color, ui.scaled(3));
-    if (!ImGui::BeginPopup("color")) return;
-    ImVec4 mixed = as_vector(color);
-    if (ImGui::ColorPicker3("##picker", &mixed.x,
-                            ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoInputs))
-        ui.state.handle_colors.chosen[handle.name] = ImGui::ColorConvertFloat4ToU32(mixed);
-    if (ImGui::Button("Usual colour", {-1, 0})) ui.state.handle_colors.chosen.erase(handle.name);
-    ImGui::EndPopup();
+    if (ImGui::BeginPopup("color")) {
+        color_picker(ui, handle, color);
+        ImGui::EndPopup();
+    } else if (auto& tried = ui.state.handle_colors.tried; tried && tried->handle == handle.name) {
+        tried.reset();
+    }
 }
 
 void handle_row(const Ui& ui, const Handle& handle, std::size_t number) {

@@ -59,6 +59,10 @@ struct ChangeHold { // how a fixed or moving handle holds
     bool free_rotation = false;
     double falloff = 0; // a length, ≥ 0
 };
+struct ColorHandle {
+    std::string handle;
+    std::optional<std::uint32_t> color; // 0xrrggbb; nothing: the usual one
+};
 struct DeleteHandle {
     std::string handle;
 };
@@ -129,7 +133,7 @@ struct SetPivotUnder { // a double click: the point under the cursor becomes the
 
 using Command =
     std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
-                 MakeHandle, ChooseHandle, RenameHandle, ChangeRole, ChangeHold, DeleteHandle,
+                 MakeHandle, ChooseHandle, RenameHandle, ChangeRole, ChangeHold, ColorHandle, DeleteHandle,
                  ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag, RefuseTransform, SetPivot,
                  ChangeSettings, ChooseSamples, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying,
                  AdvancePlaying, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;

@@ -38,12 +38,6 @@ void refuse_absurd(const HandleMotion& motion, double diagonal, std::size_t fram
 
 } // namespace
 
-bool needs_commit(const SessionAction& act) {
-    if (const auto* set = std::get_if<SetLine>(&act))
-        return set->change.neighbors || set->change.samples || set->change.strays;
-    return std::holds_alternative<HandleLine>(act) || std::holds_alternative<DeleteLine>(act);
-}
-
 Document::Document(PointCloud cloud, const Settings& settings, Workers& workers, Upsampler& upsampler,
                    Mode mode)
     : mode_(mode), cloud_(std::move(cloud)), bounds_(bounds_of(cloud_)),
@@ -52,14 +46,28 @@ Document::Document(PointCloud cloud, const Settings& settings, Workers& workers,
     history_.emplace_back().settings = settings;
 }
 
+bool Document::needs_commit(const SessionAction& act) const {
+    if (!is_posed()) return false;
+    if (const auto* set = std::get_if<SetLine>(&act))
+        return set->change.neighbors || set->change.samples || set->change.strays;
+    if (const auto* line = std::get_if<HandleLine>(&act)) return !recolored_by(*line, "");
+    return std::holds_alternative<DeleteLine>(act);
+}
+
 void Document::declare(const HandleLine& line, const std::string& place) {
+    if (const auto handle = recolored_by(line, place)) { // which is no other handle
+        const HandleChange::Place old{*handle, handles_[*handle]};
+        HandleChange change{.gone = old, .come = old};
+        change.come->handle.color = line.color;
+        return change_handles(std::move(change));
+    }
     refuse_while_posed("handles", place);
     auto points = std::make_shared<const std::vector<Index>>(resolve(line, place));
     HandleChange change;
     const auto old = std::ranges::find(handles_, line.name, &Handle::name);
     if (old != handles_.end()) change.gone = {static_cast<Index>(old - handles_.begin()), *old};
     change.come = {static_cast<Index>(handles_.size() - (change.gone ? 1 : 0)),
-                   {line.name, line.role, std::move(points), line.free_rotation, line.falloff}};
+                   {line.name, line.role, std::move(points), line.free_rotation, line.falloff, line.color}};
     change_handles(std::move(change));
 }
 
@@ -313,6 +321,17 @@ Index Document::find_handle(const std::string& name, const std::string& place) c
     words += "; there are";
     for (const Handle& handle : handles_) words += " " + quoted(handle.name);
     throw Error(Trouble::input, place, words);
+}
+
+// Only points that are named: those of a region depend on the shape.
+std::optional<Index> Document::recolored_by(const HandleLine& line, const std::string& place) const {
+    const auto old = std::ranges::find(handles_, line.name, &Handle::name);
+    if (old == handles_.end() || old->color == line.color || std::holds_alternative<Region>(line.points))
+        return std::nullopt;
+    const bool holds_alike =
+        old->role == line.role && old->free_rotation == line.free_rotation && old->falloff == line.falloff;
+    if (!holds_alike || *old->points != resolve_points(line, cloud_, nullptr, place)) return std::nullopt;
+    return static_cast<Index>(old - handles_.begin());
 }
 
 Index Document::movable_handle(const std::string& name, const std::string& place) const {

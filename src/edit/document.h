@@ -22,9 +22,6 @@ struct FrameLog {
     std::size_t frames = 0;        // of drags
 };
 
-// Whether the document refuses this act while handles are posed: a commit has to come before it.
-bool needs_commit(const SessionAction& act);
-
 class Document {
 public:
     // `cloud` must have a finite point. `workers` and `upsampler` must outlive the document. A rehearsal
@@ -53,6 +50,9 @@ public:
     // Runs the stages that need no handles, and all of them where there are some, so that the first drag
     // begins at once.
     void prepare_ahead(Progress& progress);
+
+    // Whether this act would be refused now since handles are posed: a commit has to come before it.
+    bool needs_commit(const SessionAction& act) const;
 
     // --- The acts; `place` names the line in errors ---
 
@@ -179,6 +179,8 @@ private:
 
     bool is_as_opened() const;
     Index find_handle(const std::string& name, const std::string& place) const;
+    // The handle that this line gives another colour and changes in nothing else; nothing: it does more.
+    std::optional<Index> recolored_by(const HandleLine& line, const std::string& place) const;
     void refuse_while_posed(const std::string& what, const std::string& place) const;
     State next_state() const; // for an act to change
     void take(State next);    // makes it the present one, and the present one the last in history

@@ -52,6 +52,7 @@ HandleLine line_of(const Handle& handle) {
     line.points = ranges_of(*handle.points);
     line.free_rotation = handle.free_rotation;
     line.falloff = handle.falloff;
+    line.color = handle.color;
     return line;
 }
 
@@ -142,6 +143,15 @@ void carry_out(Editor& editor, const ChangeHold& command) {
     line.free_rotation = command.free_rotation;
     line.falloff = command.falloff;
     change_handle(editor, *number, std::move(line));
+}
+
+// The handle stays the same one, so whatever was declared later and what is posed stay as they are.
+void carry_out(Editor& editor, const ColorHandle& command) {
+    const auto number = number_of(editor, command.handle);
+    if (!number || editor.document->handles[*number].color == command.color) return;
+    HandleLine line = line_of(editor.document->handles[*number]);
+    line.color = command.color;
+    post_step(editor, {std::move(line)});
 }
 
 void carry_out(Editor& editor, const DeleteHandle& command) {
@@ -240,6 +250,8 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
         say(editor, Notice::Kind::information, "Mirrored across " + words_about(plane, place) + ".");
     HandleLine line = line_of(handle);
     line.name = name_of_mirrored(editor, handle, points);
+    const auto there = number_of(editor, line.name); // its colour is its own
+    line.color = there ? editor.document->handles[*there].color : std::nullopt;
     line.points = ranges_of(points);
     const std::string name = line.name;
     std::vector<SessionAction> lines{std::move(line)};

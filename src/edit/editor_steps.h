@@ -56,6 +56,7 @@ void carry_out(Editor& editor, const ChooseHandle& command);
 void carry_out(Editor& editor, const RenameHandle& command);
 void carry_out(Editor& editor, const ChangeRole& command);
 void carry_out(Editor& editor, const ChangeHold& command);
+void carry_out(Editor& editor, const ColorHandle& command);
 void carry_out(Editor& editor, const DeleteHandle& command);
 void carry_out(Editor& editor, const ResetPose& command);
 void carry_out(Editor& editor, const MirrorHandle& command);

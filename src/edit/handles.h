@@ -21,6 +21,7 @@ struct Handle {
     std::shared_ptr<const std::vector<Index>> points; // in the file, ascending, each once; never empty
     bool free_rotation = false; // gives its points their positions only; how they turn is up to the cloud
     double falloff = 0;         // how far along the surface it pulls what is around it, the less the farther
+    std::optional<std::uint32_t> color = {}; // 0xrrggbb, where the user chose one
 };
 
 // Whether it takes a handle's points away from where they were at rest. One that was reset does not, though

@@ -34,7 +34,7 @@ Vec3d middle_at_rest(const Document& document, const std::string& name) {
 // One line of a step, and a commit before it where it may not stand while handles are posed; `done` counts
 // the acts of the step so far.
 void LiveWork::carry_out_line(const SessionAction& line, bool joins, bool pose_is_seen, std::size_t& done) {
-    if (needs_commit(line) && document_->is_posed()) {
+    if (document_->needs_commit(line)) {
         carry_out_act(*document_, CommitLine{}, "", progress_);
         add_act(CommitLine{}, done++ > 0 || joins);
         if (pose_is_seen)

@@ -91,6 +91,7 @@ struct HandleLine {
     std::variant<std::vector<IndexRange>, Region> points;
     bool free_rotation = false; // "rotation":"free"
     double falloff = 0;
+    std::optional<std::uint32_t> color = {}; // 0xrrggbb, where the user chose one
 };
 struct DragLine {
     std::string handle;

@@ -5,6 +5,7 @@
 #include "edit/session_settings.h"
 
 #include <algorithm>
+#include <charconv>
 
 namespace knead {
 
@@ -77,8 +78,19 @@ Region read_region(const Value& region) {
     return read_halfspace(member(region, "halfspace"));
 }
 
+// "#4aa8ff"
+std::uint32_t read_color(const Value& value) {
+    const std::string text = text_not_empty(value);
+    const bool is_color = text.size() == 7 && text.front() == '#' &&
+                          text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+    if (!is_color) refuse_as(value, "a colour in hexadecimal digits, as \"#4aa8ff\"");
+    std::uint32_t color = 0;
+    std::from_chars(text.data() + 1, text.data() + text.size(), color, 16);
+    return color;
+}
+
 HandleLine read_handle(const Value& line) {
-    allow_keys(line, {"op", "name", "role", "points", "region", "rotation", "falloff"});
+    allow_keys(line, {"op", "name", "role", "points", "region", "rotation", "falloff", "color"});
     constexpr std::array<std::pair<std::string_view, HandleRole>, 3> roles{
         {{"fixed", HandleRole::fixed},
          {"moving", HandleRole::moving},
@@ -105,6 +117,7 @@ HandleLine read_handle(const Value& line) {
         if (handle.falloff > 0 && is_region)
             refuse(*falloff, "is for fixed and moving handles, not for \"roi\"");
     }
+    if (const auto color = optional_member(line, "color")) handle.color = read_color(*color);
     return handle;
 }
 

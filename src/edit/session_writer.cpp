@@ -35,6 +35,15 @@ void append_text(std::string& text, std::string_view value) {
     }
 }
 
+// "#4aa8ff"
+void append_color(std::string& text, std::uint32_t color) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    text += "\"#";
+    for (int shift = 20; shift >= 0; shift -= 4)
+        text += digits[(color >> static_cast<unsigned>(shift)) & 15U];
+    text += '"';
+}
+
 void append_list(std::string& text, std::initializer_list<double> values) {
     char separator = '[';
     for (const double value : values) {
@@ -175,6 +184,7 @@ void append_line(std::string& text, const HandleLine& line) {
         append_region(key(text, "region"), std::get<Region>(line.points));
     if (line.free_rotation) key(text, "rotation") += "\"free\"";
     if (line.falloff != 0) append_number(key(text, "falloff"), line.falloff);
+    if (line.color) append_color(key(text, "color"), *line.color);
 }
 
 void append_line(std::string& text, const DragLine& line) {

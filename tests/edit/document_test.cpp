@@ -53,6 +53,24 @@ TEST(Document, ANameGivenAgainReplacesTheHandleAndDeclaresItLast) {
     EXPECT_GT(farthest(desk, is_top, lifted), 1e-3);
 }
 
+TEST(Document, AnotherColorAloneKeepsThePlaceOfAHandleAndItsPose) {
+    const std::string bottom = R"({"op":"handle","name":"bottom","role":"fixed","points":[[0,9]])";
+    Desk desk(bar());
+    desk.play(bottom + "}\n" + ends + drag(lift));
+    desk.play(bottom + R"(,"color":"#102030"})" + "\n");
+    const auto& handles = desk.document().handles();
+    ASSERT_EQ(handles.size(), 3U);
+    EXPECT_EQ(handles[0].name, "bottom");
+    EXPECT_EQ(handles[0].color, 0x102030U);
+    EXPECT_TRUE(desk.document().is_posed());
+    // Any other change is one of the handles.
+    EXPECT_SAYS(refusal(desk, bottom + R"(,"color":"#102031","falloff":1})" + "\n"), "commit");
+    EXPECT_SAYS(refusal(desk, bottom + R"(,"color":"#102030"})" + "\n"), "commit"); // none is another
+    desk.play("{\"op\":\"undo\"}\n");
+    EXPECT_FALSE(desk.document().handles()[0].color.has_value());
+    EXPECT_TRUE(desk.document().is_posed());
+}
+
 std::string region_of_interest(const std::string& name, double from, double to) {
     return R"({"op":"handle","name":")" + name + R"(","role":"roi","region":{"box":{"min":[-9,-9,)" +
            std::to_string(from) + R"(],"max":[9,9,)" + std::to_string(to) + "]}}}\n";

@@ -208,6 +208,39 @@ TEST_F(BarEditor, AHandleIsToldHowItHoldsAndKeepsItThroughItsRole) {
     EXPECT_EQ(high().falloff, 0);
 }
 
+TEST_F(BarEditor, AnotherColorLeavesThePoseAndIsAStepToUndo) {
+    make_handles();
+    select_heights(-3, -2.5); // which "low" has, too
+    apply(editor_, MakeHandle{HandleRole::fixed, "lowest"});
+    calm();
+    editor_.chosen = "high";
+    turn_chosen("40");
+    const std::vector<float> posed = editor_.frame.positions;
+    editor_.notices.clear();
+    apply(editor_, ColorHandle{"low", 0x123456});
+    calm();
+    const auto color = [&] { return editor_.document->handles.front().color; };
+    EXPECT_EQ(editor_.document->handles.front().name, "low") << "in its place";
+    EXPECT_EQ(color(), 0x123456U);
+    EXPECT_TRUE(editor_.document->posed);
+    EXPECT_TRUE(editor_.notices.empty());
+    apply(editor_, RenameHandle{"low", "foot"});
+    calm();
+    EXPECT_EQ(color(), 0x123456U);
+    apply(editor_, UndoStep{});
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_FALSE(color().has_value());
+    EXPECT_TRUE(editor_.document->posed);
+    EXPECT_EQ(editor_.frame.positions, posed);
+    apply(editor_, RedoStep{});
+    calm();
+    EXPECT_EQ(color(), 0x123456U);
+    apply(editor_, ColorHandle{"low", std::nullopt});
+    calm();
+    EXPECT_FALSE(color().has_value());
+}
+
 TEST_F(BarEditor, APointThatLeavesRotationFreeSaysWhyItDoesNotTurn) {
     editor_.camera.orthographic = true;
     apply(editor_, SelectPointUnder{pixel_of({0, 0, 1})});

@@ -53,7 +53,7 @@ inline bool same(const Region& a, const Region& b) {
 
 inline bool same(const HandleLine& a, const HandleLine& b) {
     if (a.name != b.name || a.role != b.role || a.points.index() != b.points.index()) return false;
-    if (a.free_rotation != b.free_rotation || !same(a.falloff, b.falloff)) return false;
+    if (a.color != b.color || a.free_rotation != b.free_rotation || !same(a.falloff, b.falloff)) return false;
     if (const auto* points = std::get_if<std::vector<IndexRange>>(&a.points))
         return same(*points, std::get<std::vector<IndexRange>>(b.points));
     return same(std::get<Region>(a.points), std::get<Region>(b.points));

@@ -118,6 +118,12 @@ TEST(Session, LeavesOutMeansDefaults) {
     EXPECT_EQ(drag.frames.at(0).scale, Vec3d::Ones());
 }
 
+TEST(Session, ReadsTheColorOfAHandle) {
+    const std::string handle = R"({"op":"handle","name":"a","role":"roi","points":[1])";
+    EXPECT_FALSE(line_of<HandleLine>(handle + "}").color.has_value());
+    EXPECT_EQ(line_of<HandleLine>(handle + R"(,"color":"#0Faab1"})").color, 0x0faab1U);
+}
+
 TEST(Session, ReadsEveryRegion) {
     const auto region = [](const std::string& text) {
         return std::get<Region>(
@@ -368,6 +374,13 @@ TEST(SessionRefuses, HandlesThatHoldInNoKnownWay) {
     EXPECT_SAYS(refusal(handle + R"("roi","rotation":"free"})"),
                 "\"rotation\" is for fixed and moving handles");
     EXPECT_SAYS(refusal(handle + R"("roi","falloff":0.5})"), "\"falloff\" is for fixed and moving handles");
+}
+
+TEST(SessionRefuses, WhatIsNoColor) {
+    const std::string handle = R"({"op":"handle","name":"a","role":"roi","points":[1],"color":)";
+    for (const char* color : {R"("#12345")", R"("#1234567")", R"("red")", R"("#12345g")", R"("1234567")",
+                              R"("#-12345")", R"("")", "7", "[1,2,3]"})
+        EXPECT_SAYS(refusal(handle + color + "}"), "\"color\" must ");
 }
 
 TEST(SessionRefuses, ATornLastLineSayingHowToMend) {

@@ -103,6 +103,7 @@ public:
         line.name = name();
         line.role =
             std::array{HandleRole::fixed, HandleRole::moving, HandleRole::region_of_interest}.at(below(3));
+        if (coin()) line.color = static_cast<std::uint32_t>(below(0x1000000));
         if (line.role != HandleRole::region_of_interest) {
             line.free_rotation = coin();
             if (coin()) line.falloff = std::abs(number());
@@ -225,6 +226,9 @@ TEST(SessionWriter, IsCompact) {
                              R"("frames":[{},{"translate":[0,0.001,0]},{"scale":2}]})");
     HandleLine handle{"feet", HandleRole::fixed, std::vector<IndexRange>{{0, 411}, {987, 987}}};
     EXPECT_EQ(to_text(handle), R"({"op":"handle","name":"feet","role":"fixed","points":[[0,411],987]})");
+    handle.color = 0x0faab1;
+    EXPECT_EQ(to_text(handle), R"({"op":"handle","name":"feet","role":"fixed","points":[[0,411],987],)"
+                               R"("color":"#0faab1"})");
     EXPECT_EQ(to_text(CommitLine{}), R"({"op":"commit"})");
     EXPECT_EQ(
         header_text(session_of_a_cloud()),

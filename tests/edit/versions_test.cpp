@@ -36,7 +36,7 @@ TEST(Version1, StoredSessionsReplayToTheStoredShapes) {
             EXPECT_LT(report.handle_error, 1e-5);
             checks += report.checks.size();
         }
-    EXPECT_EQ(checks, 2U * 21);
+    EXPECT_EQ(checks, 2U * 22);
 }
 
 // What a set of sessions has in it, in words.
@@ -74,6 +74,7 @@ private:
                 add(range.first == range.last ? "a point" : "a range");
         if (line.free_rotation) add("rotation free");
         if (line.falloff > 0) add("falloff");
+        if (line.color) add("color");
     }
     void note(const DragLine& line) {
         add("drag");
@@ -120,6 +121,7 @@ TEST(Version1, StoredSessionsHaveEverythingThatTheFormatHas) {
                                 "a range",
                                 "rotation free",
                                 "falloff",
+                                "color",
                                 "drag",
                                 "translate",
                                 "rotate",

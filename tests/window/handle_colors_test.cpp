@@ -48,10 +48,21 @@ TEST(HandleColors, FollowANewName) {
     b.name = "second";
     place_colors(colors, std::vector{a, b});
     EXPECT_EQ(handle_color(colors, b), usual);
-    colors.chosen["first"] = 0xff123456;
-    a.name = "again";
+}
+
+TEST(HandleColors, TheOneTriedCountsThenTheOneChosenThenTheUsual) {
+    Handle a = handle("a"), b = handle("b");
+    HandleColors colors;
     place_colors(colors, std::vector{a, b});
-    EXPECT_EQ(handle_color(colors, a), 0xff123456);
+    const ImU32 usual = handle_color(colors, a), of_other = handle_color(colors, b);
+    a.color = 0x123456;
+    EXPECT_EQ(handle_color(colors, a), IM_COL32(0x12, 0x34, 0x56, 255));
+    colors.tried = {"a", IM_COL32(1, 2, 3, 255)};
+    EXPECT_EQ(handle_color(colors, a), IM_COL32(1, 2, 3, 255));
+    EXPECT_EQ(handle_color(colors, b), of_other);
+    colors.tried.reset();
+    a.color.reset();
+    EXPECT_EQ(handle_color(colors, a), usual);
 }
 
 } // namespace knead::test

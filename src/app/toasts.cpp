@@ -1,6 +1,7 @@
-// Messages in the corner of the view. They stay long enough to be read, errors longer, and as long as the
-// cursor is on them.
+// Messages in a corner of the view, off what is being worked on. They stay long enough to be read, errors
+// longer, and as long as the cursor is on them.
 
+#include "app/overlay.h"
 #include "app/ui.h"
 #include "app/widgets.h"
 
@@ -52,7 +53,47 @@ float toast_width(const Ui& ui) {
     return std::min(ui.scaled(400), ui.state.view.width - ui.scaled(32));
 }
 
-// Draws one with its lower right corner at `corner`; returns its height and whether it was clicked away.
+// What the hand holds or reaches for next: the gizmo, and the band that is being drawn.
+std::optional<ImRect> place_of_work(const Ui& ui) {
+    const Editor& editor = ui.editor;
+    std::optional<ImRect> place;
+    const auto add = [&](ImVec2 middle, float reach) {
+        const ImRect here(middle.x - reach, middle.y - reach, middle.x + reach, middle.y + reach);
+        if (place)
+            place->Add(here);
+        else
+            place = here;
+    };
+    const std::optional<Gizmo> gizmo = editor.document ? gizmo_of(editor) : std::nullopt;
+    const auto seen = gizmo ? project(editor.camera, editor.viewport, gizmo->center) : std::nullopt;
+    if (seen) add(in_window(ui, seen->pixel), 1.4f * static_cast<float>(gizmo->size) / ui.state.pixel_ratio);
+    const std::vector<glm::dvec2>& band = editor.tools.band;
+    for (const glm::dvec2 pixel : band) add(in_window(ui, pixel), ui.scaled(16));
+    // Where it goes on: a click there is the next corner, and not for a message.
+    if (!band.empty() && ImGui::IsMousePosValid()) add(ImGui::GetMousePos(), ui.scaled(16));
+    return place;
+}
+
+// Keeps the messages off the place of work: where they lie over it they go to the other corner, if that is
+// free. They stay there until they are gone, so that nothing jumps about.
+void choose_corner(const Ui& ui) {
+    UiState& state = ui.state;
+    if (state.toasts.empty()) state.toasts_on_top = false;
+    const std::optional<ImRect> work = place_of_work(ui);
+    if (!work) return;
+    const Rectangle& view = state.view;
+    const float right = view.x + view.width - ui.scaled(16), left = right - toast_width(ui);
+    const auto covers_work = [&](bool on_top) {
+        const float edge = on_top ? view.y + ui.scaled(16) : view.y + view.height - ui.scaled(16);
+        const float height = on_top ? state.toasts_height : -state.toasts_height;
+        return work->Overlaps({left, std::min(edge, edge + height), right, std::max(edge, edge + height)});
+    };
+    if (covers_work(state.toasts_on_top) && !covers_work(!state.toasts_on_top))
+        state.toasts_on_top = !state.toasts_on_top;
+}
+
+// Draws one with its right corner there, the upper or the lower one; returns its height and whether it was
+// clicked away.
 struct Drawn {
     float height = 0;
     bool clicked = false, hovered = false;
@@ -60,7 +101,7 @@ struct Drawn {
 Drawn draw_toast(const Ui& ui, const Toast& toast, int number, ImVec2 corner) {
     const float width = toast_width(ui);
     const float inset = ui.scaled(44);
-    ImGui::SetNextWindowPos(corner, ImGuiCond_Always, {1, 1});
+    ImGui::SetNextWindowPos(corner, ImGuiCond_Always, {1, ui.state.toasts_on_top ? 0.0f : 1.0f});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, toast.shown);
     ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::raised);
@@ -110,21 +151,27 @@ void add_toast(UiState& state, Notice notice) {
 }
 
 void draw_toasts(const Ui& ui) {
+    choose_corner(ui);
     const Rectangle& view = ui.state.view;
-    ImVec2 corner(view.x + view.width - ui.scaled(16), view.y + view.height - ui.scaled(16));
+    const bool on_top = ui.state.toasts_on_top;
+    const float gap = ui.scaled(8);
+    ImVec2 corner(view.x + view.width - ui.scaled(16),
+                  on_top ? view.y + ui.scaled(16) : view.y + view.height - ui.scaled(16));
     // Above the card of a long stage, where both are not side by side.
     const Rectangle& card = ui.state.long_stage;
-    if (card.height > 0 && corner.x - toast_width(ui) < card.x + card.width)
-        corner.y = std::min(corner.y, card.y - ui.scaled(8));
+    if (!on_top && card.height > 0 && corner.x - toast_width(ui) < card.x + card.width)
+        corner.y = std::min(corner.y, card.y - gap);
     const float step = std::min(ImGui::GetIO().DeltaTime, 0.1f);
     int number = 0;
     std::deque<Toast>& toasts = ui.state.toasts;
+    ui.state.toasts_height = 0;
     for (auto toast = toasts.rbegin(); toast != toasts.rend(); ++toast) {
         toast->shown = std::min(1.0f, toast->shown + 6 * step);
         const Drawn drawn = draw_toast(ui, *toast, number++, corner);
         if (!drawn.hovered) toast->seconds_left -= static_cast<double>(ImGui::GetIO().DeltaTime);
         if (drawn.clicked) toast->seconds_left = 0;
-        corner.y -= drawn.height + ui.scaled(8);
+        corner.y += on_top ? drawn.height + gap : -drawn.height - gap;
+        ui.state.toasts_height += drawn.height + gap;
     }
     std::erase_if(toasts, [](const Toast& toast) { return toast.seconds_left <= 0; });
 }

@@ -145,6 +145,8 @@ struct UiState {
     Measured measured;
 
     std::deque<Toast> toasts;
+    bool toasts_on_top = false; // in the upper corner of the view; else in the lower one
+    float toasts_height = 0;    // of all in the last frame
     std::vector<std::filesystem::path> recent;
     std::vector<LostWork> lost; // that was found at the start
 

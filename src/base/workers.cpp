@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <mutex>
 #include <system_error>
@@ -19,6 +20,9 @@ namespace {
 // How often a waiting thread looks before it sleeps: some ten microseconds, the pause between the loops of
 // one stage. Waking a sleeper takes several times as long.
 constexpr int looks_before_sleep = 1000;
+
+// A gate that is open lets workers in.
+constexpr std::uint32_t open = std::uint32_t{1} << 31U;
 
 template<typename Condition>
 bool comes_soon(Condition&& condition) {
@@ -39,14 +43,14 @@ struct Workers::State {
     std::condition_variable wake;
     std::condition_variable finished;
 
-    // The job at hand; written while no worker is busy, and published by `job`.
+    // The job at hand; written while the gate is closed and nobody is inside, and published by opening it.
     Call call = nullptr;
     void* context = nullptr;
     std::size_t count = 0;
     std::size_t grain = 1;
     std::exception_ptr failure; // under the mutex
     std::atomic<unsigned long> job{0};
-    std::atomic<unsigned> busy{0};
+    std::atomic<std::uint32_t> gate{0}; // whether it is open, and how many workers are inside
     std::atomic<bool> stopping{false};
     std::atomic<std::size_t> next_chunk{0};
 
@@ -65,6 +69,20 @@ struct Workers::State {
         }
     }
 
+    // Into the job at hand, if that is not over.
+    bool enter() {
+        std::uint32_t seen = gate;
+        while (seen & open)
+            if (gate.compare_exchange_weak(seen, seen + 1)) return true;
+        return false;
+    }
+
+    void leave() {
+        if (gate.fetch_sub(1) != 1) return; // somebody is inside, or the gate is open
+        const std::lock_guard lock(mutex);  // so that the caller is either asleep by now, or looks again
+        finished.notify_one();
+    }
+
     void worker_loop() {
         unsigned long done = 0;
         for (;;) {
@@ -75,12 +93,9 @@ struct Workers::State {
             }
             if (stopping) return;
             done = job;
+            if (!enter()) continue;
             work_through();
-            if (busy.fetch_sub(1) == 1) {
-                const std::lock_guard lock(
-                    mutex); // so that the caller is either asleep by now, or looks again
-                finished.notify_one();
-            }
+            leave();
         }
     }
 };
@@ -117,20 +132,23 @@ void Workers::run(std::size_t count, std::size_t grain, Call call, void* context
             call(context, begin, std::min(count, begin + grain));
         return;
     }
-    require(state.busy == 0, "parallel loops do not nest");
+    require(state.gate == 0, "parallel loops do not nest");
     state.call = call;
     state.context = context;
     state.count = count;
     state.grain = grain;
     state.next_chunk.store(0, std::memory_order_relaxed);
-    state.busy = static_cast<unsigned>(state.threads.size());
+    state.gate = open;
     {
         const std::lock_guard lock(state.mutex);
         ++state.job;
     }
     state.wake.notify_all();
     state.work_through();
-    const auto all_done = [&] { return state.busy == 0; };
+    // Whoever has not come by now has nothing left to do here, and is not waited for: where other programs or
+    // the drawing keep the cores busy that may be long.
+    state.gate.fetch_and(~open);
+    const auto all_done = [&] { return state.gate == 0; };
     if (!comes_soon(all_done)) {
         std::unique_lock lock(state.mutex);
         state.finished.wait(lock, all_done);

@@ -464,7 +464,9 @@ std::string words_about_swallowed(const Document& document, const std::string& h
     if (found == handles.end() ||
         document.pipeline().moves_points(static_cast<Index>(found - handles.begin())))
         return {};
-    return "handle \"" + handle + "\" moves nothing: handles that were made later hold all of its points";
+    return "handle \"" + handle +
+           "\" moves nothing: handles that were made later hold all of its points; make it again to "
+           "give them back to it";
 }
 
 } // namespace knead

@@ -79,6 +79,17 @@ TEST(Workers, survive_many_small_jobs) {
     EXPECT_EQ(met, 16000U);
 }
 
+// With far more of them than cores most come when the job is over, and find the next one, or none.
+TEST(Workers, come_late_into_no_job_that_is_over) {
+    Workers workers(32);
+    for (std::size_t job = 0; job < 3000; ++job) {
+        const std::size_t count = 2 + job % 13;
+        std::vector<std::size_t> told(count, 0); // gone with the job, as is what the work refers to
+        workers.for_each(count, 1, [&](std::size_t i) { told[i] += job + i; });
+        for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(told[i], job + i);
+    }
+}
+
 TEST(Workers, take_one_thread_a_core_unless_told) {
     EXPECT_GE(Workers().threads(), 1U);
 }

@@ -140,6 +140,10 @@ public:
     // What a call that failed left under way must not write into arrays that somebody else has by then.
     ~OpenClUpsampler() override {
         if (opened_.queue) (void)clFinish(opened_.queue.get());
+        // PoCL's threads let go of a finished call a moment after clFinish() returned, and look at the device
+        // for it: if that was a part of one (limited_to()) and is gone by then, they crash. Nothing tells
+        // when they have, so the part, some hundred bytes, stays for as long as the program.
+        (void)opened_.part.release();
     }
     OpenClUpsampler(const OpenClUpsampler&) = delete;
     OpenClUpsampler& operator=(const OpenClUpsampler&) = delete;

@@ -248,7 +248,6 @@ void find_free_turns(SampleSystem& system, const SampleState& state) {
 void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state,
                  Workers& workers) {
     const std::size_t samples = system.rest.energy.samples;
-    const std::vector<bool>& turns_freely = system.rest.turns_freely;
     workers.for_each(system.body.size(), grain_of(system.body.size()), [&](std::size_t s) {
         Body& body = system.body[s];
         if (s < samples) {
@@ -257,11 +256,11 @@ void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, co
             set_columns(turn, body.turn);
             set_columns(body.turned ? turn : stretched_turn(system, state, s), body.map);
         } else {
-            const std::size_t handle = s - samples;
+            const auto handle = static_cast<Index>(s - samples);
             set_four(handles[handle].offset, body.way);
             set_columns(handles[handle].linear - Mat3d::Identity(), body.map);
             body.turn = body.map;
-            if (handle < turns_freely.size() && turns_freely[handle])
+            if (says(system.rest.turns_freely, handle))
                 set_columns(turn_of(system.free_turn[handle]), body.turn);
         }
     });

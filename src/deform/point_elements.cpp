@@ -27,48 +27,52 @@ Vec3d position_of(const PointsBetween& between, Index vertex) {
     return point_at(between.positions, between.point[vertex]);
 }
 
-// What moves a vertex, at p, by its row. A sample's own one goes with the sample, though
-// smooth weights blend it when it is moved: what samples do that every blend of them hides is told there
-// alone. Without it few samples may never come to rest (the survey's cylinder with 50 of them).
-Influence influence_at(const PointsBetween& between, Index vertex, const Vec3d& p) {
+// What the row of a vertex says: its places' weights w, and their shares v in how it turns.
+struct RowWeights {
+    Influence influence; // w
+    std::array<float, influences_per_row> share;
+};
+
+// v at p: those of the samples alone, where a handle is among them that turns as these do. It is left out by
+// being as far as the farthest, so that what else there is changes as smoothly as it does with it.
+std::array<float, influences_per_row> shares_without(std::span<const bool> left_out, WideRow row,
+                                                     const PointsBetween& between, const Vec3d& p) {
+    const Index farthest = row.distance[left_out.size() - 1];
+    for (std::size_t k = 0; k < left_out.size(); ++k)
+        if (left_out[k]) row.distance[k] = farthest;
+    auto share = weights_of(row, between.nearest.first_handle, between.weights);
+    for (std::size_t k = 0; k < left_out.size(); ++k)
+        if (left_out[k]) share[k] = 0;
+    const auto sum = [&] { return std::accumulate(share.begin(), share.end(), 0.0F); };
+    if (sum() == 0) // all others are as far as the farthest
+        std::ranges::transform(left_out, share.begin(), [](bool out) { return out ? 0.0F : 1.0F; });
+    if (between.weights == InfluenceWeights::smooth) balance(offsets_from(p, row, between.sample), share);
+    for (const float of_all = sum(); float& each : share) each /= of_all;
+    return share;
+}
+
+// What moves a vertex, at p, by its row. A sample's own one goes and turns with the sample, though smooth
+// weights blend it when it is moved: what samples do that every blend of them hides is told there alone.
+// Without it few samples may never come to rest (the survey's cylinder with 50 of them).
+RowWeights weights_at(const PointsBetween& between, Index vertex, const Vec3d& p) {
     const WideRow row = between.nearest[vertex];
     const Index first_handle = between.nearest.first_handle;
     const bool is_sample = row.distance[0] == 0 && row.sample[0] < first_handle;
-    return influence_of(row, first_handle, is_sample ? InfluenceWeights::paper : between.weights,
-                        offsets_from(p, row, between.sample));
-}
-
-bool turns_freely(const PointsBetween& between, Index handle) {
-    return handle < between.turns_freely.size() && between.turns_freely[handle];
-}
-
-// Whether one in a row is a handle whose samples, in that row, tell how it turns.
-bool turns_as_its_samples(const PointsBetween& between, Index motion) {
-    const Index first_handle = between.nearest.first_handle;
-    return motion >= first_handle && motion - first_handle < between.turns_by_samples.size() &&
-           between.turns_by_samples[motion - first_handle];
-}
-
-// v of each place of the row at p, by its weights w: those of the samples alone where a handle is among them
-// that turns as its samples do.
-std::array<float, influences_per_row> turning_of(const PointsBetween& between, Index vertex, const Vec3d& p,
-                                                 const Influence& influence) {
-    const auto is_told = [&](Index motion) { return turns_as_its_samples(between, motion); };
-    const auto motions = std::span(influence.motion).first(influence.count);
-    if (std::ranges::none_of(motions, is_told)) return influence.weight;
-    WideRow row = between.nearest[vertex];
-    const Index farthest = row.distance[influence.count - 1];
-    for (std::size_t k = 0; k < influence.count; ++k)
-        if (is_told(row.sample[k])) row.distance[k] = farthest;
-    std::array<float, influences_per_row> share =
-        weights_of(row, between.nearest.first_handle, between.weights);
-    for (std::size_t k = 0; k < influence.count; ++k)
-        if (is_told(row.sample[k])) share[k] = 0;
-    if (!(std::accumulate(share.begin(), share.end(), 0.0F) > 0)) return influence.weight;
-    if (between.weights == InfluenceWeights::smooth) balance(offsets_from(p, row, between.sample), share);
-    const float sum = std::accumulate(share.begin(), share.end(), 0.0F);
-    for (float& each : share) each /= sum;
-    return share;
+    RowWeights result;
+    result.influence = influence_of(row, first_handle, is_sample ? InfluenceWeights::paper : between.weights,
+                                    offsets_from(p, row, between.sample));
+    result.share = result.influence.weight;
+    const std::size_t count = result.influence.count;
+    std::array<bool, influences_per_row> left_out{};
+    for (std::size_t k = 0; k < count; ++k)
+        left_out[k] =
+            row.sample[k] >= first_handle && says(between.turns_by_samples, row.sample[k] - first_handle);
+    const auto is_in = [](bool out) { return !out; };
+    const std::span told(left_out.data(), count);
+    // One that has handles alone around it turns with them.
+    if (is_sample || std::ranges::all_of(told, is_in) || std::ranges::none_of(told, is_in)) return result;
+    result.share = shares_without(told, row, between, p);
+    return result;
 }
 
 // What a body does at a vertex.
@@ -90,8 +94,9 @@ public:
         p_ = short_of_ = position_of(between_, vertex);
         const Index handle = between_.label[vertex];
         const bool is_held = handle != no_index;
-        if (is_held) add(handle_body(handle), 1, turns_freely(between_, handle) ? 0 : 1);
-        if (!is_held || turns_freely(between_, handle)) add_row(vertex, is_held);
+        const bool turns_freely = says(between_.turns_freely, handle);
+        if (is_held) add(handle_body(handle), 1, turns_freely ? 0 : 1);
+        if (!is_held || turns_freely) add_row(vertex, is_held);
         if (between_.weights == InfluenceWeights::smooth) bow();
         return {blend_.data(), count_};
     }
@@ -106,8 +111,7 @@ private:
 
     // What the row of a vertex says: of how it turns alone, if a handle moves it.
     void add_row(Index vertex, bool is_held) {
-        const Influence influence = influence_at(between_, vertex, p_);
-        const auto share = turning_of(between_, vertex, p_, influence);
+        const auto [influence, share] = weights_at(between_, vertex, p_);
         for (std::size_t k = 0; k < influence.count; ++k)
             add(body_of(influence.motion[k]), is_held ? 0 : static_cast<double>(influence.weight[k]),
                 static_cast<double>(share[k]));
@@ -231,6 +235,7 @@ Mat3d ContributionFinder::add_gradients(Index vertex, const Vec3d& position, con
         const std::span<const Blend> all = blends.read(at);
         for (std::size_t k = 0; k < all.size(); ++k) place[k] = place_of(all[k].body);
         add_slopes(all, place, way, found_.element, slope);
+        return all;
     };
     Vec3d sum = Vec3d::Zero();
     for (const Index other : row_) {
@@ -238,8 +243,7 @@ Mat3d ContributionFinder::add_gradients(Index vertex, const Vec3d& position, con
         sum += way;
         add(other, way);
     }
-    add(vertex, -sum);
-    for (const Blend& blend : blends.read(vertex)) {
+    for (const Blend& blend : add(vertex, -sum)) {
         Element& element = found_.element[place_[blend.body]];
         element.share += blend.share;
         if (blend.body < between_.sample.size())

@@ -26,8 +26,8 @@ constexpr double enough_points = 15, too_few_points = 5, many_samples_of_them = 
 constexpr std::size_t points_a_sample = 12, fewest_points = 8192;
 
 // Points whose sums are made together, by one worker, are near each other and meet few bodies: as many as
-// around so many samples.
-constexpr std::size_t samples_a_part = 64;
+// around so many samples; but not so many that there is no part for every worker.
+constexpr std::size_t samples_a_part = 64, most_points_a_part = 1024;
 
 constexpr std::size_t bits_a_word = 64;
 
@@ -43,8 +43,7 @@ double ramp(double at, double from, double to) {
 bool is_between(const PointsBetween& between, Index vertex) {
     if (hangs(between, vertex)) return false;
     const Index handle = between.label[vertex];
-    if (handle == no_index) return true;
-    if (handle < between.turns_freely.size() && between.turns_freely[handle]) return true;
+    if (handle == no_index || says(between.turns_freely, handle)) return true;
     return std::ranges::any_of(between.graph.row(vertex),
                                [&](Index other) { return between.label[other] != handle; });
 }
@@ -304,7 +303,8 @@ PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
     const std::vector<Index> asked =
         spread_between(between, std::max(points_a_sample * energy.samples, fewest_points), workers);
     const std::size_t points = asked.size();
-    const std::size_t points_a_part = std::max<std::size_t>(16, samples_a_part * points / energy.samples);
+    const std::size_t points_a_part =
+        std::clamp<std::size_t>(samples_a_part * points / energy.samples, 16, most_points_a_part);
     std::vector<Part> parts((points + points_a_part - 1) / points_a_part);
     workers.for_each(parts.size(), 1, [&](std::size_t part) {
         PartSums sums(energy.samples, energy.bodies);

@@ -14,9 +14,9 @@
 // β Σ ω |∇r|², restricted to shapes that so few samples can make, is then a sum over pairs of bodies, whose
 // coefficients are sums over points: Galerkin's method, with the blends of the samples as the finite
 // elements. The turns' own weights v_s, in the place of w_s in A̅, are w_s, but beside and in a handle that
-// leaves rotation free: where it has samples that are asked like others, they turn as the surface there wants,
-// each for itself, and the handle has no share in turns. It moves the points that it holds alone, though.
-// (Reduced deformables by frames: B. Gilles, G. Bousquet, F. Faure, D. Pai, "Frame-based elastic
+// leaves rotation free: where it has samples that are asked like others, they turn as the surface there
+// wants, each for itself, and the handle has no share in turns. It moves the points that it holds alone,
+// though. (Reduced deformables by frames: B. Gilles, G. Bousquet, F. Faure, D. Pai, "Frame-based elastic
 // models", 2011; by blended handles: A. Jacobson and others, "Fast automatic skinning transformations",
 // 2012.) The fixed point is then nearer to that of every point a sample than by links alone (knead
 // evaluate).
@@ -41,6 +41,11 @@
 #include <vector>
 
 namespace knead {
+
+// What a list that may end early says of a handle; no_index: nothing.
+inline bool says(const std::vector<bool>& of_handles, Index handle) {
+    return handle < of_handles.size() && of_handles[handle];
+}
 
 // What two bodies t and s have to do with each other; t is a sample. In the matrices, and for the positions:
 struct BodyPair {
@@ -84,8 +89,8 @@ struct PointsBetween {
                                            // how they turn; may end early
     std::vector<bool> turns_by_samples;    // of each handle: whether it is one of these, and samples that it
                                            // holds are in the rows around; may end early
-    std::span<const Vec3d> sample; // rest positions
-    std::size_t handles;           // handle h is body sample.size() + h
+    std::span<const Vec3d> sample;         // rest positions
+    std::size_t handles;                   // handle h is body sample.size() + h
 };
 
 // How much of the energy is that of the points, 0 … 1, where so many samples are chosen among so many

@@ -40,10 +40,6 @@ std::vector<bool> find_left_out(const SampleRest& rest, Workers& workers) {
     return left_out;
 }
 
-bool turns_freely(const SampleRest& rest, Index handle) {
-    return handle < rest.turns_freely.size() && rest.turns_freely[handle];
-}
-
 void number_unknowns(SampleSystem& system) {
     const std::vector<Index>& handle = system.rest.handle;
     system.unknown.assign(handle.size(), no_index);
@@ -56,7 +52,7 @@ void number_unknowns(SampleSystem& system) {
         if (handle[s] == no_index && !system.left_out[s]) number(s);
     system.moving_rows = system.free_sample.size();
     for (Index s = 0; s < handle.size(); ++s)
-        if (handle[s] != no_index && turns_freely(system.rest, handle[s]) &&
+        if (says(system.rest.turns_freely, handle[s]) &&
             !system.rest.graph.row(s).empty()) // one without links has nothing to turn it
             number(s);
 }

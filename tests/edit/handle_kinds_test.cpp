@@ -40,6 +40,14 @@ Profile lifted(std::uint64_t samples, const std::string& keys, const std::string
     return {desk.shape(), cloud.positions, Vec3d(0.5, 0.5, 0) - cloud.origin};
 }
 
+// Frames of a drag that turns about an axis, a step more each, up to `last`; degrees.
+std::string turns(char axis, int step, int last) {
+    std::string frames;
+    for (int degrees = step; degrees <= last; degrees += step)
+        frames += (frames.empty() ? "" : ",") + turn(axis, degrees);
+    return frames;
+}
+
 // Of two shapes of one cloud.
 double rms_between(const std::vector<float>& a, const std::vector<float>& b) {
     double square = 0;
@@ -106,15 +114,12 @@ TEST(HandleKinds, AFreeLineWithAFalloffTearsNothing) {
         Settings settings;
         settings.samples = samples;
         Desk desk(made(Shape::bar, 6000), settings);
-        std::string frames;
-        for (int degrees = 4; degrees <= 40; degrees += 4)
-            frames += (frames.empty() ? "" : ",") + turn('x', degrees);
         desk.play(foot +
                   R"({"op":"handle","name":"top","role":"moving","rotation":"free","falloff":0.6,)"
                   R"("region":{"box":{"min":[0.4999,-1,1.46],"max":[1,1,1.54]}}})"
                   "\n"
                   R"({"op":"drag","handle":"top","pivot":[0.5,0,1.5],"frames":[)" +
-                  frames + "]}\n" + settle(1000));
+                  turns('x', 4, 40) + "]}\n" + settle(1000));
         EXPECT_LT(widest_seam(desk), 0.5) << samples;
         const std::vector<float> shape = desk.shape();
         if (with_all.empty()) with_all = shape;
@@ -136,12 +141,9 @@ TEST(HandleKinds, AFreeAreaBendsAtItsBorderWithFewSamples) {
             return R"("region":{"halfspace":{"point":[0,0,)" + std::to_string(z) + R"(],"normal":[0,0,)" +
                    side + "]}}}\n";
         };
-        std::string frames;
-        for (int degrees = 5; degrees <= 40; degrees += 5)
-            frames += (frames.empty() ? "" : ",") + turn('x', degrees);
         desk.play(R"({"op":"handle","name":"rest","role":"fixed",)" + beyond(0.2, "-1") +
                   R"({"op":"handle","name":"top","role":"moving","rotation":"free",)" + beyond(0.75, "1") +
-                  R"({"op":"drag","handle":"top","pivot":[0,0,0],"frames":[)" + frames + "]}\n" +
+                  R"({"op":"drag","handle":"top","pivot":[0,0,0],"frames":[)" + turns('x', 5, 40) + "]}\n" +
                   settle(1000));
         const std::vector<float> shape = desk.shape();
         if (with_all.empty()) with_all = shape;
@@ -188,11 +190,8 @@ TEST(HandleKinds, AFreeLineIsAHingeWithoutASeam) {
                       strip("line", free ? R"("role":"fixed","rotation":"free",)" : R"("role":"fixed",)",
                             "0.49", "0.51") +
                       strip("top", R"("role":"moving",)", "0.9", "2"));
-            std::string frames;
-            for (int degrees = 10; degrees <= 80; degrees += 10)
-                frames += (frames.empty() ? "" : ",") + turn('y', degrees);
-            desk.play(R"({"op":"drag","handle":"top","pivot":[0.5,0.5,0],"frames":[)" + frames + "]}\n" +
-                      settle(200));
+            desk.play(R"({"op":"drag","handle":"top","pivot":[0.5,0.5,0],"frames":[)" + turns('y', 10, 80) +
+                      "]}\n" + settle(200));
             EXPECT_LT(widest_seam(desk), 0.35) << samples; // of a free line with 60 samples it was 1.6
             // Settled, it stays as it is while the hand holds still.
             desk.play(settle(1000));

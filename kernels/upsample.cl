@@ -3,66 +3,58 @@
 // for one thing: what moves points, which is most of the work, fuses products and sums here (one rounding)
 // where the device can.
 //
-// Built with -D POINTS_IN_BLOCK=256, -D POINTS_IN_GROUP=16 and -D WHOLE_SHARE=65535; with -D SIXTEEN for a
-// CPU, without for a GPU. Motions are packed by columns, 16 floats each, [A column 0 | A column 1 | A column 2
-// | d] with a fourth row of 0 c0 c1 c2 (src/upsample/packed_motions.h); what moves which point comes by groups
-// of sixteen points (src/upsample/influence_groups.h, src/upsample/shares.h). A CPU's item moves such groups,
-// with a point in every lane; a GPU's moves one point.
+// Built with -D POINTS_IN_BLOCK=256, -D POINTS_IN_GROUP=16, -D WHOLE_SHARE=65535, and with -D LANES=16 for a CPU or
+// -D LANES=4 for a GPU. Motions are packed by columns, 16 floats each, [A column 0 | A column 1 | A column 2 | d] with
+// a fourth row of 0 c0 c1 c2 (src/upsample/packed_motions.h); what moves which point comes by groups of sixteen points
+// (src/upsample/influence_groups.h, src/upsample/shares.h). There is a point in every lane: a CPU's item moves a
+// block of 256 points, a group after the other; a GPU's moves a quarter of a group, for which a motion is read once.
 //
 // A group of items moves one block of 256 points (src/upsample/point_blocks.h), of those that a frame has to.
 
 #pragma OPENCL FP_CONTRACT OFF
 
-#ifdef SIXTEEN
-#define POINTS_AT_ONCE 16
+#define CONCATENATED(a, b) a##b
+#define VECTOR_OF(type, lanes) CONCATENATED(type, lanes)
+typedef VECTOR_OF(float, LANES) real;
+typedef VECTOR_OF(int, LANES) truth;
+
+#if LANES == 16
 #define POINTS_PER_ITEM POINTS_IN_BLOCK
-typedef float16 real;
-typedef int16 truth;
 #else
-#define POINTS_AT_ONCE 1
-#define POINTS_PER_ITEM 1
-typedef float real;
-typedef int truth;
+#define POINTS_PER_ITEM LANES
 #endif
 
 typedef struct {
     real x, y, z;
 } vector;
 
-#ifdef SIXTEEN
-// Floats as they lie in memory: those of `count` points, and zeros.
-__attribute__((always_inline)) inline vector load(__global const float* from, size_t count) {
-    float16 a, b, c;
-    if (count == 16) {
-        a = vload16(0, from), b = vload16(1, from), c = vload16(2, from);
-    } else {
-        float some[48];
-        for (size_t i = 0; i < 48; ++i) some[i] = i < 3 * count ? from[i] : 0.0f;
-        a = vload16(0, some), b = vload16(1, some), c = vload16(2, some);
-    }
-    vector v;
-    v.x = (float16)(a.s0369, a.scf, b.s258b, b.se, c.s147a, c.sd);
-    v.y = (float16)(a.s147a, a.sd, b.s0369, b.scf, c.s258b, c.se);
-    v.z = (float16)(a.s258b, a.se, b.s147a, b.sd, c.s0369, c.scf);
+#if LANES == 16
+// x, y and z of sixteen points from how they lie in memory.
+__attribute__((always_inline)) inline vector apart(const float16* m) {
+    const float16 a = m[0], b = m[1], c = m[2];
+    const vector v = {(float16)(a.s0369, a.scf, b.s258b, b.se, c.s147a, c.sd),
+                      (float16)(a.s147a, a.sd, b.s0369, b.scf, c.s258b, c.se),
+                      (float16)(a.s258b, a.se, b.s147a, b.sd, c.s0369, c.scf)};
     return v;
 }
 
-// x y z of sixteen points as they lie in memory, from two vectors at a time, which is a single instruction each. Written
-// out by elements, LLVM 14 makes some fifty of it.
-__attribute__((always_inline)) inline void store(vector v, __global float* to, size_t count) {
+// And back, from two vectors at a time, which is a single instruction each. Written out by elements, LLVM 14 makes some
+// fifty of it.
+__attribute__((always_inline)) inline void together(vector v, float16* m) {
     const float16 axy = __builtin_shufflevector(v.x, v.y, 0, 16, -1, 1, 17, -1, 2, 18, -1, 3, 19, -1, 4, 20, -1, 5);
-    const float16 a = __builtin_shufflevector(axy, v.z, 0, 1, 16, 3, 4, 17, 6, 7, 18, 9, 10, 19, 12, 13, 20, 15);
+    m[0] = __builtin_shufflevector(axy, v.z, 0, 1, 16, 3, 4, 17, 6, 7, 18, 9, 10, 19, 12, 13, 20, 15);
     const float16 bxy = __builtin_shufflevector(v.x, v.y, 21, -1, 6, 22, -1, 7, 23, -1, 8, 24, -1, 9, 25, -1, 10, 26);
-    const float16 b = __builtin_shufflevector(bxy, v.z, 0, 21, 2, 3, 22, 5, 6, 23, 8, 9, 24, 11, 12, 25, 14, 15);
+    m[1] = __builtin_shufflevector(bxy, v.z, 0, 21, 2, 3, 22, 5, 6, 23, 8, 9, 24, 11, 12, 25, 14, 15);
     const float16 cxy = __builtin_shufflevector(v.x, v.y, -1, 11, 27, -1, 12, 28, -1, 13, 29, -1, 14, 30, -1, 15, 31, -1);
-    const float16 c = __builtin_shufflevector(cxy, v.z, 26, 1, 2, 27, 4, 5, 28, 7, 8, 29, 10, 11, 30, 13, 14, 31);
-    if (count == 16) {
-        vstore16(a, 0, to), vstore16(b, 1, to), vstore16(c, 2, to);
-    } else {
-        float all[48];
-        vstore16(a, 0, all), vstore16(b, 1, all), vstore16(c, 2, all);
-        for (size_t i = 0; i < 3 * count; ++i) to[i] = all[i];
-    }
+    m[2] = __builtin_shufflevector(cxy, v.z, 26, 1, 2, 27, 4, 5, 28, 7, 8, 29, 10, 11, 30, 13, 14, 31);
+}
+
+__attribute__((always_inline)) inline void read_whole(__global const float* from, real* m) {
+    m[0] = vload16(0, from), m[1] = vload16(1, from), m[2] = vload16(2, from);
+}
+
+__attribute__((always_inline)) inline void write_whole(const real* m, __global float* to) {
+    vstore16(m[0], 0, to), vstore16(m[1], 1, to), vstore16(m[2], 2, to);
 }
 
 // The shares of an entry in the points of its group.
@@ -74,23 +66,60 @@ __attribute__((always_inline)) inline real as_real(truth whole) {
     return convert_float16(whole);
 }
 #else
-inline vector load(__global const float* from, size_t count) {
-    const vector v = {from[0], from[1], from[2]};
+// What is read and written at once lies at multiples of its size.
+inline vector apart(const float4* m) {
+    const float4 a = m[0], b = m[1], c = m[2];
+    const vector v = {(float4)(a.s03, b.s2, c.s1), (float4)(a.s1, b.s03, c.s2), (float4)(a.s2, b.s1, c.s03)};
     return v;
 }
 
-inline void store(vector v, __global float* to, size_t count) {
-    to[0] = v.x, to[1] = v.y, to[2] = v.z;
+inline void together(vector v, float4* m) {
+    m[0] = (float4)(v.x.s0, v.y.s0, v.z.s0, v.x.s1);
+    m[1] = (float4)(v.y.s1, v.z.s1, v.x.s2, v.y.s2);
+    m[2] = (float4)(v.z.s2, v.x.s3, v.y.s3, v.z.s3);
 }
 
-__attribute__((always_inline)) inline truth share_of(__global const ushort* share, size_t entry, size_t lane) {
-    return share[POINTS_IN_GROUP * entry + lane];
+inline void read_whole(__global const float* from, real* m) {
+    __global const float4* const f = (__global const float4*)from;
+    m[0] = f[0], m[1] = f[1], m[2] = f[2];
+}
+
+inline void write_whole(const real* m, __global float* to) {
+    __global float4* const t = (__global float4*)to;
+    t[0] = m[0], t[1] = m[1], t[2] = m[2];
+}
+
+inline truth share_of(__global const ushort* share, size_t entry, size_t lane) {
+    return convert_int4(*(__global const ushort4*)(share + POINTS_IN_GROUP * entry + lane));
 }
 
 inline real as_real(truth whole) {
-    return (float)whole;
+    return convert_float4(whole);
 }
 #endif
+
+// Floats as they lie in memory: those of `count` points, and zeros.
+__attribute__((always_inline)) inline vector load(__global const float* from, size_t count) {
+    real whole[3];
+    if (count == LANES) {
+        read_whole(from, whole);
+    } else {
+        float* const some = (float*)whole;
+        for (size_t i = 0; i < 3 * LANES; ++i) some[i] = i < 3 * count ? from[i] : 0.0f;
+    }
+    return apart(whole);
+}
+
+__attribute__((always_inline)) inline void store(vector v, __global float* to, size_t count) {
+    real whole[3];
+    together(v, whole);
+    if (count == LANES) {
+        write_whole(whole, to);
+    } else {
+        const float* const all = (const float*)whole;
+        for (size_t i = 0; i < 3 * count; ++i) to[i] = all[i];
+    }
+}
 
 // What moves sixteen points.
 typedef struct {
@@ -107,13 +136,33 @@ typedef struct {
     __global const float* motions;
 } reading;
 
+// So many are read before the first of them is used: a GPU waits for them together. (Two gain 8 %, more cost registers:
+// fewer items then run at once.)
+#if LANES == 16
+#define ENTRIES_AT_ONCE 1
+#else
+#define ENTRIES_AT_ONCE 2
+#endif
+
 #pragma OPENCL FP_CONTRACT ON
 
 // Adds w [A | d] to the blend, number c of them to blend[c], and w c.
 __attribute__((always_inline)) inline void add_motion(__global const float* motion, real weight, real* blend) {
+#if LANES == 16
 #pragma unroll
     for (int c = 0; c < 16; ++c)
         if (c != 3) blend[c] += weight * motion[c];
+#else
+    __global const float4* const columns = (__global const float4*)motion;
+#pragma unroll
+    for (int c = 0; c < 4; ++c) {
+        const float4 column = columns[c];
+        blend[4 * c] += weight * column.x;
+        blend[4 * c + 1] += weight * column.y;
+        blend[4 * c + 2] += weight * column.z;
+        if (c > 0) blend[4 * c + 3] += weight * column.w;
+    }
+#endif
 }
 
 // Adds what a handle has for a place: the points themselves.
@@ -141,10 +190,21 @@ __attribute__((always_inline)) inline void blend_motions(reading how, size_t gro
     truth left = WHOLE_SHARE;
 #pragma unroll
     for (int c = 0; c < 16; ++c) blend[c] = 0.0f;
-    for (uint entry = own.first_entry; entry < end; ++entry) {
-        const truth share = share_of(how.share, entry, lane);
-        left -= share;
-        add_motion(how.motions + 16 * (size_t)how.motion[entry], weight_of(share), blend);
+    for (uint entry = own.first_entry; entry < end; entry += ENTRIES_AT_ONCE) {
+        uint motion[ENTRIES_AT_ONCE];
+        truth share[ENTRIES_AT_ONCE];
+#pragma unroll
+        for (uint k = 0; k < ENTRIES_AT_ONCE; ++k)
+            if (k == 0 || entry + k < end) {
+                motion[k] = how.motion[entry + k];
+                share[k] = share_of(how.share, entry + k, lane);
+            }
+#pragma unroll
+        for (uint k = 0; k < ENTRIES_AT_ONCE; ++k)
+            if (k == 0 || entry + k < end) {
+                left -= share[k];
+                add_motion(how.motions + 16 * (size_t)motion[k], weight_of(share[k]), blend);
+            }
     }
     __global const float* const others_leave = how.motions + 16 * (size_t)own.motion;
     add_motion(others_leave, weight_of(left), blend);
@@ -209,8 +269,8 @@ upsample(ulong points, __global const uint* block, __global const float* positio
     const size_t begin =
         POINTS_IN_BLOCK * (size_t)block[get_group_id(0)] + POINTS_PER_ITEM * get_local_id(0);
     const size_t end = min(begin + POINTS_PER_ITEM, (size_t)points);
-    for (size_t first = begin; first < end; first += POINTS_AT_ONCE) {
-        const size_t count = min((size_t)POINTS_AT_ONCE, end - first);
+    for (size_t first = begin; first < end; first += LANES) {
+        const size_t count = min((size_t)LANES, end - first);
         const vector p = load(positions + 3 * first, count);
         real blend[16];
         blend_motions(how, first / POINTS_IN_GROUP, first % POINTS_IN_GROUP, p, blend);
@@ -236,4 +296,45 @@ __kernel void upsample_positions_and_normals(const ulong points, __global const 
                                              __global float* moved_normals) {
     const reading how = {group, motion, share, first_handle, motions};
     upsample(points, block, positions, how, moved_positions, normals, moved_normals);
+}
+
+// Lowest and highest x, y, z of a group of items, and where they put them together.
+typedef struct {
+    float lowest[3], highest[3];
+} box;
+
+inline void add_point(__global const float* p, box* around) {
+    // A difference with itself is 0 for finite numbers only.
+    if (!(p[0] - p[0] + (p[1] - p[1]) + (p[2] - p[2]) == 0.0f)) return;
+    for (int axis = 0; axis < 3; ++axis) {
+        around->lowest[axis] = fmin(around->lowest[axis], p[axis]);
+        around->highest[axis] = fmax(around->highest[axis], p[axis]);
+    }
+}
+
+inline void add_box(__local const box* other, box* around) {
+    for (int axis = 0; axis < 3; ++axis) {
+        around->lowest[axis] = fmin(around->lowest[axis], other->lowest[axis]);
+        around->highest[axis] = fmax(around->highest[axis], other->highest[axis]);
+    }
+}
+
+// The box around the finite points of each block of those listed, in the order of the list.
+__kernel void bound_blocks(const ulong points, __global const uint* block, __global const float* positions,
+                           __global box* around) {
+    const size_t begin = POINTS_IN_BLOCK * (size_t)block[get_group_id(0)];
+    const size_t end = min(begin + POINTS_IN_BLOCK, (size_t)points);
+    box own = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
+    for (size_t point = begin + get_local_id(0); point < end; point += get_local_size(0))
+        add_point(positions + 3 * point, &own);
+    __local box boxes[POINTS_IN_BLOCK / POINTS_PER_ITEM];
+    boxes[get_local_id(0)] = own;
+    for (size_t rest = get_local_size(0) / 2; rest > 0; rest /= 2) {
+        barrier(CLK_LOCAL_MEM_FENCE);
+        if (get_local_id(0) < rest) {
+            add_box(&boxes[get_local_id(0) + rest], &own);
+            boxes[get_local_id(0)] = own;
+        }
+    }
+    if (get_local_id(0) == 0) around[get_group_id(0)] = own;
 }

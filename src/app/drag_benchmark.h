@@ -30,7 +30,8 @@ struct DragBenchmark {
     double opened = 0;   // seconds from the start to the first picture of the cloud
     double editable = 0; // and until handles can be made and dragged at once
     MovingPictures orbit, drag;
-    std::size_t poses = 0; // of the drag: pictures with a pose that was not shown before
+    std::size_t poses = 0;           // of the drag: pictures with a pose that was not shown before
+    std::size_t poses_on_device = 0; // of these: with points that were moved where they are drawn
     double age_median = 0, age_95 = 0, age_largest = 0; // of the pose on the screen when it is shown, seconds
     double largest_at = 0;    // when the largest was shown, seconds after the first picture of the drag
     double solve_median = 0;  // of the document's thread, seconds a frame

@@ -40,7 +40,12 @@ void EstimatedNormals::look_at(const Editor& editor, bool wanted, double now) {
     due_ = estimated_ != seen_;
     const bool rests = estimated_ == 0 || now - changed_ > rest;
     const bool in_motion = cost_ < quick && now - begun_ > cost_ / part_of_time;
-    if (due_ && (rests || in_motion) && !thread_) begin(editor, now);
+    const bool has_points = !editor.frame.on_device; // those that are seen
+    if (due_ && has_points && (rests || in_motion) && !thread_) begin(editor, now);
+}
+
+bool EstimatedNormals::made_in_motion(const Editor& editor, bool wanted) const {
+    return wanted && editor.frame.normals.empty() && cost_ < quick;
 }
 
 bool EstimatedNormals::outdated() const {

@@ -27,6 +27,8 @@ public:
     std::optional<std::vector<float>> take();
     // Whether those that were taken last lie too badly on the moving shape to be shown.
     bool outdated() const;
+    // Whether they are made while the shape moves, from its positions. `wanted`: as of look_at().
+    bool made_in_motion(const Editor& editor, bool wanted) const;
     // Whether some are on the way or due: look again soon.
     bool expected() const { return thread_ != nullptr || due_; }
 

@@ -41,7 +41,7 @@ struct Loop {
     UiState state;
     Scene scene;
     DrawBudget orbiting{1.0 / 33}, dragging{1.0 / 29}; // 30 pictures a second, and more than 24
-    Work work{options, editor, state, false};
+    Work work{options, editor, state, false, !scene.is_drawn_in_software()};
 
     std::vector<Command> commands;
     std::vector<Wish> wishes;

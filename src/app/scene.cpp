@@ -2,6 +2,8 @@
 
 #include "app/estimated_normals.h"
 #include "app/scene_lines.h"
+#include "upsample/drawing.h"
+#include "upsample/point_blocks.h"
 
 #include <algorithm>
 #include <optional>
@@ -34,6 +36,10 @@ struct Scene::State {
     SceneLinesOf lines;
     std::uint64_t version = 0; // of the frame
     std::vector<PointRange> moved;
+    // Moves points where they are drawn, for frames that come so.
+    std::unique_ptr<DrawnPoints> drawn = std::make_unique<DrawnPoints>();
+    bool drawn_is_newest = false; // nobody else wrote positions since
+    bool drawing_failed = false;  // once is enough
     EstimatedNormals estimated;
     bool lit = false; // by them
     std::vector<HandleLook> looks;
@@ -41,6 +47,9 @@ struct Scene::State {
 
     void begin_cloud(const Editor& editor, Display& display);
     void take_positions(const Editor& editor, const Display& display);
+    void upload(const PosedFrame& frame);
+    bool move_where_drawn(const PosedFrame& frame);
+    bool can_draw_drags(const Editor& editor, const Display& display) const;
     void take_marks(const Editor& editor, const Display& display);
     void take_looks(const Editor& editor, const UiState& state);
     void take_spacings(const DocumentView& document);
@@ -86,6 +95,8 @@ void Scene::State::begin_cloud(const Editor& editor, Display& display) {
     if (display.coloring == Coloring::attribute) // of the cloud before
         display.coloring = Coloring::file;
     renderer.set_points(editor.marks.size(), editor.opened.spacing);
+    drawn = std::make_unique<DrawnPoints>(); // the buffers are others
+    drawn_is_newest = false;
     spacings.reset();
     colored.reset();
     looks.clear();
@@ -97,11 +108,43 @@ void Scene::State::begin_cloud(const Editor& editor, Display& display) {
 }
 
 void Scene::State::take_positions(const Editor& editor, const Display& display) {
-    changed_since(version, editor.frame, moved);
-    renderer.set_positions(editor.frame.positions, moved);
-    if (!editor.frame.normals.empty()) renderer.set_normals(editor.frame.normals, moved);
+    if (!editor.frame.on_device)
+        upload(editor.frame);
+    else if (!move_where_drawn(editor.frame))
+        return; // the points come next
     version = editor.frame.version;
     if (follows_pose(display.coloring)) colored.reset();
+}
+
+void Scene::State::upload(const PosedFrame& frame) {
+    changed_since(version, frame, moved);
+    renderer.set_positions(frame.positions, moved);
+    if (!frame.normals.empty()) renderer.set_normals(frame.normals, moved);
+    drawn_is_newest = false;
+}
+
+// False where the device cannot.
+bool Scene::State::move_where_drawn(const PosedFrame& frame) {
+    const PointRenderer::DrawnBuffers buffers = renderer.buffers_to_write();
+    if (buffers.positions == 0) return false;
+    try {
+        drawn->move(*frame.on_device, {buffers.positions, frame.normals.empty() ? 0 : buffers.normals},
+                    drawn_is_newest ? Held::last_frame : Held::nothing);
+    } catch (const DeviceFailure&) {
+        drawing_failed = true;
+        version = 0; // the buffers may have anything
+        return false;
+    }
+    drawn_is_newest = true;
+    renderer.note_written(drawn->boxes(), points_in_block);
+    return true;
+}
+
+// Whether nothing else that is shown needs to know where the points are.
+bool Scene::State::can_draw_drags(const Editor& editor, const Display& display) const {
+    return !drawing_failed && !renderer.is_software() && !follows_pose(display.coloring) &&
+           !display.samples && !display.sample_graph &&
+           !estimated.made_in_motion(editor, display.look.shading);
 }
 
 void Scene::State::take_marks(const Editor& editor, const Display& display) {
@@ -172,6 +215,7 @@ void Scene::take_in(Editor& editor, UiState& state) {
     own.take_colors(editor, state);
     own.take_lines(editor, state.display);
     own.take_estimated_normals(editor, state.display);
+    editor.live->draw_drags_on_device(own.can_draw_drags(editor, state.display));
 }
 
 DrawResult Scene::draw(const Editor& editor, PointLook look, std::size_t budget, bool coarse, int left,

@@ -18,6 +18,12 @@ constexpr const char* demonstration_session = "creature-wave.knead";
 void begin_opening(Work& work, OpenRequest request) {
     request.journal_folder = default_journal_folder();
     request.device = work.options.device;
+    if (work.drawn_by_device && !work.sharing && work.options.device != "reference")
+        work.sharing = share_with_current_gl_context();
+    request.make_upsampler = [sharing = work.sharing](const std::string& device, Workers& workers,
+                                                      unsigned threads) {
+        return make_drawing_upsampler(device, workers, threads, sharing);
+    };
     request.threads = work.options.threads;
     request.settings = work.options.settings;
     request.choose_samples = work.state.choose_samples;

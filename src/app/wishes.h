@@ -3,6 +3,7 @@
 
 #include "app/run_editor.h"
 #include "app/ui.h"
+#include "upsample/drawing.h"
 
 namespace knead {
 
@@ -11,7 +12,9 @@ struct Work {
     const EditorOptions& options;
     Editor& editor;
     UiState& state;
-    bool closing = false; // the window is to close now
+    bool closing = false;         // the window is to close now
+    bool drawn_by_device = false; // whether a graphics card draws, whose memory OpenCL may share
+    std::shared_ptr<const GlSharing> sharing = {}; // once a document was opened; null: it does not
 };
 
 void grant(Work& work, const Wish& wish);

@@ -30,6 +30,22 @@ void add_rows(std::span<const RowFigures> rows, std::size_t RowFigures::*size, d
     table.push_back(exponents);
 }
 
+// Empty where the device has no memory of its own.
+std::string own_memory_text(const Growth& growth) {
+    TextTable table{{""}, {own_memory_words}, {"points", "samples"}};
+    for (std::string& cell : own_memory_heading()) table.back().push_back(std::move(cell));
+    const std::size_t headings = table.size();
+    for (const auto* rows : {&growth.by_points, &growth.by_samples})
+        for (const RowFigures& row : *rows) {
+            if (!row.upsampling.own_memory) continue;
+            std::vector<std::string> line{grouped(row.points), grouped(row.samples)};
+            for (std::string& cell : own_memory_cells(*row.upsampling.own_memory))
+                line.push_back(std::move(cell));
+            table.push_back(std::move(line));
+        }
+    return table.size() > headings ? format_table(table) : "";
+}
+
 ReportJson json_of(std::span<const RowFigures> rows, std::size_t RowFigures::*size, double memory_copy) {
     ReportJson json{{"rows", ReportJson::array()}, {"exponents", ReportJson::object()}};
     for (const RowFigures& row : rows) {
@@ -45,6 +61,7 @@ ReportJson json_of(std::span<const RowFigures> rows, std::size_t RowFigures::*si
                                 {"upsampling_bytes", row.upsampling.bytes},
                                 {"share_of_copy", share_of_copy(row.upsampling)},
                                 {"share_of_memory", share_of_memory(row.upsampling, memory_copy)},
+                                {"own_memory", own_memory_json(row.upsampling.own_memory)},
                                 {"held_bytes", row.memory_held},
                                 {"peak_bytes", row.memory_peak}});
     }
@@ -74,7 +91,7 @@ std::string growth_text(const Growth& growth) {
     add_rows(growth.by_points, &RowFigures::points, growth.copy_bytes_per_second, table);
     table.push_back({""});
     add_rows(growth.by_samples, &RowFigures::samples, growth.copy_bytes_per_second, table);
-    return format_table(table);
+    return format_table(table) + own_memory_text(growth);
 }
 
 std::string growth_json(const Growth& growth) {

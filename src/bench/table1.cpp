@@ -172,6 +172,7 @@ UpsampleFigures compare_upsamplers(UpsamplerProbe& probe, Workers& workers, Prog
     figures.bytes = bytes_a_frame(probe);
     figures.copy = copy_seconds(figures.bytes, frames, workers);
     figures.with_normals = !input.normals.empty();
+    figures.own_memory = measure_in_own_memory(probe, frames);
     return figures;
 }
 

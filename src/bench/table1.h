@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "bench/data_files.h"
 #include "bench/machine.h"
+#include "bench/own_memory.h"
 #include "bench/statistics.h"
 #include "cloud/point_cloud.h"
 
@@ -54,6 +55,7 @@ struct UpsampleFigures {
     double largest_difference = 0;   // between a coordinate of the two, in the cloud's units
     std::size_t bytes = 0;           // that a frame moves at least
     bool with_normals = false;
+    std::optional<OwnMemoryFigures> own_memory = {}; // of a device that has its own, in that alone
 };
 
 // How fast the device moved these bytes beside how fast the processor copied as many: 1 for as fast.

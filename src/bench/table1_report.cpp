@@ -77,6 +77,14 @@ void add_upsampling(const Table1Result& result, double memory_copy, TextTable& t
                      share_text(share_of_memory(ours, memory_copy))});
 }
 
+void add_own_memory(const Table1Result& result, TextTable& table) {
+    if (!result.missing.empty() || !result.figures.upsampling.own_memory) return;
+    std::vector<std::string> line{name_of(result.row), result.figures.upsampling.with_normals ? "yes" : "no"};
+    for (std::string& cell : own_memory_cells(*result.figures.upsampling.own_memory))
+        line.push_back(std::move(cell));
+    table.push_back(std::move(line));
+}
+
 Json json_of(const Summary& summary) {
     return {{"median", summary.median},
             {"min", summary.lowest},
@@ -113,7 +121,8 @@ Json json_of(const UpsampleFigures& ours, double memory_copy) {
             {"copy_seconds", json_of(ours.copy)},
             {"copy_gigabytes_per_second", gigabytes_per_second(ours.bytes, ours.copy)},
             {"share_of_copy", share_of_copy(ours)},
-            {"share_of_memory", share_of_memory(ours, memory_copy)}};
+            {"share_of_memory", share_of_memory(ours, memory_copy)},
+            {"own_memory", own_memory_json(ours.own_memory)}};
 }
 
 Json json_of(const Table1Result& result, double memory_copy) {
@@ -158,7 +167,11 @@ std::string table1_text(const Table1& table) {
                           "difference", "MB", "GB/s", "copy GB/s", "of copy", "of memory"}};
     for (const Table1Result& result : table.results)
         add_upsampling(result, table.copy_bytes_per_second, upsampling);
-    return format_table(lines) + (upsampling.size() > 2 ? "\n" + format_table(upsampling) : "");
+    TextTable own_memory{{own_memory_words}, {"model/samples", "normals"}};
+    for (std::string& cell : own_memory_heading()) own_memory.back().push_back(std::move(cell));
+    for (const Table1Result& result : table.results) add_own_memory(result, own_memory);
+    return format_table(lines) + (upsampling.size() > 2 ? "\n" + format_table(upsampling) : "") +
+           (own_memory.size() > 2 ? "\n" + format_table(own_memory) : "");
 }
 
 std::string table1_json(const Table1& table) {

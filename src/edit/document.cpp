@@ -123,7 +123,8 @@ void Document::begin_drag(const std::string& handle, const Vec3d& pivot, const s
         next_state(), motions_, samples ? *samples : pipeline_.rest_state(), {}, index, {handle, pivot, {}}});
 }
 
-double Document::drag_frame(const HandlePose& pose, const std::string& place, Progress& progress) {
+double Document::drag_frame(const HandlePose& pose, const std::string& place, Progress& progress,
+                            Points points) {
     require(under_way_ && under_way_->handle != no_index, "a frame of a drag follows its begin");
     UnderWay& drag = *under_way_;
     HandleMotion& motion = drag.motions[drag.handle];
@@ -139,9 +140,8 @@ double Document::drag_frame(const HandlePose& pose, const std::string& place, Pr
         way = follow(drag.handle, next, pose.coarse, drag.next.settings.iterations, drag.motions,
                      drag.samples, drag.memory, progress);
         drag.is_shown = false;
-        upsample(drag.motions, drag.samples);
+        if (points == Points::now || !make_frame(drag)) show(drag);
         drag.line.frames.push_back(pose);
-        drag.is_shown = true;
     } catch (...) {
         motion = before;
         drag.samples = drag.samples_before;
@@ -157,6 +157,7 @@ void Document::end_drag() {
     require(under_way_ && under_way_->handle != no_index, "a drag that ends was begun");
     UnderWay drag = std::move(*under_way_);
     under_way_.reset();
+    drawn_frame_.reset();
     if (drag.line.frames.empty()) return;
     DragLine line = std::move(drag.line);
     end(std::move(drag), std::move(line));
@@ -192,9 +193,7 @@ bool Document::settle_some(unsigned iterations, Progress& progress) {
         rests = iterate_once(settling.motions, settling.samples, settling.memory) <= at_rest;
         ++settling.iterations;
     }
-    settling.is_shown = false;
-    upsample(settling.motions, settling.samples);
-    settling.is_shown = true;
+    show(settling);
     return rests;
 }
 
@@ -210,6 +209,7 @@ SettleLine Document::end_settling() {
 void Document::abandon() noexcept {
     if (!under_way_) return;
     under_way_.reset();
+    drawn_frame_.reset();
     posed_is_now_ = false;
 }
 
@@ -399,6 +399,24 @@ double Document::follow(Index handle, const HandleMotion& motion, bool coarse, u
     return way;
 }
 
+// Moves the points to where the samples of this act are.
+void Document::show(UnderWay& act) {
+    drawn_frame_.reset();
+    act.is_shown = false;
+    upsample(act.motions, act.samples);
+    act.is_shown = true;
+}
+
+// Leaves that to whoever draws. Returns false where nobody can.
+bool Document::make_frame(const UnderWay& drag) {
+    posed_is_now_ = false;
+    const Stopwatch clock;
+    drawn_frame_ = pipeline_.frame(drag.motions, drag.samples);
+    if (!drawn_frame_) return false;
+    log_.upsample.push_back(clock.seconds());
+    return true;
+}
+
 void Document::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {
     posed_is_now_ = false; // the caller may still be cancelled, and then keeps the state that it had
     const Stopwatch clock;
@@ -414,7 +432,9 @@ bool Document::is_as_opened() const {
 }
 
 const RestShape& Document::shown(Progress& progress) {
-    return under_way_ ? pipeline_.posed() : shape(progress);
+    if (!under_way_) return shape(progress);
+    if (!under_way_->is_shown) show(*under_way_);
+    return pipeline_.posed();
 }
 
 const RestShape& Document::shape(Progress& progress) {

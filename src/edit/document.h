@@ -79,7 +79,13 @@ public:
                     Progress& progress);
     // One frame: the handle's whole pose in this edit. Returns the longest way that a sample went in the last
     // iteration, over the cloud's size. An absurd pose is refused, and the drag stays as it was.
-    double drag_frame(const HandlePose& pose, const std::string& place, Progress& progress);
+    // `later` leaves moving the points to whoever draws, where the upsampler can (upsample/drawing.h): then
+    // the frame is drawn_frame(), and its points are made when somebody asks for shown().
+    enum class Points { now, later };
+    double drag_frame(const HandlePose& pose, const std::string& place, Progress& progress,
+                      Points points = Points::now);
+    // The last frame of the drag, where its points were left for later; else null.
+    const std::shared_ptr<const DeviceFrame>& drawn_frame() const { return drawn_frame_; }
     void end_drag();
 
     void begin_settling(Progress& progress);
@@ -197,6 +203,8 @@ private:
                   std::vector<HandleMotion>& motions, SampleState& samples, FrameMemory& memory,
                   Progress& progress);
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
+    void show(UnderWay& act);
+    bool make_frame(const UnderWay& drag);
     // From any state in history; made again where it was dropped.
     std::shared_ptr<const RestShape> rest_of(const State& state, Progress& progress);
     std::shared_ptr<const SampleState> samples_of(const State& state, Progress& progress); // of a posed one
@@ -226,6 +234,7 @@ private:
     std::vector<std::shared_ptr<Posed>> kept_samples_;    // and with samples
     std::optional<UnderWay> under_way_;
     bool posed_is_now_ = false; // whether the pipeline's posed points are those of now_
+    std::shared_ptr<const DeviceFrame> drawn_frame_;
     FrameLog log_;
 };
 

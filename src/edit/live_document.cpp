@@ -121,15 +121,40 @@ void LiveDocument::save_session(std::filesystem::path target, bool anyway) {
     put_save(*shared_, task::SaveSession{std::move(target), anyway});
 }
 
+void LiveDocument::draw_drags_on_device(bool yes) {
+    shared_->change([&](LiveShared& shared) { shared.draws_on_device = yes; });
+}
+
+namespace {
+
+// What a frame without points tells; they stay.
+void take_facts(PosedFrame& from, PosedFrame& to) {
+    to.version = from.version;
+    to.on_device = std::exchange(from.on_device, nullptr);
+    to.pose_set = from.pose_set;
+    to.shows_pose = from.shows_pose;
+    to.solve = from.solve;
+    to.upsample = from.upsample;
+}
+
+} // namespace
+
 std::shared_ptr<const DocumentView> LiveDocument::view() const {
     return shared_->with([](const LiveShared& shared) { return shared.view; });
 }
 
 bool LiveDocument::take_frame(PosedFrame& frame) {
     return shared_->change([&](LiveShared& shared) { // the document may wait for this
-        if (shared.frame.version <= frame.version) return false;
-        std::swap(shared.frame, frame);
-        return true;
+        bool is_new = false;
+        if (shared.frame.version > frame.version) {
+            std::swap(shared.frame, frame);
+            is_new = true;
+        }
+        if (shared.drawn.version > frame.version) {
+            take_facts(shared.drawn, frame);
+            is_new = true;
+        }
+        return is_new;
     });
 }
 

@@ -65,6 +65,11 @@ struct PosedFrame {
     std::vector<float> positions; // 3n, relative to the cloud's origin
     std::vector<float> normals;   // 3n, or empty
     std::uint64_t version = 0;    // counts the frames; 0: nothing here
+    // Where frames of a drag are drawn on the device (LiveDocument::draw_drags_on_device()): the newest one,
+    // which moves the points for whoever draws, and of which `positions` and `normals` know nothing: they are
+    // of a version before. Null where these are the newest.
+    std::shared_ptr<const DeviceFrame> on_device;
+    std::uint64_t points_version = 0; // of `positions` and `normals`
     // The version in which each block of points (upsample/point_blocks.h) changed last: whoever has the
     // points of an earlier version needs only what changed after it, see changed_since().
     std::vector<std::uint64_t> changed_in;
@@ -182,6 +187,10 @@ public:
     void begin_drag(StepNumber step, std::string handle, Vec3d pivot);
     void drag_to(const Transform& transform); // on top of the handle's pose at begin_drag()
     void end_drag();
+    // Whether whoever draws can move the points itself (upsample/drawing.h), and needs no positions while a
+    // drag goes on: then its frames may come as PosedFrame::on_device. When the hand rests, and when it no
+    // longer can, the points come, too.
+    void draw_drags_on_device(bool yes);
     void cancel_drag(); // as if it had not begun; its step counts as refused without words
 
     // Takes a handle back to where it was at rest in this edit, unwinding its turns.

@@ -80,6 +80,7 @@ void LiveWork::finish_drag() {
     learn_cost(drag_->solving, drag_->upsampling);
     drag_.reset();
     converge_ = true;
+    if (publisher_.last_is_drawn()) publish_shape(document_->shape(progress_), false);
     publish_view();
 }
 
@@ -126,7 +127,10 @@ void LiveWork::follow() {
     try {
         HandlePose pose = pose_of(motion, drag.line.pivot, drag.origin);
         pose.coarse = new_pose && is_too_slow();
-        way = document_->drag_frame(pose, "", progress_);
+        const bool later = upsampler_->shares_with_opengl() &&
+                           shared_.with([](const LiveShared& s) { return s.draws_on_device; });
+        way = document_->drag_frame(pose, "", progress_,
+                                    later ? Document::Points::later : Document::Points::now);
         drag.line.frames.push_back(pose);
     } catch (...) {
         drag.wanted.reset();
@@ -140,7 +144,7 @@ void LiveWork::follow() {
     solve_seconds_ = clock.seconds();
     drag.upsampling.push_back(document_->log().upsample.back());
     if (!drag.is_coarse()) drag.solving.push_back(solve_seconds_ - drag.upsampling.back());
-    publish_shape(document_->pipeline().posed(), true);
+    publish_drag();
 }
 
 unsigned LiveWork::iterations_a_picture() const {

@@ -24,14 +24,14 @@ void LivePublisher::note_changes(const RestShape& shape, const Pipeline& pipelin
     shown_upsampling_ = is_posed ? pipeline.upsampled() : 0;
 }
 
-// Into what holds the frame of back_.version.
+// Into what holds the points of back_.points_version.
 void LivePublisher::copy_changes(const std::vector<float>& from, std::vector<float>& to) {
     to.resize(from.size());
     if (from.empty()) return;
     workers_.for_chunks(changed_in_.size(), 64, [&](std::size_t block, std::size_t end) {
         while (block < end) {
             std::size_t unchanged = block;
-            while (unchanged < end && changed_in_[unchanged] > back_.version) ++unchanged;
+            while (unchanged < end && changed_in_[unchanged] > back_.points_version) ++unchanged;
             if (unchanged > block) {
                 const std::size_t points = from.size() / 3;
                 const std::size_t first = 3 * points_of(block, points).first;
@@ -49,12 +49,33 @@ void LivePublisher::shape(const RestShape& shape, const Pipeline& pipeline, cons
     copy_changes(shape.positions, back_.positions);
     copy_changes(shape.normals, back_.normals);
     back_.changed_in = changed_in_;
-    back_.version = frames_;
-    back_.shows_pose = facts.pose_set.has_value();
-    if (facts.pose_set) back_.pose_set = *facts.pose_set;
-    back_.solve = facts.solve;
-    back_.upsample = facts.upsample;
-    shared_.with([&](LiveShared& s) { std::swap(s.frame, back_); });
+    back_.version = back_.points_version = frames_;
+    back_.on_device.reset();
+    note_facts(back_, facts);
+    last_is_drawn_ = false;
+    shared_.with([&](LiveShared& s) {
+        std::swap(s.frame, back_);
+        s.drawn = {};
+    });
+}
+
+void LivePublisher::note_facts(PosedFrame& frame, const FrameFacts& facts) {
+    frame.shows_pose = facts.pose_set.has_value();
+    if (facts.pose_set) frame.pose_set = *facts.pose_set;
+    frame.solve = facts.solve;
+    frame.upsample = facts.upsample;
+}
+
+// Whoever draws has other points from here on, so the next shape is all new.
+void LivePublisher::drawn(std::shared_ptr<const DeviceFrame> frame, const FrameFacts& facts) {
+    ++frames_;
+    shown_upsampling_ = 0;
+    last_is_drawn_ = true;
+    PosedFrame made;
+    made.version = frames_;
+    made.on_device = std::move(frame);
+    note_facts(made, facts);
+    shared_.with([&](LiveShared& s) { s.drawn = std::move(made); });
 }
 
 void LivePublisher::view(const Document& document, const LiveRecording& recording, const ViewFacts& facts) {

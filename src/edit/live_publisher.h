@@ -19,7 +19,10 @@ public:
         double solve = 0, upsample = 0; // seconds
     };
     void shape(const RestShape& shape, const Pipeline& pipeline, const FrameFacts& facts);
+    // The same, for whoever draws to move them.
+    void drawn(std::shared_ptr<const DeviceFrame> frame, const FrameFacts& facts);
     std::uint64_t shapes() const { return frames_; } // so many: the version of the last one
+    bool last_is_drawn() const { return last_is_drawn_; }
 
     // The document between two acts.
     struct ViewFacts {
@@ -42,6 +45,7 @@ public:
 
 private:
     void note_changes(const RestShape& shape, const Pipeline& pipeline);
+    static void note_facts(PosedFrame& frame, const FrameFacts& facts);
     void copy_changes(const std::vector<float>& from, std::vector<float>& to);
     void note_samples(const Pipeline& pipeline);
     void note_spacings(const Pipeline& pipeline);
@@ -54,6 +58,7 @@ private:
     std::vector<std::uint64_t> changed_in_; // of each block of points, the frame
     // Which of the pipeline's the last frame shows; 0: it shows another shape.
     std::uint64_t shown_upsampling_ = 0;
+    bool last_is_drawn_ = false;
     std::string told_of_strays_, told_of_demand_, told_of_swallowed_;
     // Copies for the window, which may look at them while the pipeline makes others.
     std::uint64_t samples_seen_ = 0;

@@ -73,7 +73,8 @@ struct LiveShared {
     std::deque<LiveTask> inbox;
     std::optional<WantedPose> wanted; // the newest pose of the drag that was begun last
     PlayPace pace;
-    std::size_t saves = 0; // that were asked for and are not done with
+    std::size_t saves = 0;        // that were asked for and are not done with
+    bool draws_on_device = false; // whoever draws can, and needs no positions in a drag
     bool stop = false;
     bool keep_journal = true;
 
@@ -82,6 +83,7 @@ struct LiveShared {
     OpenedCloud opened;
     std::shared_ptr<const DocumentView> view;
     PosedFrame frame;
+    PosedFrame drawn; // without points, if it is newer than `frame`
     std::vector<Notice> notices;
     std::vector<StepNumber> refused;
     std::vector<HeldSave> held_saves;

@@ -206,7 +206,9 @@ void LiveWork::wait_for_next_frame() {
     if (drag_ && drag_->repeats_pose() && drag_->is_coarse())
         wait(hand_rests, [](const LiveShared&) { return false; });
     if (drag_ && drag_->repeats_pose())
-        wait(longest_frame, [&](const LiveShared& s) { return s.frame.version != publisher_.shapes(); });
+        wait(longest_frame, [&](const LiveShared& s) {
+            return s.frame.version != publisher_.shapes() && !s.drawn.on_device;
+        });
 }
 
 bool LiveWork::something_to_do() const {
@@ -268,12 +270,24 @@ void LiveWork::show_document() {
     publish_shape(document_->shape(progress_), false);
 }
 
-void LiveWork::publish_shape(const RestShape& shape, bool of_drag) {
+LivePublisher::FrameFacts LiveWork::facts_of_frame(bool of_drag) const {
     LivePublisher::FrameFacts facts;
     if (of_drag) facts.pose_set = drag_->wanted->set;
     facts.solve = solve_seconds_;
     if (!document_->log().upsample.empty()) facts.upsample = document_->log().upsample.back();
-    publisher_.shape(shape, document_->pipeline(), facts);
+    return facts;
+}
+
+void LiveWork::publish_shape(const RestShape& shape, bool of_drag) {
+    publisher_.shape(shape, document_->pipeline(), facts_of_frame(of_drag));
+    since_frame_ = Stopwatch();
+}
+
+// The last frame of the drag. The points themselves follow when the hand rests: whatever is asked of them
+// then is answered by those that are seen.
+void LiveWork::publish_drag() {
+    if (!document_->drawn_frame() || drag_->rests) return publish_shape(document_->shown(progress_), true);
+    publisher_.drawn(document_->drawn_frame(), facts_of_frame(true));
     since_frame_ = Stopwatch();
 }
 

@@ -103,7 +103,9 @@ private:
     // --- Telling the window (live_work.cpp) ---
 
     void show_document();
+    LivePublisher::FrameFacts facts_of_frame(bool of_drag) const;
     void publish_shape(const RestShape& shape, bool of_drag);
+    void publish_drag();
     void publish_view();
     void refuse(StepNumber step);
     void say(Notice::Kind kind, const std::string& words) { publisher_.say(kind, words); }

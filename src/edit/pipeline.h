@@ -110,6 +110,10 @@ public:
     // Every point's position and normal for a state of the samples, into buffers that the pipeline keeps.
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
     const RestShape& posed() const { return posed_; }
+    // The same for whoever draws where the device shares its memory (upsample/drawing.h): posed() stays as it
+    // was. Null where that is not to be had.
+    std::shared_ptr<const DeviceFrame> frame(const std::vector<HandleMotion>& motions,
+                                             const SampleState& state);
     // How often upsample() was called, and in which call, from 1, it wrote each block of points
     // (upsample/point_blocks.h) of posed() last: since then the block has not changed by a bit. What rests -
     // handles that are held still, what lies outside a region of interest, frozen parts - is written once.
@@ -191,6 +195,7 @@ private:
     // Calls visit(sample, handle) for every handle of a single point that leaves rotation free.
     template<typename Visit>
     void for_lone_pegs(Visit&& visit) const;
+    void make_motions(const std::vector<HandleMotion>& motions, const SampleState& state);
     void put_exactly(Index sample, const Vec3d& displacement);
 
     const PointCloud& cloud_;

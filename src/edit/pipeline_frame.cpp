@@ -72,7 +72,8 @@ void Pipeline::for_lone_pegs(Visit&& visit) const {
     }
 }
 
-void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {
+// What moves the points, for these poses and this state.
+void Pipeline::make_motions(const std::vector<HandleMotion>& motions, const SampleState& state) {
     const std::span<const HandleMotion> given_motions = all_motions(motions);
     workers_.for_each(samples_.size(), 256, [&](std::size_t s) {
         const Index handle = system_.rest.handle[s];
@@ -95,6 +96,16 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
     workers_.for_each(carried_.size(), 16, [&](std::size_t part) {
         motions_[first_carried + part] = carried_motion(carried_, part, motions_);
     });
+}
+
+std::shared_ptr<const DeviceFrame> Pipeline::frame(const std::vector<HandleMotion>& motions,
+                                                   const SampleState& state) {
+    make_motions(motions, state);
+    return upsampler_.frame(motions_);
+}
+
+void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {
+    make_motions(motions, state);
     ++upsampled_;
     for (const Index block : upsampler_.run(motions_, posed_.positions, posed_.normals, Held::last_frame))
         written_[block] = upsampled_;

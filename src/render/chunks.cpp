@@ -68,6 +68,17 @@ void bound_chunks(std::span<const float> positions, std::span<const Index> numbe
     });
 }
 
+void join_boxes(std::span<const std::array<float, 6>> boxes, std::size_t points_in_box,
+                std::vector<Chunk>& chunks) {
+    const std::size_t in_chunk = points_in_chunk / points_in_box;
+    for (Chunk& chunk : chunks) chunk = {glm::vec3(huge), glm::vec3(-huge)};
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        Chunk& chunk = chunks[i / in_chunk];
+        chunk.lowest = glm::min(chunk.lowest, glm::vec3(boxes[i][0], boxes[i][1], boxes[i][2]));
+        chunk.highest = glm::max(chunk.highest, glm::vec3(boxes[i][3], boxes[i][4], boxes[i][5]));
+    }
+}
+
 void chunks_with(std::span<const PointRange> points, std::vector<Index>& numbers) {
     numbers.clear();
     for (const PointRange& range : points) {

@@ -7,6 +7,7 @@
 #include "base/workers.h"
 #include "view/camera.h"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -24,6 +25,11 @@ struct Chunk {
 // Bounds the chunks with these numbers; `chunks` has chunks_of() entries, and the others stay as they are.
 void bound_chunks(std::span<const float> positions, std::span<const Index> numbers,
                   std::vector<Chunk>& chunks, Workers& workers);
+
+// All chunks, from the boxes of every `points_in_box` points, of which a whole number make a chunk: lowest x,
+// y, z and highest x, y, z, lowest > highest where there are no finite ones.
+void join_boxes(std::span<const std::array<float, 6>> boxes, std::size_t points_in_box,
+                std::vector<Chunk>& chunks);
 
 constexpr std::size_t chunks_of(std::size_t points) {
     return (points + points_in_chunk - 1) / points_in_chunk;

@@ -324,6 +324,21 @@ void PointRenderer::set_normals(std::span<const float> normals, std::span<const 
     ++s.points_version;
 }
 
+PointRenderer::DrawnBuffers PointRenderer::buffers_to_write() {
+    State& s = *state_;
+    const Splats::Buffers buffers = s.splats->buffers();
+    if (!s.has_positions || buffers.positions == 0) return {};
+    glFinish();
+    return {buffers.positions, s.has_normals ? buffers.normals : 0};
+}
+
+void PointRenderer::note_written(std::span<const std::array<float, 6>> boxes, std::size_t points_in_box) {
+    State& s = *state_;
+    require(boxes.size() == (s.n + points_in_box - 1) / points_in_box, "a box for all points");
+    join_boxes(boxes, points_in_box, s.chunks);
+    ++s.points_version;
+}
+
 void PointRenderer::set_colors(std::span<const std::uint32_t> rgba) {
     require(rgba.size() == state_->n, "a colour a point");
     state_->colors.assign(rgba.begin(), rgba.end());

@@ -15,6 +15,7 @@
 #include "view/camera.h"
 #include "view/marks.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -94,6 +95,15 @@ public:
     // more is copied.
     void set_positions(std::span<const float> positions, std::span<const PointRange> changed);
     void set_normals(std::span<const float> normals, std::span<const PointRange> changed);
+    // For whoever writes positions, and normals, where they are drawn from: OpenGL's names of the buffers, of
+    // 3n floats each, which OpenGL is done with. 0 where there are none: before set_positions() or
+    // set_normals(), and where the processor draws. What was written is told by boxes around it, lowest x, y,
+    // z and highest x, y, z, of every `points_in_box` (a power of two up to 1024) points.
+    struct DrawnBuffers {
+        unsigned positions = 0, normals = 0;
+    };
+    DrawnBuffers buffers_to_write();
+    void note_written(std::span<const std::array<float, 6>> boxes, std::size_t points_in_box);
     void set_colors(std::span<const std::uint32_t> rgba); // bytes r, g, b, ignored
     // How far apart the points lie around each, in the same unit as `spacing`, which is the least that
     // counts: splats are so much wider. Or empty: all alike.

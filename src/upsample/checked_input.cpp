@@ -50,10 +50,14 @@ void require_valid_input(const UpsampleInput& input, std::size_t motions, Worker
     require(end <= motions, "every influence's motion exists");
 }
 
+void require_motions(std::size_t motions_prepared, std::span<const Motion> motions) {
+    require(motions.size() == motions_prepared, "a frame has as many motions as prepare() was told");
+}
+
 void require_valid_frame(const UpsampleInput& input, std::size_t motions_prepared,
                          std::span<const Motion> motions, std::span<float> positions,
                          std::span<float> normals) {
-    require(motions.size() == motions_prepared, "a frame has as many motions as prepare() was told");
+    require_motions(motions_prepared, motions);
     require(positions.size() == input.positions.size(), "a place for every moved position");
     require(normals.size() == input.normals.size(), "a place for every moved normal");
 }

@@ -45,9 +45,11 @@ std::size_t device_called(const std::string& request, const std::vector<DeviceDe
     return fitting.front();
 }
 
-UpsamplerChoice on_device(std::size_t device, Workers& workers, unsigned threads) {
+UpsamplerChoice on_device(std::size_t device, Workers& workers, unsigned threads,
+                          const std::shared_ptr<const GlSharing>& sharing) {
     try {
-        return {make_fallback_upsampler(make_opencl_upsampler(device, workers, threads), workers), {}};
+        auto upsampler = make_opencl_upsampler(device, workers, threads, {.sharing = sharing});
+        return {make_fallback_upsampler(std::move(upsampler), workers), {}};
     } catch (const DeviceFailure& failure) {
         return {make_reference_upsampler(workers),
                 std::string("the points are moved in plain C++, as ") + failure.what()};
@@ -75,6 +77,11 @@ std::vector<DeviceDescription> list_devices() {
 }
 
 UpsamplerChoice make_upsampler(const std::string& request, Workers& workers, unsigned threads) {
+    return make_drawing_upsampler(request, workers, threads, nullptr);
+}
+
+UpsamplerChoice make_drawing_upsampler(const std::string& request, Workers& workers, unsigned threads,
+                                       std::shared_ptr<const GlSharing> sharing) {
     const std::string wanted = lower_case(request);
     if (wanted == "reference") return {make_reference_upsampler(workers), {}};
     const std::vector<DeviceDescription> devices = list_devices();
@@ -82,13 +89,13 @@ UpsamplerChoice make_upsampler(const std::string& request, Workers& workers, uns
         const auto best =
             std::find_if(devices.begin(), devices.end(), [](const auto& d) { return d.is_default; });
         if (best != devices.end())
-            return on_device(static_cast<std::size_t>(best - devices.begin()), workers, threads);
+            return on_device(static_cast<std::size_t>(best - devices.begin()), workers, threads, sharing);
         return {make_reference_upsampler(workers),
                 "no OpenCL device was found, so the points are moved in plain C++; apt-get install "
                 "pocl-opencl-icd adds one for the CPU, which needs a home folder that it can write to"};
     }
     return on_device(is_number(request) ? device_numbered(request, devices) : device_called(request, devices),
-                     workers, threads);
+                     workers, threads, sharing);
 }
 
 } // namespace knead

@@ -2,7 +2,7 @@
 // Which OpenCL devices there are, and an Upsampler on the one that the user asked for. upsample.h says what
 // an Upsampler does. No OpenCL type leaves this room.
 
-#include "upsample/upsample.h"
+#include "upsample/drawing.h"
 
 #include <cstdint>
 #include <functional>
@@ -47,17 +47,29 @@ struct UpsamplerChoice {
 UpsamplerChoice make_upsampler(const std::string& request, Workers& workers, unsigned threads);
 using UpsamplerMaker = std::function<decltype(make_upsampler)>;
 
+// The same, and where the device that is asked for is the one that shares its memory with OpenGL, it does.
+// `sharing` may be null.
+UpsamplerChoice make_drawing_upsampler(const std::string& request, Workers& workers, unsigned threads,
+                                       std::shared_ptr<const GlSharing> sharing);
+
 // Where a device finds the points. On a CPU its memory is the caller's, and nothing is copied; a GPU has its
 // own, filled by prepare(), and a frame is one write of the motions and one read of each result.
 enum class DeviceMemory { as_the_device_has_it, own };
 
-// One device by its number in list_devices(), with nothing to fall back on: prepare() and run() may throw
-// DeviceFailure. Opens nothing before the first prepare(); throws DeviceFailure if there is no such device
-// any more. `workers` prepare, and must outlive the result. For tests: `own` copies on a CPU too, and
-// `kernel` is built instead of kernels/upsample.cl; it must outlive the result, too.
+// How a device is used.
+struct DeviceUse {
+    // For tests: `own` copies on a CPU, too, and says that it shares with OpenGL.
+    DeviceMemory memory = DeviceMemory::as_the_device_has_it;
+    const char* kernel =
+        nullptr; // is built instead of kernels/upsample.cl, for tests; outlives the upsampler
+    std::shared_ptr<const GlSharing> sharing = {}; // as of make_drawing_upsampler()
+};
+
+// One device by its number in list_devices(), with nothing to fall back on: prepare(), run() and frame() may
+// throw DeviceFailure. Opens nothing before the first prepare(); throws DeviceFailure if there is no such
+// device any more. `workers` prepare, and must outlive the result.
 std::unique_ptr<Upsampler> make_opencl_upsampler(std::size_t device, Workers& workers, unsigned threads,
-                                                 DeviceMemory memory = DeviceMemory::as_the_device_has_it,
-                                                 const char* kernel = nullptr);
+                                                 const DeviceUse& use = {});
 
 // Runs `primary` until it throws DeviceFailure; from that very call on the reference does the work, and
 // take_warning() tells of it. Other exceptions go through. `workers` must outlive the result.

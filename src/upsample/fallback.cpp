@@ -35,6 +35,12 @@ public:
         }
     }
 
+    std::shared_ptr<const DeviceFrame> frame(std::span<const Motion> motions) override {
+        return current_->frame(motions); // calls no device
+    }
+
+    bool shares_with_opengl() const override { return current_->shares_with_opengl(); }
+
     std::size_t influence_bytes() const override { return current_->influence_bytes(); }
 
     std::string take_warning() override { return std::exchange(warning_, {}); }

@@ -113,13 +113,17 @@ void check_opencl(cl_int code, const char* doing) {
                         std::to_string(code));
 }
 
+std::vector<cl_platform_id> opencl_platforms() {
+    cl_uint count = 0;
+    if (clGetPlatformIDs(0, nullptr, &count) != CL_SUCCESS || count == 0) return {};
+    std::vector<cl_platform_id> platforms(count);
+    if (clGetPlatformIDs(count, platforms.data(), nullptr) != CL_SUCCESS) return {};
+    return platforms;
+}
+
 std::vector<OpenClDevice> find_opencl_devices() {
     std::vector<OpenClDevice> found;
-    cl_uint count = 0;
-    if (clGetPlatformIDs(0, nullptr, &count) != CL_SUCCESS || count == 0) return found;
-    std::vector<cl_platform_id> platforms(count);
-    if (clGetPlatformIDs(count, platforms.data(), nullptr) != CL_SUCCESS) return found;
-    for (cl_platform_id platform : platforms) add_devices_of(platform, found);
+    for (cl_platform_id platform : opencl_platforms()) add_devices_of(platform, found);
     mark_default(found);
     return found;
 }

@@ -1,14 +1,13 @@
 // The upsampling kernel on an OpenCL device: kernels/upsample.cl, built and fed.
 
-#include "base/require.h"
 #include "upsample/changed_blocks.h"
 #include "upsample/checked_input.h"
 #include "upsample/influence_groups.h"
+#include "upsample/on_device.h"
 #include "upsample/opencl_devices.h"
 #include "upsample/point_blocks.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <utility>
 
@@ -23,104 +22,27 @@ namespace {
 // What exists once a device: opened by the first prepare().
 struct OpenedDevice {
     DeviceHandle part; // null for the whole device
-    ContextHandle context;
+    std::shared_ptr<std::remove_pointer_t<cl_context>> context;
     QueueHandle queue;
+    bool shares_with_gl = false;
 };
 
-struct BuiltKernel {
-    ProgramHandle program; // null: not built yet
-    KernelHandle move_positions;
-    KernelHandle move_both;
-};
-
-std::string build_log(cl_program program, cl_device_id device) {
-    std::size_t size = 0;
-    if (clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size) != CL_SUCCESS ||
-        size == 0)
-        return "no build log";
-    std::string log(size, '\0');
-    if (clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr) != CL_SUCCESS)
-        return "no build log";
-    log.resize(std::min(log.size(), log.find('\0')));
-    return log;
-}
-
-// Root and quotient are rounded correctly where the device can do so, as in C++.
-std::string build_options(cl_device_id device, bool sixteen_at_once) {
-    std::string options = "-D POINTS_IN_BLOCK=" + std::to_string(points_in_block) +
-                          " -D POINTS_IN_GROUP=" + std::to_string(points_in_group) +
-                          " -D WHOLE_SHARE=" + std::to_string(whole_share);
-    if (sixteen_at_once) options += " -D SIXTEEN";
-    cl_device_fp_config floats = 0;
-    if (clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof floats, &floats, nullptr) == CL_SUCCESS &&
-        (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0)
-        options += " -cl-fp32-correctly-rounded-divide-sqrt";
-    return options;
-}
-
-ProgramHandle build_program(cl_context context, cl_device_id device, const char* text, bool sixteen_at_once) {
-    cl_int code = CL_SUCCESS;
-    ProgramHandle program(clCreateProgramWithSource(context, 1, &text, nullptr, &code));
-    check_opencl(code, "reading the kernel");
-    const std::string options = build_options(device, sixteen_at_once);
-    code = clBuildProgram(program.get(), 1, &device, options.c_str(), nullptr, nullptr);
-    if (code == CL_BUILD_PROGRAM_FAILURE)
-        throw DeviceFailure("the kernel does not compile: " + build_log(program.get(), device));
-    check_opencl(code, "building the kernel");
-    return program;
-}
-
-KernelHandle kernel_named(cl_program program, const char* name) {
-    cl_int code = CL_SUCCESS;
-    KernelHandle kernel(clCreateKernel(program, name, &code));
-    check_opencl(code, "finding the kernel");
-    return kernel;
-}
-
-OpenedDevice open_device(const OpenClDevice& device, unsigned threads) {
+OpenedDevice open_device(const OpenClDevice& device, unsigned threads, const GlSharing* sharing) {
     OpenedDevice opened;
     opened.part = limited_to(device, threads);
     cl_device_id id = opened.part ? opened.part.get() : device.id;
     cl_int code = CL_SUCCESS;
-    opened.context.reset(clCreateContext(nullptr, 1, &id, nullptr, nullptr, &code));
-    check_opencl(code, "opening the device");
+    opened.shares_with_gl = !opened.part && sharing && sharing->device == id;
+    if (opened.shares_with_gl) {
+        opened.context = sharing->context;
+    } else {
+        opened.context = ContextHandle(clCreateContext(nullptr, 1, &id, nullptr, nullptr, &code));
+        check_opencl(code, "opening the device");
+    }
     opened.queue.reset(clCreateCommandQueue(opened.context.get(), id, 0, &code));
     check_opencl(code, "making a queue");
     return opened;
 }
-
-BuiltKernel build_kernel(cl_context context, cl_device_id device, const char* text, bool sixteen_at_once) {
-    BuiltKernel built;
-    built.program = build_program(context, device, text, sixteen_at_once);
-    built.move_positions = kernel_named(built.program.get(), "upsample_positions");
-    built.move_both = kernel_named(built.program.get(), "upsample_positions_and_normals");
-    return built;
-}
-
-BufferHandle make_buffer(cl_context context, cl_mem_flags flags, std::size_t bytes, void* host) {
-    cl_int code = CL_SUCCESS;
-    BufferHandle buffer(clCreateBuffer(context, flags, bytes, host, &code));
-    check_opencl(code, "allocating memory");
-    return buffer;
-}
-
-template<typename... Arguments>
-void set_arguments(cl_kernel kernel, const Arguments&... arguments) {
-    cl_uint place = 0;
-    // A buffer is passed as its handle, a pointer. NOLINTNEXTLINE(bugprone-sizeof-expression)
-    (check_opencl(clSetKernelArg(kernel, place++, sizeof(Arguments), &arguments), "passing an argument"),
-     ...);
-}
-
-// What a call has to wait for. Each call of a frame names the one before it: so that a kernel or a copy that
-// fails on the device fails the call that waits for the result, which an order in the queue alone need not
-// do.
-struct After {
-    explicit After(const EventHandle& done) : event(done.get()) {}
-    cl_event event;
-    cl_uint count() const { return event ? 1 : 0; }
-    const cl_event* list() const { return event ? &event : nullptr; }
-};
 
 // A buffer for one of the results, and the caller's array that it wraps or is read into.
 struct Result {
@@ -130,11 +52,11 @@ struct Result {
 
 class OpenClUpsampler final : public Upsampler {
 public:
-    OpenClUpsampler(OpenClDevice device, Workers& workers, unsigned threads, DeviceMemory memory,
-                    const char* kernel)
+    OpenClUpsampler(OpenClDevice device, Workers& workers, unsigned threads, const DeviceUse& use)
         : device_(std::move(device)), workers_(workers), threads_(threads),
-          kernel_(kernel ? kernel : embedded::upsample_kernel),
-          shares_memory_(memory == DeviceMemory::as_the_device_has_it &&
+          kernel_text_(use.kernel ? use.kernel : embedded::upsample_kernel), sharing_(use.sharing),
+          is_tested_(use.memory == DeviceMemory::own),
+          shares_memory_(use.memory == DeviceMemory::as_the_device_has_it &&
                          device_.description.type == DeviceType::cpu) {}
 
     // What a call that failed left under way must not write into arrays that somebody else has by then.
@@ -158,19 +80,14 @@ public:
         if (input.mover.empty()) influences_ = {};
         moved_positions_ = {};
         moved_normals_ = {};
-        if (!opened_.queue) opened_ = open_device(device_, threads_);
+        on_device_.reset();
+        if (!opened_.queue) opened_ = open_device(device_, threads_, sharing_.get());
         if (!input.mover.empty()) {
-            build();
-            positions_ = hand_over(input.positions);
-            normals_ = hand_over(input.normals);
             influences_.prepare(input, workers_);
-            groups_ = hand_over(influences_.groups());
-            entry_motions_ = hand_over(influences_.motion());
-            shares_ = hand_over(influences_.share());
-            first_handle_ = first_without_place(input);
+            hand_over(input);
             make_motions();
             make_blocks(blocks_of(input.mover.size()));
-            changes_.prepare(input, motions, workers_);
+            changes_ = on_device_->changes;
             if (!shares_memory_) make_results(input);
             launch_once(input);
         }
@@ -189,21 +106,56 @@ public:
         return blocks;
     }
 
+    std::shared_ptr<const DeviceFrame> frame(std::span<const Motion> motions) override {
+        if (!on_device_ || shares_memory_) return nullptr;
+        require_motions(motion_count_, motions);
+        auto made = std::make_shared<DeviceFrame>(DeviceFrame{on_device_, packed_});
+        pack_motions(motions, input_.weights, input_.places, std::span(made->motions).subspan(1));
+        return made;
+    }
+
+    bool shares_with_opengl() const override { return opened_.shares_with_gl || is_tested_; }
+
 private:
+    KernelShape shape() const {
+        return shares_memory_ ? KernelShape::sixteen_at_once : KernelShape::many_items;
+    }
+
     void build() {
-        if (built_.program) return;
+        if (program_) return;
         cl_device_id id = opened_.part ? opened_.part.get() : device_.id;
-        built_ = build_kernel(opened_.context.get(), id, kernel_, shares_memory_);
+        program_ = build_program(opened_.context.get(), id, kernel_text_, shape());
     }
 
     // Null for no values: OpenCL knows no empty buffer.
     template<typename Value>
-    BufferHandle hand_over(std::span<const Value> values) {
+    BufferHandle buffer_of(std::span<const Value> values) {
         if (values.empty()) return {};
         const cl_mem_flags how = shares_memory_ ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
         // OpenCL takes no pointer to const, but only reads what is CL_MEM_READ_ONLY.
         return make_buffer(opened_.context.get(), CL_MEM_READ_ONLY | how, values.size_bytes(),
                            const_cast<Value*>(values.data()));
+    }
+
+    void hand_over(const UpsampleInput& input) {
+        build();
+        auto points = std::make_shared<PointsOnDevice>();
+        points->device = opened_.part ? opened_.part.get() : device_.id;
+        points->context = opened_.context;
+        points->program = program_;
+        points->shape = shape();
+        points->points = input.mover.size();
+        points->motions = motion_count_ + 1;
+        points->positions = buffer_of(input.positions);
+        points->normals = buffer_of(input.normals);
+        points->groups = buffer_of(influences_.groups());
+        points->entry_motions = buffer_of(influences_.motion());
+        points->shares = buffer_of(influences_.share());
+        points->first_handle = first_without_place(input);
+        points->changes.prepare(input, motion_count_, workers_);
+        KernelHandle& kernel = points->normals ? move_both_ : move_positions_;
+        if (!kernel) kernel = moving_kernel(*points);
+        on_device_ = std::move(points);
     }
 
     void make_motions() {
@@ -245,8 +197,8 @@ private:
         const BufferHandle positions = make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, bytes, nullptr);
         const BufferHandle normals = make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, bytes, nullptr);
         const EventHandle largest =
-            launch(points, listed_.size(), positions.get(), normals.get(), After(written));
-        const EventHandle smallest = launch(points, 1, positions.get(), normals.get(), After(largest));
+            launch_moving(points, listed_.size(), positions.get(), normals.get(), After(written));
+        const EventHandle smallest = launch_moving(points, 1, positions.get(), normals.get(), After(largest));
         check_opencl(clWaitForEvents(1, After(smallest).list()), "the first launch");
     }
 
@@ -260,8 +212,8 @@ private:
         const bool is_listed = std::ranges::equal(blocks, std::span(listed_).first(listed_count_));
         listed_count_ = 0; // until this frame has succeeded nobody knows what the device has
         if (!is_listed) done = write_blocks(blocks, After(done));
-        done = launch(input_.mover.size(), blocks.size(), moved_positions_.buffer.get(),
-                      moved_normals_.buffer.get(), After(done));
+        done = launch_moving(input_.mover.size(), blocks.size(), moved_positions_.buffer.get(),
+                             moved_normals_.buffer.get(), After(done));
         note_ranges(blocks);
         done = read(moved_positions_, positions, normals.empty(), std::move(done));
         if (!normals.empty()) read(moved_normals_, normals, true, std::move(done));
@@ -269,22 +221,15 @@ private:
     }
 
     EventHandle write_motions() {
-        cl_event written = nullptr;
-        check_opencl(clEnqueueWriteBuffer(opened_.queue.get(), motions_.get(), CL_FALSE, 0,
-                                          packed_.size() * sizeof(PackedMotion), packed_.data(), 0, nullptr,
-                                          &written),
-                     "writing the motions");
-        return EventHandle(written);
+        return write_buffer(opened_.queue.get(), motions_.get(), std::span<const PackedMotion>(packed_),
+                            After(nullptr), "writing the motions");
     }
 
     EventHandle write_blocks(std::span<const Index> blocks, const After& after) {
         std::ranges::copy(blocks, listed_.begin());
-        cl_event written = nullptr;
-        check_opencl(clEnqueueWriteBuffer(opened_.queue.get(), blocks_.get(), CL_FALSE, 0,
-                                          blocks.size_bytes(), listed_.data(), after.count(), after.list(),
-                                          &written),
-                     "writing what moves");
-        return EventHandle(written);
+        return write_buffer(opened_.queue.get(), blocks_.get(),
+                            std::span<const Index>(listed_).first(blocks.size()), after,
+                            "writing what moves");
     }
 
     void wrap(std::span<float> array, Result& result) {
@@ -296,29 +241,12 @@ private:
     }
 
     // Moves what the first so many blocks of the list have of the first `points`.
-    EventHandle launch(cl_ulong points, std::size_t blocks, cl_mem moved_positions, cl_mem moved_normals,
-                       const After& after) {
-        cl_mem const listed = blocks_.get();
-        cl_mem const positions = positions_.get();
-        cl_mem const groups = groups_.get();
-        cl_mem const entry_motions = entry_motions_.get();
-        cl_mem const shares = shares_.get();
-        cl_mem const motions = motions_.get();
-        cl_mem const normals = normals_.get();
-        cl_kernel kernel = normals ? built_.move_both.get() : built_.move_positions.get();
-        if (normals)
-            set_arguments(kernel, points, listed, positions, groups, entry_motions, shares, first_handle_,
-                          motions, moved_positions, normals, moved_normals);
-        else
-            set_arguments(kernel, points, listed, positions, groups, entry_motions, shares, first_handle_,
-                          motions, moved_positions);
-        const std::size_t items_per_group = shares_memory_ ? 1 : points_in_block;
-        const std::size_t items = blocks * items_per_group;
-        cl_event moved = nullptr;
-        check_opencl(clEnqueueNDRangeKernel(opened_.queue.get(), kernel, 1, nullptr, &items, &items_per_group,
-                                            after.count(), after.list(), &moved),
-                     "launching the kernel");
-        return EventHandle(moved);
+    EventHandle launch_moving(cl_ulong points, std::size_t blocks, cl_mem moved_positions,
+                              cl_mem moved_normals, const After& after) {
+        cl_kernel kernel = on_device_->normals ? move_both_.get() : move_positions_.get();
+        set_moving(kernel, *on_device_, points, blocks_.get(), motions_.get(), moved_positions,
+                   moved_normals);
+        return launch(opened_.queue.get(), kernel, blocks, items_per_block(on_device_->shape), after);
     }
 
     // What read() fetches: where memory is shared, all at once, as nothing is copied.
@@ -348,31 +276,34 @@ private:
     OpenClDevice device_;
     Workers& workers_;
     unsigned threads_;
-    const char* kernel_;
+    const char* kernel_text_;
+    std::shared_ptr<const GlSharing> sharing_;
+    bool is_tested_;
     bool shares_memory_;
     OpenedDevice opened_;
-    BuiltKernel built_;
+    std::shared_ptr<std::remove_pointer_t<cl_program>> program_; // null: not built yet
+    KernelHandle move_positions_, move_both_;                    // null where there was no need yet
 
     UpsampleInput input_;
     std::size_t motion_count_ = 0;
     std::vector<PackedMotion> packed_; // one that moves nothing, and the motions, as the device reads them
     InfluenceGroups influences_;
-    cl_uint first_handle_ = 0;
+    std::shared_ptr<const PointsOnDevice> on_device_; // null: no points
     ChangedBlocks changes_;
     std::vector<Index> listed_; // the blocks of the last frame, and room for all of them
     std::size_t listed_count_ = 0;
     std::vector<PointRange> ranges_; // of them, that are read
-    BufferHandle positions_, normals_, groups_, entry_motions_, shares_, motions_, blocks_;
+    BufferHandle motions_, blocks_;
     Result moved_positions_, moved_normals_;
 };
 
 } // namespace
 
 std::unique_ptr<Upsampler> make_opencl_upsampler(std::size_t device, Workers& workers, unsigned threads,
-                                                 DeviceMemory memory, const char* kernel) {
+                                                 const DeviceUse& use) {
     std::vector<OpenClDevice> devices = find_opencl_devices();
     if (device >= devices.size()) throw DeviceFailure("the device is not there any more");
-    return std::make_unique<OpenClUpsampler>(std::move(devices[device]), workers, threads, memory, kernel);
+    return std::make_unique<OpenClUpsampler>(std::move(devices[device]), workers, threads, use);
 }
 
 } // namespace knead

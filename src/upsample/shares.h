@@ -87,6 +87,7 @@ inline std::array<std::uint16_t, influences_per_row> shares_of(const Movers& mov
     std::array<std::int32_t, influences_per_row> parts;
     std::int32_t left = whole_share;
     for (std::size_t k = 0; k < influences_per_row; ++k) {
+        // No weight is negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)
         parts[k] = static_cast<std::int32_t>(w[k] * scale + 0.5F);
         left -= parts[k];
     }

@@ -38,6 +38,7 @@
 namespace knead {
 
 class Workers;
+struct DeviceFrame;
 
 // The displacement of one sample or handle: row-major [A | b], lengths in the cloud's units, about its
 // origin.
@@ -102,6 +103,13 @@ public:
     // Returns the blocks that were written, ascending, good until the next call.
     virtual std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
                                        std::span<float> normals, Held held) = 0;
+
+    // A frame of these motions, as many as of run(), by which drawing.h moves the points, at any time and in
+    // any thread, whatever becomes of this upsampler. Null where the device has no memory of its own: then
+    // run() is all there is.
+    virtual std::shared_ptr<const DeviceFrame> frame(std::span<const Motion> /*motions*/) { return nullptr; }
+    // Whether that may be where they are drawn: see make_drawing_upsampler(). After the first prepare().
+    virtual bool shares_with_opengl() const { return false; }
 
     // What a frame of all points reads, beside their rest shape, to know what moves which of them.
     virtual std::size_t influence_bytes() const = 0;

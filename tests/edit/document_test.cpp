@@ -117,6 +117,36 @@ TEST(Document, ResolvesARegionOnTheRestShapeOfItsLine) {
     EXPECT_SAYS(refusal(desk, high), "is empty");
 }
 
+TEST(Document, PointsThatAreLeftForLaterAreThoseOfTheFrame) {
+    if (list_devices().empty()) GTEST_SKIP() << "there is no OpenCL device";
+    const auto own_memory = [](const std::string&, Workers& workers, unsigned threads) {
+        return UpsamplerChoice{make_opencl_upsampler(0, workers, threads, {.memory = DeviceMemory::own}), {}};
+    };
+    Desk now(bar(), {}, 2, "", Document::Mode::real, own_memory);
+    Desk later(bar(), {}, 2, "", Document::Mode::real, own_memory);
+    SilentProgress silent;
+    HandlePose pose;
+    for (Desk* desk : {&now, &later}) {
+        desk->play(ends);
+        desk->document().begin_drag("top", {0, 0, 2}, "", silent);
+    }
+    for (int frame = 1; frame <= 3; ++frame) {
+        pose.translate = {0.1 * frame, 0, 0.2};
+        now.document().drag_frame(pose, "", silent);
+        later.document().drag_frame(pose, "", silent, Document::Points::later);
+        EXPECT_EQ(now.document().drawn_frame(), nullptr);
+        EXPECT_NE(later.document().drawn_frame(), nullptr);
+        if (frame == 2) {
+            EXPECT_EQ(later.document().shown(silent).positions, now.document().shown(silent).positions);
+            EXPECT_EQ(later.document().drawn_frame(), nullptr) << "the points are there";
+        }
+    }
+    for (Desk* desk : {&now, &later}) desk->document().end_drag();
+    EXPECT_EQ(later.document().drawn_frame(), nullptr);
+    EXPECT_EQ(later.shape(), now.shape());
+    EXPECT_NE(later.shape(), bar().positions);
+}
+
 // --- Refusals
 
 TEST(Document, RefusesToDragWhatIsNoMovingHandle) {

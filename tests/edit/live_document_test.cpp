@@ -279,4 +279,53 @@ TEST(LiveDocument, ClosesAtOnceWhileItOpens) {
     live.cancel_opening();
 }
 
+// As in the window of a computer whose device draws: frames of a drag come without points.
+TEST_F(LiveBar, WhereTheDeviceDrawsTheDragThePointsComeWhenTheHandRests) {
+    if (list_devices().empty()) GTEST_SKIP() << "there is no OpenCL device";
+    OpenRequest request = request_for(bar_file(folder_));
+    request.device = "0";
+    request.make_upsampler = [](const std::string&, Workers& workers, unsigned threads) {
+        return UpsamplerChoice{make_opencl_upsampler(0, workers, threads, {.memory = DeviceMemory::own}), {}};
+    };
+    open(std::move(request));
+    ASSERT_FALSE(HasFailure());
+    live_->draw_drags_on_device(true);
+    const std::vector<float> rest = frame_.positions;
+
+    live_->begin_drag(++step_, "high", {0, 0, 2});
+    live_->drag_to(turned(3, {1, 0, 0})); // takes several frames
+    ASSERT_TRUE(wait_until([&] { return live_->take_frame(frame_) && frame_.on_device; }));
+    EXPECT_TRUE(frame_.shows_pose);
+    EXPECT_GT(frame_.version, frame_.points_version);
+    EXPECT_EQ(frame_.positions, rest);
+
+    settle_down(); // the hand rests
+    EXPECT_FALSE(frame_.on_device);
+    EXPECT_EQ(frame_.version, frame_.points_version);
+    EXPECT_GT(largest_displacement(), 0.3);
+    const std::vector<float> resting = frame_.positions;
+    std::vector<PointRange> changed;
+    changed_since(frame_.version - 1, frame_, changed);
+    ASSERT_EQ(changed.size(), 1U);
+    EXPECT_EQ(changed[0].first, 0U);
+    EXPECT_EQ(changed[0].end, rest.size() / 3) << "whoever drew other points needs all of these";
+
+    live_->drag_to(turned(3.2, {1, 0, 0}));
+    live_->end_drag(); // before it rests
+    settle_down();
+    EXPECT_FALSE(frame_.on_device);
+    EXPECT_NE(frame_.positions, resting);
+    const std::vector<float> posed = frame_.positions;
+
+    live_->begin_drag(++step_, "high", {0, 0, 2});
+    live_->drag_to(turned(-2, {1, 0, 0}));
+    ASSERT_TRUE(wait_until([&] { return live_->take_frame(frame_) && frame_.on_device; }));
+    live_->draw_drags_on_device(false); // the colours follow the pose now, say
+    live_->drag_to(turned(-2.1, {1, 0, 0}));
+    ASSERT_TRUE(wait_until([&] { return live_->take_frame(frame_) && !frame_.on_device; }));
+    live_->cancel_drag();
+    settle_down();
+    EXPECT_EQ(frame_.positions, posed);
+}
+
 } // namespace knead::test

@@ -27,5 +27,20 @@ TEST(Chunks, WithChangedPointsAreThoseTheyLieInEachOnce) {
     }
 }
 
+TEST(Chunks, AreJoinedFromBoxesOfFewerPoints) {
+    std::vector<std::array<float, 6>> boxes(9,
+                                            {1e30F, 1e30F, 1e30F, -1e30F, -1e30F, -1e30F}); // of 256 points
+    boxes[0] = {0, 1, 2, 3, 4, 5};
+    boxes[3] = {-1, 2, 2, 0, 9, 3};
+    boxes[8] = {7, 7, 7, 8, 8, 8};
+    std::vector<Chunk> chunks(3, Chunk{glm::vec3(0), glm::vec3(1)});
+    join_boxes(boxes, 256, chunks);
+    EXPECT_EQ(chunks[0].lowest, glm::vec3(-1, 1, 2));
+    EXPECT_EQ(chunks[0].highest, glm::vec3(3, 9, 5));
+    EXPECT_TRUE(chunks[1].empty());
+    EXPECT_EQ(chunks[2].lowest, glm::vec3(7));
+    EXPECT_EQ(chunks[2].highest, glm::vec3(8));
+}
+
 } // namespace
 } // namespace knead::test

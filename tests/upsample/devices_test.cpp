@@ -56,8 +56,8 @@ TEST(FallbackUpsampler, ReplacesARealDeviceWhoseKernelDoesNotBuild) {
         {"kernel void another(global float* a) { a[0] = 0; }", "finding the kernel"}};
     for (const auto& [kernel, words] : kernels)
         for (const DeviceMemory memory : {DeviceMemory::as_the_device_has_it, DeviceMemory::own}) {
-            const auto upsampler =
-                make_fallback_upsampler(make_opencl_upsampler(0, workers, 0, memory, kernel), workers);
+            const auto upsampler = make_fallback_upsampler(
+                make_opencl_upsampler(0, workers, 0, {.memory = memory, .kernel = kernel}), workers);
             EXPECT_EQ(upsampled(*upsampler, scene), expected);
             EXPECT_EQ(upsampler->device(), "reference");
             const std::string warning = upsampler->take_warning();

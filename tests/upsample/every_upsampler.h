@@ -28,9 +28,9 @@ protected:
         const bool own = GetParam() == Path::device_with_own_memory;
         const std::size_t devices = list_devices().size();
         for (std::size_t i = 0; i < devices; ++i)
-            made.push_back(make_opencl_upsampler(i, *workers_.back(), threads,
-                                                 own ? DeviceMemory::own : DeviceMemory::as_the_device_has_it,
-                                                 kernel));
+            made.push_back(make_opencl_upsampler(
+                i, *workers_.back(), threads,
+                {.memory = own ? DeviceMemory::own : DeviceMemory::as_the_device_has_it, .kernel = kernel}));
         return made;
     }
 

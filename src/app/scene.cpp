@@ -46,9 +46,9 @@ struct Scene::State {
     std::vector<std::uint32_t> colors;
 
     void begin_cloud(const Editor& editor, Display& display);
-    void take_positions(const Editor& editor, const Display& display);
+    void take_positions(const Editor& editor, UiState& state);
     void upload(const PosedFrame& frame);
-    bool move_where_drawn(const PosedFrame& frame);
+    bool move_where_drawn(const PosedFrame& frame, UiState& state);
     bool can_draw_drags(const Editor& editor, const Display& display) const;
     void take_marks(const Editor& editor, const Display& display);
     void take_looks(const Editor& editor, const UiState& state);
@@ -94,9 +94,9 @@ bool same(const std::vector<HandleLook>& a, const std::vector<HandleLook>& b) {
 void Scene::State::begin_cloud(const Editor& editor, Display& display) {
     if (display.coloring == Coloring::attribute) // of the cloud before
         display.coloring = Coloring::file;
-    renderer.set_points(editor.marks.size(), editor.opened.spacing);
-    drawn = std::make_unique<DrawnPoints>(); // the buffers are others
+    drawn = std::make_unique<DrawnPoints>(); // the buffers become others
     drawn_is_newest = false;
+    renderer.set_points(editor.marks.size(), editor.opened.spacing);
     spacings.reset();
     colored.reset();
     looks.clear();
@@ -107,13 +107,13 @@ void Scene::State::begin_cloud(const Editor& editor, Display& display) {
     version = 0;
 }
 
-void Scene::State::take_positions(const Editor& editor, const Display& display) {
+void Scene::State::take_positions(const Editor& editor, UiState& state) {
     if (!editor.frame.on_device)
         upload(editor.frame);
-    else if (!move_where_drawn(editor.frame))
-        return; // the points come next
+    else if (!move_where_drawn(editor.frame, state))
+        return; // the points come with the next frame
     version = editor.frame.version;
-    if (follows_pose(display.coloring)) colored.reset();
+    if (follows_pose(state.display.coloring)) colored.reset();
 }
 
 void Scene::State::upload(const PosedFrame& frame) {
@@ -124,15 +124,21 @@ void Scene::State::upload(const PosedFrame& frame) {
 }
 
 // False where the device cannot.
-bool Scene::State::move_where_drawn(const PosedFrame& frame) {
+bool Scene::State::move_where_drawn(const PosedFrame& frame, UiState& state) {
+    if (drawing_failed) return false;
     const PointRenderer::DrawnBuffers buffers = renderer.buffers_to_write();
     if (buffers.positions == 0) return false;
     try {
         drawn->move(*frame.on_device, {buffers.positions, frame.normals.empty() ? 0 : buffers.normals},
                     drawn_is_newest ? Held::last_frame : Held::nothing);
-    } catch (const DeviceFailure&) {
+    } catch (const DeviceFailure& failure) {
         drawing_failed = true;
+        drawn = std::make_unique<DrawnPoints>();
+        drawn_is_newest = false;
         version = 0; // the buffers may have anything
+        add_toast(state, {Notice::Kind::warning,
+                          std::string("The graphics card cannot move points where it draws them (") +
+                              failure.what() + "); they go by way of the processor from here on."});
         return false;
     }
     drawn_is_newest = true;
@@ -140,10 +146,11 @@ bool Scene::State::move_where_drawn(const PosedFrame& frame) {
     return true;
 }
 
-// Whether nothing else that is shown needs to know where the points are.
+// Whether nothing else that is shown needs to know where the points are. Once the hand has let go, anything
+// may be asked of them.
 bool Scene::State::can_draw_drags(const Editor& editor, const Display& display) const {
-    return !drawing_failed && !renderer.is_software() && !follows_pose(display.coloring) &&
-           !display.samples && !display.sample_graph &&
+    return !drawing_failed && !renderer.is_software() && !(editor.drag && editor.drag->ended) &&
+           !follows_pose(display.coloring) && !display.samples && !display.sample_graph &&
            !estimated.made_in_motion(editor, display.look.shading);
 }
 
@@ -207,7 +214,7 @@ void Scene::take_in(Editor& editor, UiState& state) {
     if (!editor.document) return;
     State& own = *state_;
     if (editor.changes.cloud) own.begin_cloud(editor, state.display);
-    if (editor.changes.cloud || editor.changes.positions) own.take_positions(editor, state.display);
+    if (editor.changes.cloud || editor.changes.positions) own.take_positions(editor, state);
     own.take_marks(editor, state.display);
     editor.changes = {false, false, false};
     own.take_looks(editor, state);

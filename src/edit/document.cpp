@@ -143,6 +143,8 @@ double Document::drag_frame(const HandlePose& pose, const std::string& place, Pr
         if (points == Points::now || !make_frame(drag)) show(drag);
         drag.line.frames.push_back(pose);
     } catch (...) {
+        drag.is_shown = false;
+        drawn_frame_.reset();
         motion = before;
         drag.samples = drag.samples_before;
         following.anchored = was_anchored;

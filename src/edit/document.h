@@ -18,7 +18,7 @@ namespace knead {
 // What the frames of a document cost, for whoever wants to know; times in seconds.
 struct FrameLog {
     std::vector<double> iteration; // one entry an iteration of all samples
-    std::vector<double> upsample;  // one entry a frame
+    std::vector<double> upsample;  // one entry a frame, and one more where its points came later
     std::size_t frames = 0;        // of drags
 };
 

@@ -122,7 +122,7 @@ void LiveDocument::save_session(std::filesystem::path target, bool anyway) {
 }
 
 void LiveDocument::draw_drags_on_device(bool yes) {
-    shared_->change([&](LiveShared& shared) { shared.draws_on_device = yes; });
+    shared_->with([&](LiveShared& shared) { shared.draws_on_device = yes; }); // nobody waits for this
 }
 
 namespace {
@@ -144,13 +144,15 @@ std::shared_ptr<const DocumentView> LiveDocument::view() const {
 }
 
 bool LiveDocument::take_frame(PosedFrame& frame) {
+    std::shared_ptr<const DeviceFrame> spent;        // which goes without the lock
     return shared_->change([&](LiveShared& shared) { // the document may wait for this
         bool is_new = false;
         if (shared.frame.version > frame.version) {
             std::swap(shared.frame, frame);
+            spent = std::exchange(shared.frame.on_device, nullptr);
             is_new = true;
         }
-        if (shared.drawn.version > frame.version) {
+        if (shared.drawn.on_device && shared.drawn.version > frame.version) {
             take_facts(shared.drawn, frame);
             is_new = true;
         }

@@ -188,8 +188,9 @@ public:
     void drag_to(const Transform& transform); // on top of the handle's pose at begin_drag()
     void end_drag();
     // Whether whoever draws can move the points itself (upsample/drawing.h), and needs no positions while a
-    // drag goes on: then its frames may come as PosedFrame::on_device. When the hand rests, and when it no
-    // longer can, the points come, too.
+    // drag goes on: then its frames may come as PosedFrame::on_device. The points come when the shape has
+    // come to rest and when the drag has ended, and with each frame from the next one on where it no longer
+    // can.
     void draw_drags_on_device(bool yes);
     void cancel_drag(); // as if it had not begun; its step counts as refused without words
 

@@ -80,8 +80,8 @@ void LiveWork::finish_drag() {
     learn_cost(drag_->solving, drag_->upsampling);
     drag_.reset();
     converge_ = true;
+    publish_view(); // first: it cannot fail
     if (publisher_.last_is_drawn()) publish_shape(document_->shape(progress_), false);
-    publish_view();
 }
 
 void LiveWork::carry_out(task::CancelDrag& /*task*/) {
@@ -135,6 +135,7 @@ void LiveWork::follow() {
     } catch (...) {
         drag.wanted.reset();
         drag.rests = true;
+        show_what_was_drawn();
         throw;
     }
     drag.shown = next;
@@ -142,9 +143,19 @@ void LiveWork::follow() {
     drag.rests =
         next == drag.wanted->transform && !drag.is_coarse() && (way < still || drag.repeats >= most_repeats);
     solve_seconds_ = clock.seconds();
-    drag.upsampling.push_back(document_->log().upsample.back());
-    if (!drag.is_coarse()) drag.solving.push_back(solve_seconds_ - drag.upsampling.back());
+    const double upsampling = document_->log().upsample.back();
+    if (!document_->drawn_frame()) drag.upsampling.push_back(upsampling);
+    if (!drag.is_coarse()) drag.solving.push_back(solve_seconds_ - upsampling);
     publish_drag();
+}
+
+// The points of a frame that only whoever draws has seen, after one that could not be made.
+void LiveWork::show_what_was_drawn() {
+    if (!publisher_.last_is_drawn()) return;
+    try {
+        publish_shape(document_->shown(progress_), false);
+    } catch (const std::exception&) { // what is told is what went wrong before
+    }
 }
 
 unsigned LiveWork::iterations_a_picture() const {

@@ -97,7 +97,9 @@ void LiveWork::learn_cost(std::vector<double> solving, std::vector<double> upsam
     if (solving.size() < telling_frames) return;
     const std::uint64_t points = document_->pipeline().order().vertices();
     const std::uint64_t samples = std::min(document_->settings().samples.value_or(points), points);
-    cost_ = FrameCost{samples, median(std::move(solving)), median(std::move(upsampling))};
+    // Frames that are drawn on the device tell nothing of those that are not.
+    const double moving = !upsampling.empty() ? median(std::move(upsampling)) : cost_ ? cost_->upsampling : 0;
+    cost_ = FrameCost{samples, median(std::move(solving)), moving};
     cost_iterations_ = document_->settings().iterations;
 }
 

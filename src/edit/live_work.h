@@ -106,6 +106,7 @@ private:
     LivePublisher::FrameFacts facts_of_frame(bool of_drag) const;
     void publish_shape(const RestShape& shape, bool of_drag);
     void publish_drag();
+    void show_what_was_drawn();
     void publish_view();
     void refuse(StepNumber step);
     void say(Notice::Kind kind, const std::string& words) { publisher_.say(kind, words); }

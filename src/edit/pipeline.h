@@ -110,8 +110,9 @@ public:
     // Every point's position and normal for a state of the samples, into buffers that the pipeline keeps.
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
     const RestShape& posed() const { return posed_; }
-    // The same for whoever draws where the device shares its memory (upsample/drawing.h): posed() stays as it
-    // was. Null where that is not to be had.
+    // The same for whoever draws where the device shares its memory (upsample/drawing.h), but for the last
+    // bits of single points that leave rotation free: posed() stays as it was. Null where that is not to be
+    // had.
     std::shared_ptr<const DeviceFrame> frame(const std::vector<HandleMotion>& motions,
                                              const SampleState& state);
     // How often upsample() was called, and in which call, from 1, it wrote each block of points

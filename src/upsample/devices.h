@@ -65,8 +65,8 @@ struct DeviceUse {
     std::shared_ptr<const GlSharing> sharing = {}; // as of make_drawing_upsampler()
 };
 
-// One device by its number in list_devices(), with nothing to fall back on: prepare(), run() and frame() may
-// throw DeviceFailure. Opens nothing before the first prepare(); throws DeviceFailure if there is no such
+// One device by its number in list_devices(), with nothing to fall back on: prepare() and run() may throw
+// DeviceFailure. Opens nothing before the first prepare(); throws DeviceFailure if there is no such
 // device any more. `workers` prepare, and must outlive the result.
 std::unique_ptr<Upsampler> make_opencl_upsampler(std::size_t device, Workers& workers, unsigned threads,
                                                  const DeviceUse& use = {});

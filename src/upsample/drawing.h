@@ -15,7 +15,8 @@
 
 namespace knead {
 
-// An OpenCL device that shares its memory with an OpenGL context. It must go before that context does.
+// An OpenCL device that shares its memory with an OpenGL context. It, and whatever was made with it, must go
+// before that context does.
 struct GlSharing;
 
 // The device that draws the OpenGL context which is current in this thread; null where it shares nothing, or

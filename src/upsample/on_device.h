@@ -1,6 +1,7 @@
 #pragma once
 // Private to this room: the points as an OpenCL device has them, and a frame of them.
 
+#include "base/locked.h"
 #include "upsample/changed_blocks.h"
 #include "upsample/opencl_calls.h"
 #include "upsample/opencl_program.h"
@@ -43,10 +44,33 @@ inline void set_moving(cl_kernel kernel, const PointsOnDevice& on_device, cl_ulo
                       on_device.first_handle, motions, moved_positions);
 }
 
+// Motions of frames that nobody has any more, to be written over: making a frame takes no memory but a
+// handful.
+using SpentMotions = Locked<std::vector<std::vector<PackedMotion>>>;
+
 // What Upsampler::frame() hands out.
 struct DeviceFrame {
+    DeviceFrame(std::shared_ptr<const PointsOnDevice> points_, std::vector<PackedMotion> motions_,
+                std::shared_ptr<SpentMotions> spent_)
+        : points(std::move(points_)), motions(std::move(motions_)), spent(std::move(spent_)) {}
+    ~DeviceFrame() {
+        spent->with([&](auto& all) {
+            if (all.size() < all.capacity()) all.push_back(std::move(motions));
+        });
+    }
+    DeviceFrame(const DeviceFrame&) = delete;
+    DeviceFrame& operator=(const DeviceFrame&) = delete;
+
     std::shared_ptr<const PointsOnDevice> points;
     std::vector<PackedMotion> motions; // the one that moves nothing comes first
+    std::shared_ptr<SpentMotions> spent;
 };
+
+// Room for those of a frame that is drawn, of one that waits for that, and of two that are made.
+inline std::shared_ptr<SpentMotions> no_spent_motions() {
+    auto spent = std::make_shared<SpentMotions>();
+    spent->with([](auto& all) { all.reserve(4); });
+    return spent;
+}
 
 } // namespace knead

@@ -81,6 +81,7 @@ public:
         moved_positions_ = {};
         moved_normals_ = {};
         on_device_.reset();
+        spent_motions_ = no_spent_motions();
         if (!opened_.queue) opened_ = open_device(device_, threads_, sharing_.get());
         if (!input.mover.empty()) {
             influences_.prepare(input, workers_);
@@ -107,11 +108,17 @@ public:
     }
 
     std::shared_ptr<const DeviceFrame> frame(std::span<const Motion> motions) override {
-        if (!on_device_ || shares_memory_) return nullptr;
+        if (input_.mover.empty() || shares_memory_) return nullptr; // or prepare() failed
         require_motions(motion_count_, motions);
-        auto made = std::make_shared<DeviceFrame>(DeviceFrame{on_device_, packed_});
-        pack_motions(motions, input_.weights, input_.places, std::span(made->motions).subspan(1));
-        return made;
+        std::vector<PackedMotion> packed = spent_motions_->with([](auto& all) {
+            if (all.empty()) return std::vector<PackedMotion>();
+            std::vector<PackedMotion> last = std::move(all.back());
+            all.pop_back();
+            return last;
+        });
+        if (packed.empty()) packed = packed_;
+        pack_motions(motions, input_.weights, input_.places, std::span(packed).subspan(1));
+        return std::make_shared<const DeviceFrame>(on_device_, std::move(packed), spent_motions_);
     }
 
     bool shares_with_opengl() const override { return opened_.shares_with_gl || is_tested_; }
@@ -289,6 +296,7 @@ private:
     std::vector<PackedMotion> packed_; // one that moves nothing, and the motions, as the device reads them
     InfluenceGroups influences_;
     std::shared_ptr<const PointsOnDevice> on_device_; // null: no points
+    std::shared_ptr<SpentMotions> spent_motions_;     // of frames of these
     ChangedBlocks changes_;
     std::vector<Index> listed_; // the blocks of the last frame, and room for all of them
     std::size_t listed_count_ = 0;

@@ -65,7 +65,8 @@ struct UpsampleInput {
 };
 
 // An OpenCL device cannot do its work: the words say which call failed, on what, and OpenCL's reason, with
-// the build log where it was the build. Thrown by prepare() and run() of an Upsampler that runs on a device.
+// the build log where it was the build. Thrown by prepare() and run() of an Upsampler that runs on a device,
+// and by drawing.h.
 class DeviceFailure : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

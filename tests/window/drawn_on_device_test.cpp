@@ -55,6 +55,9 @@ TEST(DrawnOnDevice, PointsAreWhereRunWouldHavePutThem) {
     Workers workers(2);
     for (const bool with_normals : {true, false}) {
         Scene scene = random_scene(5000, 40, 71, with_normals);
+        for (std::size_t i = 1000; i < 4000; ++i) // by a motion that stays: written once
+            scene.mover[i] = static_cast<Index>(scene.rows.size() + 39);
+        const Motion staying = scene.motions.back();
         const auto upsampler = sharing_upsampler(scene, workers, sharing);
         ASSERT_NE(upsampler, nullptr);
         PointRenderer renderer(PointRenderer::Drawing::by_opengl);
@@ -65,6 +68,7 @@ TEST(DrawnOnDevice, PointsAreWhereRunWouldHavePutThem) {
         DrawnPoints drawn;
         for (unsigned frame = 0; frame < 3; ++frame) {
             scene.motions = random_scene(1, 40, 80 + frame).motions;
+            scene.motions.back() = staying;
             std::shared_ptr<const DeviceFrame> made;
             std::thread document([&] { made = upsampler->frame(scene.motions); });
             document.join();

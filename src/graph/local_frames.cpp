@@ -36,14 +36,4 @@ std::vector<Quatd> local_frames(const Graph& graph, std::span<const float> posit
     return frames;
 }
 
-std::vector<float> frame_normals(std::span<const Quatd> frames) {
-    std::vector<float> normals(3 * frames.size());
-    for (std::size_t v = 0; v < frames.size(); ++v) {
-        const Vec3d normal = frames[v] * Vec3d::UnitZ();
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            normals[3 * v + axis] = static_cast<float>(normal[static_cast<Eigen::Index>(axis)]);
-    }
-    return normals;
-}
-
 } // namespace knead

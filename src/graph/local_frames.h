@@ -15,7 +15,4 @@ namespace knead {
 // vertex without neighbours gets the identity. `positions`: 3 floats a vertex.
 std::vector<Quatd> local_frames(const Graph& graph, std::span<const float> positions, Workers& workers);
 
-// The same frames' normals, 3 floats a vertex, for shading a cloud whose file has none.
-std::vector<float> frame_normals(std::span<const Quatd> frames);
-
 } // namespace knead

@@ -66,7 +66,7 @@ void LiveDocument::choose_samples(bool by_itself) {
 }
 
 void LiveDocument::begin_drag(StepNumber step, std::string handle, Vec3d pivot) {
-    put(*shared_, task::BeginDrag{step, std::move(handle), pivot});
+    put(*shared_, task::BeginDrag{step, std::move(handle), std::move(pivot)});
 }
 
 void LiveDocument::drag_to(const Transform& transform) {

@@ -283,8 +283,7 @@ void LiveWork::publish_shape(const RestShape& shape, bool of_drag) {
     since_frame_ = Stopwatch();
 }
 
-// The last frame of the drag. The points themselves follow when the hand rests: whatever is asked of them
-// then is answered by those that are seen.
+// The last frame of the drag. The points themselves follow when the shape has come to rest.
 void LiveWork::publish_drag() {
     if (!document_->drawn_frame() || drag_->rests) return publish_shape(document_->shown(progress_), true);
     publisher_.drawn(document_->drawn_frame(), facts_of_frame(true));

@@ -87,7 +87,9 @@ public:
         has_normal_buffer_ = true;
         upload(normals_, normals, chunks);
     }
-    Buffers buffers() override { return {positions_, has_normal_buffer_ ? GLuint{normals_} : 0}; }
+    PointRenderer::DrawnBuffers buffers() override {
+        return {positions_, has_normal_buffer_ ? GLuint{normals_} : 0};
+    }
     void set_widths(std::span<const std::uint8_t> widths) override {
         has_widths_ = !widths.empty();
         if (!has_widths_) return;

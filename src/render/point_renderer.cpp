@@ -326,7 +326,7 @@ void PointRenderer::set_normals(std::span<const float> normals, std::span<const 
 
 PointRenderer::DrawnBuffers PointRenderer::buffers_to_write() {
     State& s = *state_;
-    const Splats::Buffers buffers = s.splats->buffers();
+    const DrawnBuffers buffers = s.splats->buffers();
     if (!s.has_positions || buffers.positions == 0) return {};
     glFinish();
     return {buffers.positions, s.has_normals ? buffers.normals : 0};

@@ -3,6 +3,7 @@
 // processor.
 
 #include "render/chunks.h"
+#include "render/point_renderer.h"
 #include "render/screen_pass.h"
 #include "render/software_lines.h"
 
@@ -51,12 +52,9 @@ public:
     // All of them, of which these chunks differ from those before; the first time all chunks.
     virtual void set_positions(std::span<const float> positions, std::span<const Index> chunks) = 0;
     virtual void set_normals(std::span<const float> normals, std::span<const Index> chunks) = 0; // not empty
-    // OpenGL's names of the buffers that these are drawn from, whose contents others may write; 0 where the
-    // processor draws, and for normals where there are none.
-    struct Buffers {
-        unsigned positions = 0, normals = 0;
-    };
-    virtual Buffers buffers() { return {}; }
+    // That these are drawn from, whose contents others may write; 0 where the processor draws, and for
+    // normals where there are none.
+    virtual PointRenderer::DrawnBuffers buffers() { return {}; }
     // Splats by distance are 2^(w / widths_in_double) as wide as the view says; empty: all 0.
     virtual void set_widths(std::span<const std::uint8_t> widths) = 0;
     virtual void set_tinted(std::span<const std::uint32_t> tinted) = 0;

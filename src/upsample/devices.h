@@ -58,8 +58,7 @@ enum class DeviceMemory { as_the_device_has_it, own };
 
 // How a device is used.
 struct DeviceUse {
-    // For tests: `own` copies on a CPU, too, and says that it shares with OpenGL.
-    DeviceMemory memory = DeviceMemory::as_the_device_has_it;
+    DeviceMemory memory = DeviceMemory::as_the_device_has_it; // `own` copies on a CPU, too: for tests
     const char* kernel =
         nullptr; // is built instead of kernels/upsample.cl, for tests; outlives the upsampler
     std::shared_ptr<const GlSharing> sharing = {}; // as of make_drawing_upsampler()

@@ -55,7 +55,7 @@ public:
     OpenClUpsampler(OpenClDevice device, Workers& workers, unsigned threads, const DeviceUse& use)
         : device_(std::move(device)), workers_(workers), threads_(threads),
           kernel_text_(use.kernel ? use.kernel : embedded::upsample_kernel), sharing_(use.sharing),
-          is_tested_(use.memory == DeviceMemory::own),
+
           shares_memory_(use.memory == DeviceMemory::as_the_device_has_it &&
                          device_.description.type == DeviceType::cpu) {}
 
@@ -121,7 +121,7 @@ public:
         return std::make_shared<const DeviceFrame>(on_device_, std::move(packed), spent_motions_);
     }
 
-    bool shares_with_opengl() const override { return opened_.shares_with_gl || is_tested_; }
+    bool shares_with_opengl() const override { return opened_.shares_with_gl; }
 
 private:
     KernelShape shape() const {
@@ -285,7 +285,6 @@ private:
     unsigned threads_;
     const char* kernel_text_;
     std::shared_ptr<const GlSharing> sharing_;
-    bool is_tested_;
     bool shares_memory_;
     OpenedDevice opened_;
     std::shared_ptr<std::remove_pointer_t<cl_program>> program_; // null: not built yet

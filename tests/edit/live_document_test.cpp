@@ -279,13 +279,36 @@ TEST(LiveDocument, ClosesAtOnceWhileItOpens) {
     live.cancel_opening();
 }
 
+// One that says it shares memory with OpenGL: a GPU in a window.
+class SharingUpsampler final : public Upsampler {
+public:
+    explicit SharingUpsampler(std::unique_ptr<Upsampler> inner) : inner_(std::move(inner)) {}
+    std::string device() const override { return inner_->device(); }
+    void prepare(const UpsampleInput& input, std::size_t motions) override {
+        inner_->prepare(input, motions);
+    }
+    std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,
+                               std::span<float> normals, Held held) override {
+        return inner_->run(motions, positions, normals, held);
+    }
+    std::shared_ptr<const DeviceFrame> frame(std::span<const Motion> motions) override {
+        return inner_->frame(motions);
+    }
+    bool shares_with_opengl() const override { return true; }
+    std::size_t influence_bytes() const override { return inner_->influence_bytes(); }
+
+private:
+    std::unique_ptr<Upsampler> inner_;
+};
+
 // As in the window of a computer whose device draws: frames of a drag come without points.
 TEST_F(LiveBar, WhereTheDeviceDrawsTheDragThePointsComeWhenTheHandRests) {
     if (list_devices().empty()) GTEST_SKIP() << "there is no OpenCL device";
     OpenRequest request = request_for(bar_file(folder_));
     request.device = "0";
     request.make_upsampler = [](const std::string&, Workers& workers, unsigned threads) {
-        return UpsamplerChoice{make_opencl_upsampler(0, workers, threads, {.memory = DeviceMemory::own}), {}};
+        auto inner = make_opencl_upsampler(0, workers, threads, {.memory = DeviceMemory::own});
+        return UpsamplerChoice{std::make_unique<SharingUpsampler>(std::move(inner)), {}};
     };
     open(std::move(request));
     ASSERT_FALSE(HasFailure());

@@ -1,5 +1,6 @@
 #pragma once
-// A local frame at every vertex from the principal axes of its neighbourhood.
+// A local frame at every vertex from the principal axes of its neighbourhood, as the paper's Equation (1) has
+// them.
 
 #include "base/workers.h"
 #include "graph/csr.h"

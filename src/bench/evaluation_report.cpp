@@ -83,7 +83,7 @@ std::string clouds_text(const std::vector<CloudProperties>& clouds) {
     for (const CloudProperties& cloud : clouds)
         table.push_back({cloud.name, grouped(cloud.points), grouped(cloud.strays), power_text(cloud.rigid),
                          verdict_text(cloud.rigid <= rigid_bar), power_text(cloud.rigid_in_turns),
-                         verdict_text(cloud.rigid_in_turns <= rigid_bar),
+                         verdict_text(cloud.rigid_in_turns <= rigid_in_turns_bar),
                          std::to_string(cloud.iterations_in_turns), grouped(cloud.moved_by_nothing),
                          verdict_text(cloud.moved_by_nothing == 0), power_text(cloud.handle_error),
                          cloud.same_again ? "same" : "DIFFERENT",
@@ -168,6 +168,7 @@ ReportJson json_of(const CloudProperties& cloud) {
             {"rigid", cloud.rigid},
             {"rigid_in_turns", cloud.rigid_in_turns},
             {"rigid_bar", rigid_bar},
+            {"rigid_in_turns_bar", rigid_in_turns_bar},
             {"iterations_in_turns", cloud.iterations_in_turns},
             {"moved_by_nothing", cloud.moved_by_nothing},
             {"handle_error", cloud.handle_error},

@@ -14,8 +14,9 @@ namespace knead {
 class Upsampler;
 class Workers;
 
-// How far a rigid motion of all handles may leave a point behind, over D.
-inline constexpr double rigid_bar = 1e-5;
+// How far a rigid motion of all handles may leave a point behind, over D: made at once, by rounding to floats
+// alone, and where the handles went one after the other, by what settling leaves.
+inline constexpr double rigid_bar = 3e-7, rigid_in_turns_bar = 1e-5;
 
 // One cloud with automatic_handles() and 1000 samples.
 struct CloudProperties {

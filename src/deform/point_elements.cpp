@@ -75,6 +75,16 @@ RowWeights weights_at(const PointsBetween& between, Index vertex, const Vec3d& p
     return result;
 }
 
+// Weights in double: as floats they sum to 1 within their last digits only, and whatever all bodies do alike
+// would count with what is missing. A cloud that is moved far by all its handles would pull at itself.
+std::array<double, influences_per_row> summing_to_one(std::span<const float> weights) {
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    std::array<double, influences_per_row> result{};
+    std::ranges::transform(weights, result.begin(),
+                           [&](float weight) { return static_cast<double>(weight) / sum; });
+    return result;
+}
+
 // What a body does at a vertex.
 struct Blend {
     Vec3d arm = Vec3d::Zero();   // w c
@@ -112,9 +122,10 @@ private:
     // What the row of a vertex says: of how it turns alone, if a handle moves it.
     void add_row(Index vertex, bool is_held) {
         const auto [influence, share] = weights_at(between_, vertex, p_);
+        const auto weights = summing_to_one(std::span(influence.weight).first(influence.count));
+        const auto shares = summing_to_one(std::span(share).first(influence.count));
         for (std::size_t k = 0; k < influence.count; ++k)
-            add(body_of(influence.motion[k]), is_held ? 0 : static_cast<double>(influence.weight[k]),
-                static_cast<double>(share[k]));
+            add(body_of(influence.motion[k]), is_held ? 0 : weights[k], shares[k]);
     }
 
     void add(Index body, double weight, double share) {

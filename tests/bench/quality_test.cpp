@@ -44,7 +44,7 @@ TEST(Properties, HoldOnASmallSphere) {
     EXPECT_EQ(result.points, 12'000U);
     EXPECT_EQ(result.strays, 0U);
     EXPECT_LT(result.rigid, rigid_bar);
-    EXPECT_LT(result.rigid_in_turns, rigid_bar);
+    EXPECT_LT(result.rigid_in_turns, rigid_in_turns_bar);
     EXPECT_EQ(result.moved_by_nothing, 0U);
     EXPECT_LT(result.handle_error, rigid_bar);
     EXPECT_TRUE(result.same_again);

@@ -38,9 +38,8 @@ void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
         arrange(input.handles, slots_);
         stale_.handles = true;
     }
-    if (input.rest != input_.rest) stale_.weights = stale_.energy = stale_.systems = true;
     if (input.rest != input_.rest) {
-        stale_.upsampler = true;
+        stale_.areas = stale_.weights = stale_.energy = stale_.systems = stale_.upsampler = true;
         std::ranges::fill(changed_points_, std::uint8_t{1}); // other places, other weights
     }
     input_ = input;
@@ -103,8 +102,12 @@ void Pipeline::prepare_stages_without_handles(Progress& progress) {
     }
     if (stale_.samples) {
         prepare_samples(progress);
-        stale_.handles = stale_.memory = true;
+        stale_.areas = stale_.handles = stale_.memory = true;
         stale_.samples = false;
+    }
+    if (stale_.areas) {
+        prepare_areas();
+        stale_.areas = false;
     }
 }
 
@@ -201,6 +204,16 @@ void Pipeline::prepare_samples(Progress& progress) {
     seconds_.geodesic += clock.lap();
 }
 
+// Of what territories are made, on the shape as it is at rest.
+void Pipeline::prepare_areas() {
+    const Stopwatch clock;
+    asked_ = {};
+    const RestShape& rest = input_.rest ? *input_.rest : opened_;
+    if (!every_point_)
+        asked_ = ask_vertices(*graph_, rest.positions, order_.first_point, hanging_, base_samples_, workers_);
+    seconds_.sampling += clock.seconds();
+}
+
 // Of each handle whether it leaves rotation free and holds enough base samples, which flood, to tell how it
 // turns all over: its own do not.
 std::vector<bool> Pipeline::turns_by_samples() const {
@@ -209,6 +222,7 @@ std::vector<bool> Pipeline::turns_by_samples() const {
     for (const Index v : std::span(samples_).first(base_samples_))
         if (const Index label = labels_.vertex[v]; turns_freely(label)) ++count[label];
     std::vector<bool> result;
+    result.reserve(count.size());
     for (const std::size_t samples : count) result.push_back(samples >= enough_samples);
     return result;
 }
@@ -227,6 +241,14 @@ void Pipeline::find_energy(const SampleRest& rest) {
     energy_.share = share;
 }
 
+void Pipeline::find_link_weights(const SampleRest& rest) {
+    std::vector<double> areas;
+    if (!every_point_) areas = territory_areas(asked_, territories_, samples_.size(), workers_);
+    link_weights_ =
+        isotropic_weights(rest.graph, rest.position, sample_graph_.contact,
+                          every_point_ ? border_of_points : border_of_territories, areas, workers_);
+}
+
 void Pipeline::prepare_systems() {
     Stopwatch clock;
     const RestShape& rest_shape = input_.rest ? *input_.rest : opened_;
@@ -237,9 +259,7 @@ void Pipeline::prepare_systems() {
         rest.position.push_back(point_at(rest_shape.positions, order_.first_point[v]));
         rest.handle.push_back(labels_.vertex[v]);
     }
-    if (stale_.weights)
-        link_weights_ = isotropic_weights(rest.graph, rest.position, sample_graph_.contact,
-                                          every_point_ ? border_of_points : border_of_territories, workers_);
+    if (stale_.weights) find_link_weights(rest);
     stale_.weights = false;
     rest.weight = link_weights_;
     rest.cloud_size = cloud_size_;

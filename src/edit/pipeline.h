@@ -36,6 +36,7 @@
 #include "graph/point_order.h"
 #include "graph/sampling.h"
 #include "graph/starts_flood.h"
+#include "graph/territory_areas.h"
 #include "upsample/point_blocks.h"
 #include "upsample/upsample.h"
 
@@ -171,6 +172,7 @@ private:
     void prepare_points(Progress& progress);
     void prepare_bridges(Progress& progress);
     void prepare_samples(Progress& progress);
+    void prepare_areas();
     void prepare_handles(Progress& progress);
     bool turns_freely(Index label) const;
     std::vector<bool> turns_by_samples() const;
@@ -187,6 +189,7 @@ private:
     void note_changed_points(std::size_t block);
     void prepare_influences();
     void prepare_carried(std::span<const Index> mover_of_label);
+    void find_link_weights(const SampleRest& rest);
     void find_energy(const SampleRest& rest);
     void prepare_systems();
     void prepare_upsampler();
@@ -208,7 +211,7 @@ private:
 
     // Which stages have to run again before the next frame.
     struct Stale {
-        bool points = true, bridges = true, samples = true, handles = true, contacts = true,
+        bool points = true, bridges = true, samples = true, areas = true, handles = true, contacts = true,
              influences = true, weights = true, energy = true, systems = true, upsampler = true;
         bool memory = false; // what a set-up freed is not given back yet
     };
@@ -232,6 +235,7 @@ private:
     std::vector<std::uint8_t> changed_rows_;       // since those were found
     std::vector<WideRow> rows_of_base_;            // of the base samples, in the flood from them alone
     ChangingTerritories territories_;
+    AskedVertices asked_; // of what territories are made
 
     HandleSlots slots_; // by which the stages tell handles
     HandleLabels labels_;

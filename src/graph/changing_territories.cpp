@@ -26,6 +26,13 @@ std::vector<FloodStart> starts_of_added(const AddedStarts<1>& before, std::span<
     return starts;
 }
 
+// Which sample has this number of its own; no_index has none.
+Index sample_of(const AddedStarts<1>& added, Index number) {
+    if (number < added.first_number || number == no_index) return number;
+    const auto start = std::ranges::lower_bound(added.starts, number, {}, &FloodStart::number);
+    return added.first_number + static_cast<Index>(start - added.starts.begin());
+}
+
 } // namespace
 
 ChangingTerritories territories_of_base(const InfluenceRows& nearest, std::size_t base, const Graph& points,
@@ -48,16 +55,20 @@ std::vector<TerritoryBorder> change_added(ChangingTerritories& territories, std:
         territory_borders_after(territories.borders, former, starts, nearest, points, lengths, workers);
 
     std::vector<TerritoryBorder> result = territories.borders;
-    const auto sample_of = [&](Index number) {
-        if (number < starts.first_number) return number;
-        const auto start = std::ranges::lower_bound(wanted, number, {}, &FloodStart::number);
-        return starts.first_number + static_cast<Index>(start - wanted.begin());
-    };
     for (TerritoryBorder& border : result) {
-        border.a = sample_of(border.a);
-        border.b = sample_of(border.b);
+        border.a = sample_of(starts, border.a);
+        border.b = sample_of(starts, border.b);
     }
     return result;
+}
+
+std::vector<Index> nearest_samples(const ChangingTerritories& territories, std::span<const Index> vertices,
+                                   Workers& workers) {
+    std::vector<Index> samples(vertices.size());
+    workers.for_each(vertices.size(), 4096, [&](std::size_t k) {
+        samples[k] = sample_of(territories.added, territories.nearest[vertices[k]].sample[0]);
+    });
+    return samples;
 }
 
 std::vector<Index> nearest_of_base(const ChangingTerritories& territories, std::span<const Index> vertices) {

@@ -31,6 +31,11 @@ std::vector<TerritoryBorder> change_added(ChangingTerritories& territories, std:
                                           const Graph& points, std::span<const std::uint8_t> lengths,
                                           Workers& workers, Progress& progress);
 
+// The sample that is the nearest to each of these vertices, those that were added numbered on from the base
+// samples; no_index where none is.
+std::vector<Index> nearest_samples(const ChangingTerritories& territories, std::span<const Index> vertices,
+                                   Workers& workers);
+
 // The base sample that is the nearest to each of these vertices; no_index where none is.
 std::vector<Index> nearest_of_base(const ChangingTerritories& territories, std::span<const Index> vertices);
 

@@ -38,10 +38,16 @@ namespace knead {
 // little more than the half that is there.) Uniform weights instead make a cloud stiff across the lines that
 // it was sampled along, and the survey's cylinder creases.
 //
+// Where vertices are samples that stand for many points, `area` says for how much of the surface each does
+// (territory_areas.h): their weights then have that sum which makes Σ_j w_ij |e_ij|² come to it. The lengths
+// of a sample's own links tell it only roughly where the surface is a thin limb or a rim, or denser here than
+// there, and few samples would be softer at one place and stiffer at another than many.
+//
 // `position` and `contact` > 0: one entry a vertex, and one for every entry of graph.neighbor, the same in
-// both directions; so is the result, > 0.
+// both directions; so is the result, > 0. `area`: one entry a vertex, 0 where it is not known; or empty.
 inline constexpr double border_of_points = 0.5, border_of_territories = 0.3;
 std::vector<double> isotropic_weights(const Graph& graph, std::span<const Vec3d> position,
-                                      std::span<const float> contact, double border, Workers& workers);
+                                      std::span<const float> contact, double border,
+                                      std::span<const double> area, Workers& workers);
 
 } // namespace knead

@@ -23,7 +23,7 @@ std::vector<double> weights_for(const Graph& graph, const std::vector<Vec3d>& po
                                 unsigned threads = 2) {
     Machine machine(threads);
     const std::vector<float> contact(graph.neighbor.size(), 1.0F);
-    return isotropic_weights(graph, position, contact, 0.5, machine.workers);
+    return isotropic_weights(graph, position, contact, 0.5, {}, machine.workers);
 }
 
 void expect_symmetric_and_positive(const Graph& graph, const std::vector<double>& weight) {
@@ -127,6 +127,51 @@ TEST(IsotropicWeights, AddUpAlikeForAnyNumberOfLinksAndToHalfOnAStraightBorder) 
     const double inside = sum_of(middle * Lattice::edge + middle);
     EXPECT_NEAR(inside, 6, 0.1); // of eight
     EXPECT_NEAR(sum_of(middle) / inside, 0.5, 0.1);
+}
+
+// Σ w |e|² of each vertex.
+std::vector<double> areas_of(const Cloud& cloud, const std::vector<double>& weight) {
+    std::vector<double> area(cloud.size(), 0.0);
+    for (Index v = 0; v < cloud.size(); ++v)
+        for (Index link = cloud.graph.first[v]; link < cloud.graph.first[v + 1]; ++link)
+            area[v] += weight[link] * (cloud.at(cloud.graph.neighbor[link]) - cloud.at(v)).squaredNorm();
+    return area;
+}
+
+std::vector<double> weights_for_areas(const Cloud& cloud, const std::vector<double>& area) {
+    Machine machine;
+    const std::vector<float> contact(cloud.graph.neighbor.size(), 1.0F);
+    return isotropic_weights(cloud.graph, places(cloud), contact, 0.5, area, machine.workers);
+}
+
+TEST(IsotropicWeights, StandForTheAreasThatTheyAreTold) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::sphere, 2000));
+    const std::vector<double> own = areas_of(cloud, weights_for(cloud.graph, places(cloud)));
+    std::vector<double> wanted = own;
+    for (std::size_t v = 0; v < cloud.size(); ++v) wanted[v] *= 2 + cloud.at(v).z();
+    const std::vector<double> weight = weights_for_areas(cloud, wanted);
+    expect_symmetric_and_positive(cloud.graph, weight);
+    const std::vector<double> area = areas_of(cloud, weight);
+    for (std::size_t v = 0; v < cloud.size(); ++v)
+        EXPECT_NEAR(area[v], wanted[v], 0.2 * wanted[v]); // a link serves both its ends
+    const std::vector<double> uniform(cloud.graph.neighbor.size(), 1);
+    EXPECT_LT(unevenness(cloud, weight), 0.7 * unevenness(cloud, uniform));
+}
+
+TEST(IsotropicWeights, GoByTheRatioOfAreasAndTakeTheMeanWhereNoneIsKnown) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 2000));
+    const std::vector<double> own = areas_of(cloud, weights_for(cloud.graph, places(cloud)));
+    std::vector<double> known = own;
+    for (std::size_t v = 0; v < known.size(); v += 3) known[v] = 0;
+    std::vector<double> tenfold = known;
+    for (double& area : tenfold) area *= 10;
+    const std::vector<double> weight = weights_for_areas(cloud, known);
+    const std::vector<double> heavy = weights_for_areas(cloud, tenfold);
+    expect_symmetric_and_positive(cloud.graph, weight);
+    for (std::size_t link = 0; link < weight.size(); ++link)
+        ASSERT_NEAR(heavy[link], 10 * weight[link], 1e-9 * heavy[link]);
+    const std::vector<double> area = areas_of(cloud, weight);
+    for (std::size_t v = 0; v < known.size(); v += 3) EXPECT_NEAR(area[v], own[v], 0.5 * own[v]);
 }
 
 TEST(IsotropicWeights, DoNotDependOnTheUnit) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <numeric>
 #include <set>
 
 namespace knead {
@@ -30,11 +32,23 @@ void take_over_place(HandleColors& colors, const Handle& handle) {
     colors.places.erase(old);
 }
 
-std::size_t first_free(const HandleColors& colors, std::span<const Handle> handles) {
+// The number at the end of a name, from 0; nothing where it has none.
+std::optional<std::size_t> number_in(const std::string& name) {
+    std::size_t begin = name.size();
+    while (begin > 0 && name[begin - 1] >= '0' && name[begin - 1] <= '9') --begin;
+    std::size_t number = 0;
+    const auto [end, trouble] = std::from_chars(name.data() + begin, name.data() + name.size(), number);
+    if (trouble != std::errc{} || number == 0) return std::nullopt;
+    return number - 1;
+}
+
+std::size_t free_number(const HandleColors& colors, std::span<const Handle> handles, const Handle& of) {
     std::set<std::size_t> taken;
     for (const Handle& handle : handles)
-        if (const auto place = colors.places.find(handle.name); place != colors.places.end())
+        if (const auto place = colors.places.find(handle.name);
+            handle.role == of.role && place != colors.places.end())
             taken.insert(place->second.number);
+    if (const auto wanted = number_in(of.name); wanted && !taken.contains(*wanted)) return *wanted;
     std::size_t number = 0;
     while (taken.contains(number)) ++number;
     return number;
@@ -46,9 +60,19 @@ void place_colors(HandleColors& colors, std::span<const Handle> handles) {
     for (const Handle& handle : handles) {
         if (!colors.places.contains(handle.name)) take_over_place(colors, handle);
         if (!colors.places.contains(handle.name))
-            colors.places[handle.name].number = first_free(colors, handles);
+            colors.places[handle.name] = {free_number(colors, handles, handle), colors.given++, {}};
         colors.places[handle.name].points = handle.points;
     }
+}
+
+std::vector<std::size_t> order_of_list(const HandleColors& colors, std::span<const Handle> handles) {
+    std::vector<std::size_t> order(handles.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t handle) {
+        const auto place = colors.places.find(handles[handle].name);
+        return place == colors.places.end() ? colors.given : place->second.since;
+    });
+    return order;
 }
 
 ImU32 handle_color(const HandleColors& colors, const Handle& handle) {

@@ -22,15 +22,21 @@ struct HandleColors {
     };
     std::optional<Tried> tried; // in the picker, whose hand has not let go of it yet
     struct Place {
-        std::size_t number = 0; // in the row of usual colours
+        std::size_t number = 0; // in the row of usual colours of its role
+        std::size_t since = 0;  // counts the places given, for a list that keeps its order
         std::weak_ptr<const std::vector<Index>> points;
     };
     std::map<std::string, Place> places; // of handles that are there or were
+    std::size_t given = 0;               // places so far
 };
 
-// Gives the new ones of these handles the first places that none of the others has, and those that were
-// renamed what they had.
+// Gives the new ones of these handles places, and those that were renamed what they had. "handle 3" gets the
+// third colour of its role, so that it has the same one when its session is opened again; where another of
+// that role has it, or the name has no number, the first that none has.
 void place_colors(HandleColors& colors, std::span<const Handle> handles);
+
+// The handles in the order in which they came: one that is changed, and so declared anew, stays where it is.
+std::vector<std::size_t> order_of_list(const HandleColors& colors, std::span<const Handle> handles);
 
 // The handle's colour: the one tried, the one chosen, or one by its role and place.
 ImU32 handle_color(const HandleColors& colors, const Handle& handle);

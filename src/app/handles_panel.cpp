@@ -151,7 +151,10 @@ bool row_button(const Ui& ui, const Handle& handle, ImVec2 size, bool renaming) 
         ui.state.renaming = ui.state.name_text = handle.name;
         ui.state.renaming_begins = true;
     }
-    if (hovered && !ImGui::IsPopupOpen("menu"))
+    if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) ui.state.row_at_rest = handle.name;
+    if (!hovered && ui.state.row_at_rest == handle.name) ui.state.row_at_rest.clear();
+    const bool quiet = ui.editor.tools.drag || ui.state.row_at_rest == handle.name; // it would be in the way
+    if (hovered && !quiet && !ImGui::IsPopupOpen("menu"))
         explain(handle.name + ": " + words_for(handle.role) + ", " + counted(handle.points->size(), "point") +
                 (handle.free_rotation ? ", positions only" : "") +
                 (std::max(handle.falloff, least_falloff(ui.editor, handle)) > 0 ? ", with a falloff" : "") +
@@ -253,7 +256,7 @@ void handle_list(const Ui& ui, const std::vector<Handle>& handles) {
         // A handle is chosen before the document has it, and what was added in this frame can be scrolled to
         // in the next one.
         const bool is_measured = ImGui::GetScrollMaxY() + height > whole - 1;
-        for (std::size_t i = 0; i < handles.size(); ++i) {
+        for (const std::size_t i : order_of_list(state.handle_colors, handles)) {
             handle_row(ui, handles[i], i);
             if (handles[i].name != ui.editor.chosen || state.listed_chosen == handles[i].name) continue;
             if (whole > height) ImGui::SetScrollHereY();

@@ -37,6 +37,27 @@ void go_to(const Ui& ui, std::size_t position) {
     }
 }
 
+// The number of a step among all, those of the past and then those of the future.
+const EditorStep& step_at(const Editor& editor, std::size_t number) {
+    const std::size_t done = editor.past.size();
+    return number < done ? editor.past[number] : editor.future[editor.future.size() - 1 - (number - done)];
+}
+
+// Goes to where looking began, if it began at this position: what only changed the selection is as it was,
+// too. Returns whether.
+bool go_back(const Ui& ui, std::size_t position) {
+    const Editor& editor = ui.editor;
+    if (!editor.looks_from) return false;
+    const std::size_t done = editor.past.size(), wanted = *editor.looks_from;
+    std::size_t of_document = 0;
+    for (std::size_t step = 0; step < wanted; ++step)
+        if (is_of_document(step_at(editor, step))) ++of_document;
+    if (of_document != position) return false;
+    for (std::size_t step = done; step < wanted; ++step) ui.tell(RedoStep{.to_look = true});
+    for (std::size_t step = done; step > wanted; --step) ui.tell(UndoStep{.to_look = true});
+    return true;
+}
+
 // Plays the next step of the document; those that only changed the selection come with it.
 void play_step(const Ui& ui) {
     const auto& future = ui.editor.future;
@@ -152,7 +173,7 @@ void play_on(const Ui& ui) {
     }
     const double now = ImGui::GetTime();
     if (playback.wanted && (!ui.editor.status.busy || ui.editor.status.playing)) {
-        go_to(ui, *playback.wanted);
+        if (!go_back(ui, *playback.wanted)) go_to(ui, *playback.wanted);
         playback.position = *playback.wanted;
         playback.wanted.reset();
         playback.next_at = std::max(playback.next_at, now + between_steps / playback.speed);
@@ -164,6 +185,7 @@ void play_on(const Ui& ui) {
     if (ui.editor.status.playing || now < playback.next_at) return;
     if (playback.position == playback.steps) {
         playback.playing = false;
+        (void)go_back(ui, playback.position);
         return;
     }
     ++playback.position;

@@ -159,6 +159,7 @@ struct UiState {
     std::optional<WishSaveTo> overwriting;             // the dialog asks whether to overwrite this
     std::optional<Editor::WithoutCloud> without_cloud; // which cloud it is to be opened with
 
+    std::string row_at_rest; // of the list of handles: the one that was clicked, until the cursor leaves it
     HandleColors handle_colors;
     std::string recoloring; // the handle whose colours are to be shown; empty: none
     std::string renaming;   // the handle that is being renamed in the list; empty: none

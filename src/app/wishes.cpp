@@ -123,7 +123,7 @@ void fulfil(Work& work, const WishBrowse& wish) {
     }
     if (!work.editor.document) return;
     if (wish.purpose == BrowseFor::save_session) browser.typed = opened.stem().string() + ".knead";
-    if (wish.purpose == BrowseFor::save_cloud && work.editor.looks_back && !work.editor.future.empty())
+    if (wish.purpose == BrowseFor::save_cloud && looks_back(work.editor))
         add_toast(work.state, {Notice::Kind::warning,
                                "This is an earlier step: the cloud is saved as it was then, without what was "
                                "done later."});
@@ -251,6 +251,9 @@ bool replaces_document(const Wish& wish) {
 } // namespace
 
 void grant(Work& work, const Wish& wish) {
+    // What the hand is doing counts: a question behind which it went on could not be answered.
+    if (replaces_document(wish) && work.editor.tools.drag)
+        handle_input(work.editor, KeyPress{Key::enter, {}});
     if (replaces_document(wish) && (has_to_ask(work, wish) || has_to_finish_saving(work, wish))) return;
     std::visit([&](const auto& wanted) { fulfil(work, wanted); }, wish);
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <string>
 
 #include <fcntl.h>
@@ -41,6 +43,16 @@ std::string why_not_written(int code) {
 
 Descriptor open_to_read(const std::filesystem::path& path) {
     return Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)); // a pipe must not block
+}
+
+// The process's umask. Setting it is the portable way to learn it, but another thread may make a file
+// meanwhile.
+mode_t file_mode_mask() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("Umask:"))
+            return static_cast<mode_t>(std::strtoul(line.c_str() + std::strlen("Umask:"), nullptr, 8));
+    return 077; // not told: nobody else may read it
 }
 
 } // namespace
@@ -110,8 +122,7 @@ FileInTheMaking::FileInTheMaking(const std::filesystem::path& target) : shown_(t
     } catch (const std::system_error& error) {
         refuse_to_write(shown_, error.code().value());
     }
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
+    const mode_t mask = file_mode_mask();
     const int descriptor = temporary_->descriptor();
     if (is_there) (void)::fchown(descriptor, facts.st_uid, facts.st_gid); // as far as it is allowed
     (void)::fchmod(descriptor, is_there ? facts.st_mode & 07777 : 0666 & ~mask);

@@ -121,6 +121,8 @@ public:
         std::size_t sample_bytes = std::size_t{256} << 20; // more of them only as long as they take no more
     };
     void keep_at_most(const Memory& memory) { memory_ = memory; }
+    // The shape that this edit began with, where it is another than the opened one and is still kept.
+    std::shared_ptr<const RestShape> kept_rest() const;
     std::size_t kept_bytes() const; // of those shapes and states
 
     // Of what is shown: 3n floats in the order of the file, relative to cloud().origin; and normals, empty

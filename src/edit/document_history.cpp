@@ -125,6 +125,10 @@ std::vector<HandleMotion> Document::way_of(const std::string& handle) const {
     return way;
 }
 
+std::shared_ptr<const RestShape> Document::kept_rest() const {
+    return now().rest ? now().rest->shape : nullptr;
+}
+
 std::shared_ptr<const RestShape> Document::rest_of(const State& state, Progress& progress) {
     if (!state.rest) return nullptr;
     const std::shared_ptr<Committed> committed = state.rest;

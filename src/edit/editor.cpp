@@ -71,7 +71,7 @@ void take_over(Editor& editor) {
     editor.marks.assign(file_index.size(), 0);
     editor.past.assign(editor.document->undoable_steps, EditorStep{step_of_opened_session});
     editor.future.assign(editor.document->redoable_steps, EditorStep{step_of_opened_session});
-    editor.looks_back = false;
+    editor.looks_from.reset();
     mark_handles(editor);
     editor.camera = first_view(bulk_box(editor.frame.positions), editor.viewport);
     editor.changes = {};
@@ -100,11 +100,20 @@ bool refresh_opening(Editor& editor) {
     return true;
 }
 
+// The next step of the future is its last.
+void forget_future(Editor& editor, StepNumber step) {
+    const auto found = std::ranges::find(editor.future, step, &EditorStep::document);
+    if (found == editor.future.end()) return;
+    const auto at = editor.past.size() + static_cast<std::size_t>(editor.future.end() - found) - 1;
+    editor.future.erase(found);
+    if (editor.looks_from && at < *editor.looks_from) --*editor.looks_from;
+}
+
 // A step that the document refused is no step: it leaves the history, and the selection comes back.
 void forget_refused(Editor& editor) {
     for (const StepNumber step : editor.live->take_refused()) {
         std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first == step; });
-        std::erase_if(editor.future, [&](const EditorStep& future) { return future.document == step; });
+        forget_future(editor, step);
         for (EditorStep& past : editor.past)
             if (past.joined == step) past.joined = 0;
         if (editor.drag && editor.drag->step == step) editor.drag.reset();
@@ -114,7 +123,9 @@ void forget_refused(Editor& editor) {
         if (found->chosen_before && found->chosen_after == editor.chosen)
             choose(editor, *found->chosen_before);
         if (found->choosing_before) choose_samples(editor, *found->choosing_before);
+        const auto at = static_cast<std::size_t>(found - editor.past.begin());
         editor.past.erase(found);
+        if (editor.looks_from && at < *editor.looks_from) --*editor.looks_from;
     }
 }
 
@@ -251,6 +262,9 @@ void carry_out(Editor& editor, const ChangeSelection& command) {
 
 void carry_out(Editor& editor, const ChangeHidden& command) {
     if (!needs_document(editor)) return;
+    if (command.step == HideStep::hide_unselected && editor.selected == 0)
+        return say(editor, Notice::Kind::information,
+                   "Select what is to stay visible first: with nothing selected all would be hidden.");
     change_marks(editor, [&] {
         if (command.step == HideStep::show_all) return show_all(editor.marks, editor.workers);
         hide(editor.marks, command.step == HideStep::hide_selected, editor.workers);
@@ -358,7 +372,7 @@ bool may_act(Editor& editor) {
                 "be lost. Wait for it, or cancel it.");
         return false;
     }
-    if (editor.looks_back && !editor.future.empty()) {
+    if (looks_back(editor)) {
         decline(editor,
                 "This is an earlier step, and what was done later would be lost. Esc goes back to where you "
                 "were. To go on from an earlier one, undo to it (Ctrl+Z).");

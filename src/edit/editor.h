@@ -97,7 +97,8 @@ struct Editor {
 
     // --- Going back ---
     std::vector<EditorStep> past, future;
-    bool looks_back = false; // UndoStep::to_look led here; of account while there is a future
+    // How many steps were done where looking at others (UndoStep::to_look) began; nothing: nobody looks.
+    std::optional<std::size_t> looks_from;
     StepNumber last_step = step_of_opened_session;
     // Names of handles that were posted and that the document has not shown yet.
     std::vector<std::pair<StepNumber, std::string>> posted_names;
@@ -141,6 +142,7 @@ std::optional<Gizmo> gizmo_of(const Editor& editor); // of the chosen moving han
 double least_falloff(const Editor& editor, const Handle& handle);
 bool has_unsaved_session(const Editor& editor);               // an exported cloud is no saved session
 std::string free_name(const Editor& editor, HandleRole role); // for the next handle: "handle 2"
+bool looks_back(const Editor& editor); // whether a step before where looking began is shown
 bool can_undo(const Editor& editor);
 bool can_redo(const Editor& editor);
 // What to do next, in a sentence, for the line at the bottom; empty when the artist is well under way.

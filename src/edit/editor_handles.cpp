@@ -1,6 +1,8 @@
 // What the editor does to handles: making, changing, mirroring and dragging them.
 
+#include "base/counts.h"
 #include "edit/editor_steps.h"
+#include "edit/handle_lines.h"
 #include "edit/mirroring.h"
 #include "edit/way_back.h"
 
@@ -32,49 +34,26 @@ std::optional<std::size_t> number_of(const Editor& editor, const std::string& na
     return static_cast<std::size_t>(found - handles.begin());
 }
 
-std::vector<IndexRange> ranges_of(const std::vector<Index>& points) {
-    std::vector<IndexRange> ranges;
-    for (const Index i : points) append_point(ranges, i);
-    return ranges;
-}
-
 bool is_free(const Editor& editor, const std::string& name) {
     return !number_of(editor, name) && std::ranges::none_of(editor.posted_names, [&](const auto& posted) {
         return posted.second == name;
     });
 }
 
-// As the session file declares it.
-HandleLine line_of(const Handle& handle) {
-    HandleLine line;
-    line.name = handle.name;
-    line.role = handle.role;
-    line.points = ranges_of(*handle.points);
-    line.free_rotation = handle.free_rotation;
-    line.falloff = handle.falloff;
-    line.color = handle.color;
-    return line;
+// Posts an edit of a handle. The document knows best what there is to change: earlier acts may be on their
+// way to it, of which nothing is seen here yet.
+void post_edit(Editor& editor, HandleEdit edit) {
+    editor.live->edit_handle(++editor.last_step, std::move(edit));
+    add_step(editor, editor.last_step, nullptr);
 }
 
-bool share_points(const Handle& a, const Handle& b) {
-    auto at = a.points->begin();
-    for (const Index point : *b.points) { // both ascend
-        at = std::lower_bound(at, a.points->end(), point);
-        if (at == a.points->end()) return false;
-        if (*at == point) return true;
-    }
-    return false;
+// Whether an edit would change nothing of what is seen here, and nothing else is on its way.
+bool is_so_already(const Editor& editor, const HandleEdit& edit) {
+    return !has_pending_steps(editor) && lines_for(editor.document->handles, edit).empty();
 }
 
-// Declares a handle anew. That makes it the last one, and the last one has what several hold: so those that
-// came later and share points with it come again after it, and with them all that came later.
-void change_handle(Editor& editor, std::size_t number, HandleLine line) {
-    const std::span<const Handle> handles = editor.document->handles;
-    const std::span<const Handle> later = handles.subspan(number + 1);
-    std::vector<SessionAction> lines{std::move(line)};
-    if (std::ranges::any_of(later, [&](const Handle& one) { return share_points(handles[number], one); }))
-        for (const Handle& handle : later) lines.emplace_back(line_of(handle));
-    post_step(editor, std::move(lines));
+void edit_handle(Editor& editor, HandleEdit edit) {
+    if (number_of(editor, edit.handle) && !is_so_already(editor, edit)) post_edit(editor, std::move(edit));
 }
 
 } // namespace
@@ -84,6 +63,27 @@ std::string free_name(const Editor& editor, HandleRole role) {
         std::string name = std::string(word_for(role)) + " " + std::to_string(number);
         if (is_free(editor, name)) return name;
     }
+}
+
+// A handle that is made of these marks takes the points that it shares with others; a region takes none of
+// theirs. Says from whom it takes.
+void tell_who_is_robbed(Editor& editor, HandleRole role, const std::string& name) {
+    if (role == HandleRole::region_of_interest) return;
+    std::string words;
+    for (const Handle& handle : editor.document->handles) {
+        if (handle.role == HandleRole::region_of_interest || handle.name == name) continue;
+        const auto taken = static_cast<std::size_t>(std::ranges::count_if(*handle.points, [&](Index i) {
+            const Index place = editor.ordered[i];
+            return place != no_index && (editor.marks[place] & mark_selected) != 0;
+        }));
+        if (taken == 0) continue;
+        words += (words.empty() ? " takes " : ", and ") + counted(taken, "point") + " from \"" + handle.name +
+                 "\"";
+        if (taken == handle.points->size()) words += ", which holds none any more";
+    }
+    if (!words.empty())
+        say(editor, Notice::Kind::information,
+            "\"" + name + "\"" + words + ": what several hold follows the handle that was made last.");
 }
 
 // The selection becomes the handle, and the handle's tint takes its place on the screen.
@@ -96,6 +96,7 @@ void carry_out(Editor& editor, const MakeHandle& command) {
     line.name = command.name.empty() ? free_name(editor, command.role) : command.name;
     line.role = command.role;
     line.points = selected_ranges(editor.marks, *editor.opened.order, editor.opened.cloud->size());
+    tell_who_is_robbed(editor, command.role, line.name);
     auto before = snapshot(editor);
     select_none(editor.marks, editor.workers);
     marks_changed(editor);
@@ -120,38 +121,16 @@ void carry_out(Editor& editor, const RenameHandle& command) {
 }
 
 void carry_out(Editor& editor, const ChangeRole& command) {
-    const auto number = number_of(editor, command.handle);
-    if (!number) return;
-    const Handle& handle = editor.document->handles[*number];
-    if (handle.role == command.role) return;
-    HandleLine line = line_of(handle);
-    line.role = command.role;
-    if (command.role == HandleRole::region_of_interest) {
-        line.free_rotation = false;
-        line.falloff = 0;
-    }
-    change_handle(editor, *number, std::move(line));
+    edit_handle(editor, {.handle = command.handle, .role = command.role});
 }
 
 void carry_out(Editor& editor, const ChangeHold& command) {
-    const auto number = number_of(editor, command.handle);
-    if (!number) return;
-    const Handle& handle = editor.document->handles[*number];
-    const bool is_new = handle.free_rotation != command.free_rotation || handle.falloff != command.falloff;
-    if (!is_new || handle.role == HandleRole::region_of_interest) return;
-    HandleLine line = line_of(handle);
-    line.free_rotation = command.free_rotation;
-    line.falloff = command.falloff;
-    change_handle(editor, *number, std::move(line));
+    edit_handle(editor, {.handle = command.handle, .hold = {{command.free_rotation, command.falloff}}});
 }
 
 // The handle stays the same one, so whatever was declared later and what is posed stay as they are.
 void carry_out(Editor& editor, const ColorHandle& command) {
-    const auto number = number_of(editor, command.handle);
-    if (!number || editor.document->handles[*number].color == command.color) return;
-    HandleLine line = line_of(editor.document->handles[*number]);
-    line.color = command.color;
-    post_step(editor, {std::move(line)});
+    edit_handle(editor, {.handle = command.handle, .color = {{command.color}}});
 }
 
 void carry_out(Editor& editor, const DeleteHandle& command) {
@@ -212,12 +191,19 @@ std::string name_of_mirrored(const Editor& editor, const Handle& handle, const s
     }
 }
 
+// Where the points are in this edit while no handle is moved.
+std::span<const float> rest_positions(const Editor& editor) {
+    if (editor.document->rest) return editor.document->rest->positions;
+    return editor.document->posed ? editor.opened.opened->positions : editor.frame.positions;
+}
+
 Vec3d rest_middle(const Editor& editor, const std::vector<Index>& points) {
+    const std::span<const float> positions = rest_positions(editor);
     Vec3d sum = Vec3d::Zero();
     std::size_t count = 0;
     for (const Index i : points) {
         if (editor.ordered[i] == no_index) continue;
-        sum += point_at(editor.opened.opened->positions, editor.ordered[i]);
+        sum += point_at(positions, editor.ordered[i]);
         ++count;
     }
     return count > 0 ? Vec3d(sum / static_cast<double>(count)) : sum;
@@ -237,9 +223,9 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     const auto number = number_of(editor, command.handle);
     if (!number) return;
     const Handle& handle = editor.document->handles[*number];
-    const MirrorPlane plane =
-        mirror_plane(editor.opened.opened->positions, command.axis, editor.opened.spacing);
-    const PartAcross across = part_across(editor, handle, plane, 3 * editor.opened.spacing);
+    const std::span<const float> positions = rest_positions(editor);
+    const MirrorPlane plane = mirror_plane(positions, command.axis, editor.opened.spacing);
+    const PartAcross across = part_across(editor, positions, handle, plane, 3 * editor.opened.spacing);
     const std::vector<Index>& points = across.points;
     const double place = plane.at + editor.opened.cloud->origin[command.axis];
     if (points.empty())

@@ -22,6 +22,7 @@ std::shared_ptr<const std::vector<std::uint8_t>> snapshot(const Editor& editor) 
 
 void add_step(Editor& editor, StepNumber document, std::shared_ptr<const std::vector<std::uint8_t>> before) {
     editor.future.clear();
+    editor.looks_from.reset(); // whoever acts goes on from here
     const auto after = before ? snapshot(editor) : nullptr;
     EditorStep step{document, std::move(before), after};
     if (document) step.chosen_before = step.chosen_after = editor.chosen;
@@ -67,9 +68,20 @@ void marks_changed(Editor& editor) {
     editor.changes.marks = true;
 }
 
+namespace {
+
+void begin_looking(Editor& editor) {
+    if (!editor.looks_from) editor.looks_from = editor.past.size();
+}
+
+} // namespace
+
 void carry_out(Editor& editor, const UndoStep& command) {
     if (!can_undo(editor)) return;
-    editor.looks_back = command.to_look;
+    if (command.to_look)
+        begin_looking(editor);
+    else
+        editor.looks_from.reset();
     EditorStep step = std::move(editor.past.back());
     editor.past.pop_back();
     if (step.before) restore_selection(editor, *step.before);
@@ -97,10 +109,13 @@ void go_forward(Editor& editor, Redo&& redo) {
 } // namespace
 
 void carry_out(Editor& editor, const RedoStep& command) {
+    if (command.to_look && can_redo(editor)) begin_looking(editor);
     go_forward(editor, [&](StepNumber step) { editor.live->redo(step, command.to_look); });
+    if (!command.to_look && !looks_back(editor)) editor.looks_from.reset();
 }
 
 void carry_out(Editor& editor, const PlayStep& /*command*/) {
+    if (can_redo(editor)) begin_looking(editor);
     go_forward(editor, [&](StepNumber step) { editor.live->play(step); });
 }
 

@@ -149,13 +149,19 @@ std::optional<Box3> box_of_chosen(const Editor& editor) {
     return is_anywhere ? std::optional(box) : std::nullopt;
 }
 
+bool has_pending_steps(const Editor& editor) {
+    const StepNumber done = std::max(editor.document->last_step, step_of_opened_session);
+    return std::ranges::any_of(
+        editor.past, [&](const EditorStep& step) { return std::max(step.document, step.joined) > done; });
+}
+
 bool has_unsaved_session(const Editor& editor) {
     if (!editor.document) return false;
-    // Steps that were posted and not carried out yet, a drag under way among them.
-    const StepNumber done = std::max(editor.document->last_step, step_of_opened_session);
-    const bool pending = std::ranges::any_of(
-        editor.past, [&](const EditorStep& step) { return std::max(step.document, step.joined) > done; });
-    return pending || editor.document->state != editor.saved.session_state;
+    return has_pending_steps(editor) || editor.document->state != editor.saved.session_state;
+}
+
+bool looks_back(const Editor& editor) {
+    return editor.looks_from && editor.past.size() < *editor.looks_from;
 }
 
 bool can_undo(const Editor& editor) {
@@ -209,6 +215,8 @@ std::string next_step(const Editor& editor) {
         return "H makes the selection a handle that moves, Shift+H one that stays; Esc selects nothing.";
     if (!chosen_handle(editor) || chosen_handle(editor)->role != HandleRole::moving)
         return "Click a moving handle to choose it.";
+    if (editor.tools.move_pivot)
+        return "Dragging the gizmo's arrows moves its pivot alone; press . to move the handle again.";
     if (!editor.document->posed) return "Drag the gizmo, or press G to move, R to turn, S to scale.";
     return "Enter keeps the pose as the new shape.";
 }

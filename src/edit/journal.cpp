@@ -133,10 +133,10 @@ Journal Journal::take_over(const std::filesystem::path& file) {
     return {file, std::move(descriptor)};
 }
 
-void Journal::append(std::string_view line) {
+void Journal::append(std::string_view lines) {
     const off_t before = ::lseek(descriptor_.value(), 0, SEEK_END);
     try {
-        write_text(descriptor_, std::string(line) + "\n", file_);
+        write_text(descriptor_, std::string(lines) + "\n", file_);
         if (::fdatasync(descriptor_.value()) != 0) fail(file_, Trouble::output, "sync");
     } catch (...) {
         // Whole lines only; if even that fails, take_over() drops the piece.

@@ -27,8 +27,9 @@ public:
 
     const std::filesystem::path& file() const { return file_; }
 
-    // Appends a line and syncs it. Throws Error (output) when the disk is full or fails.
-    void append(std::string_view line);
+    // Appends a line, or several with line ends between them, and syncs. Throws Error (output) when the disk
+    // is full or fails: then none of it is there.
+    void append(std::string_view lines);
     // Removes the file and what stands beside it (edit/journal_facts.h): what it holds is kept elsewhere, or
     // not wanted.
     void discard();

@@ -67,6 +67,12 @@ void LiveWork::carry_out(task::Lines& lines) {
     show_document();
 }
 
+void LiveWork::carry_out(task::EditHandle& task) {
+    task::Lines lines{task.step, lines_for(document_->handles(), task.edit), false};
+    if (lines.lines.empty()) return refuse(task.step);
+    carry_out(lines);
+}
+
 void LiveWork::carry_out(task::ResetPose& task) {
     finish_settling();
     DragLine back;

@@ -61,6 +61,10 @@ void LiveDocument::post(StepNumber step, std::vector<SessionAction> lines, bool 
     put(*shared_, task::Lines{step, std::move(lines), joins_last});
 }
 
+void LiveDocument::edit_handle(StepNumber step, HandleEdit edit) {
+    put(*shared_, task::EditHandle{step, std::move(edit)});
+}
+
 void LiveDocument::choose_samples(bool by_itself) {
     put(*shared_, task::ChooseSamples{by_itself});
 }

@@ -16,6 +16,7 @@
 #include "base/locked.h"
 #include "edit/command.h"
 #include "edit/document.h"
+#include "edit/handle_lines.h"
 #include "edit/journal.h"
 #include "edit/sample_choice.h"
 #include "edit/session.h"
@@ -50,6 +51,7 @@ struct DocumentView {
     bool chooses_samples = false; // by itself
     SampleChoice suited;          // what it would choose, or does
     Pipeline::Strays strays;
+    std::shared_ptr<const RestShape> rest;        // of this edit; null: as opened, or it was let go of
     std::shared_ptr<const Graph> graph;           // of the vertices; null until it was built
     std::shared_ptr<const Components> components; // and what hangs together in it; null as long
     std::shared_ptr<const std::vector<float>>
@@ -176,6 +178,10 @@ public:
     // that were carried out before the one that was refused stand in the recording, undone. `joins_last`: it
     // is undone together with the step before it (a slider that goes on being moved).
     void post(StepNumber step, std::vector<SessionAction> lines, bool joins_last = false);
+
+    // Changes a handle as it is when its turn comes, after all that was posted before. Where it is gone by
+    // then, or is so already, the step counts as refused without words.
+    void edit_handle(StepNumber step, HandleEdit edit);
 
     // Whether the number of samples is chosen by itself from here on. That happens after an act that leaves
     // nothing posed, and belongs to its step: never in a drag, never where it would take a commit, and never

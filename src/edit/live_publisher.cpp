@@ -96,6 +96,7 @@ void LivePublisher::view(const Document& document, const LiveRecording& recordin
     view->chooses_samples = facts.chooses_samples;
     view->suited = facts.suited;
     view->strays = pipeline.strays();
+    view->rest = document.kept_rest();
     view->graph = pipeline.shared_graph();
     view->components = pipeline.shared_components();
     note_spacings(pipeline);

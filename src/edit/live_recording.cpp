@@ -224,8 +224,17 @@ void LiveRecording::write_down(const SessionAction& line) {
         journal_ = begin_journal(folder_);
         facts_are_written_ = false;
     }
-    for (; written_ < lines_.size(); ++written_) journal_->append(to_text(lines_[written_]));
+    if (written_ < lines_.size()) write_missing_lines();
     if (!facts_are_written_) write_facts();
+}
+
+// In one go: every write is synced, and the lines of a long session would keep the hand waiting.
+void LiveRecording::write_missing_lines() {
+    std::string missing;
+    for (std::size_t number = written_; number < lines_.size(); ++number)
+        missing += (missing.empty() ? "" : "\n") + to_text(lines_[number]);
+    journal_->append(missing);
+    written_ = lines_.size();
 }
 
 void LiveRecording::write_facts() {

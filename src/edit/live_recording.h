@@ -87,6 +87,7 @@ public:
 
 private:
     void write_down(const SessionAction& line);
+    void write_missing_lines();
     void write_facts();
     void undo_what_was_looked_back();
     Journal begin_journal(const std::filesystem::path& folder) const;

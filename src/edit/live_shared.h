@@ -23,6 +23,10 @@ struct Lines {
     std::vector<SessionAction> lines;
     bool joins_last = false;
 };
+struct EditHandle {
+    StepNumber step = 0;
+    HandleEdit edit;
+};
 struct BeginDrag {
     StepNumber step = 0;
     std::string handle;
@@ -57,9 +61,9 @@ struct SaveSession {
     bool anyway = false;
 };
 } // namespace task
-using LiveTask =
-    std::variant<task::ChooseSamples, task::Lines, task::BeginDrag, task::EndDrag, task::CancelDrag,
-                 task::ResetPose, task::Undo, task::Redo, task::Play, task::SaveCloud, task::SaveSession>;
+using LiveTask = std::variant<task::ChooseSamples, task::Lines, task::EditHandle, task::BeginDrag,
+                              task::EndDrag, task::CancelDrag, task::ResetPose, task::Undo, task::Redo,
+                              task::Play, task::SaveCloud, task::SaveSession>;
 
 // How a step is played.
 struct PlayPace {

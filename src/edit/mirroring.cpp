@@ -39,7 +39,7 @@ struct CellHash {
     }
 };
 
-// Points of the shape as opened in cells of the size `reach`, with whether they belong to a handle.
+// Points of a shape in cells of the size `reach`, with whether they belong to a handle.
 struct PointGrid {
     struct Entry {
         Vec3d place;
@@ -157,20 +157,22 @@ HandleMotion mirrored(const HandleMotion& motion, const MirrorPlane& plane, cons
 
 namespace {
 
-// A handle on the shape as opened.
+// A handle on a shape.
 struct Part {
     const Editor& editor;
+    std::span<const float> positions;
     std::vector<bool> held; // of the file's points: whether it holds them
     Eigen::AlignedBox3d box;
 
-    Part(const Editor& of, const Handle& handle) : editor(of), held(of.ordered.size(), false) {
+    Part(const Editor& of, std::span<const float> shape, const Handle& handle)
+        : editor(of), positions(shape), held(of.ordered.size(), false) {
         for (const Index i : *handle.points) {
             if (editor.ordered[i] == no_index) continue;
             held[i] = true;
             box.extend(place(i));
         }
     }
-    Vec3d place(Index i) const { return point_at(editor.opened.opened->positions, editor.ordered[i]); }
+    Vec3d place(Index i) const { return point_at(positions, editor.ordered[i]); }
     // Calls visit(i) for every point of the file that is finite.
     template<typename Visit>
     void for_points(Visit&& visit) const {
@@ -238,8 +240,9 @@ Vec3d shift_onto_cloud(const Part& part, const MirrorPlane& plane) {
 
 } // namespace
 
-PartAcross part_across(const Editor& editor, const Handle& handle, const MirrorPlane& plane, double reach) {
-    const Part part(editor, handle);
+PartAcross part_across(const Editor& editor, std::span<const float> positions, const Handle& handle,
+                       const MirrorPlane& plane, double reach) {
+    const Part part(editor, positions, handle);
     PartAcross across{points_across(part, plane, Vec3d::Zero(), reach)};
     if (2 * across.points.size() >= handle.points->size() || part.box.isEmpty()) return across;
     const Vec3d shift = shift_onto_cloud(part, plane);

@@ -28,10 +28,12 @@ struct PartAcross {
     Vec3d shift = Vec3d::Zero(); // how far off its mirror image it stands
 };
 
-// The points whose mirror image lies nearest to a point of the handle, in the shape as opened; nothing
-// farther off than `reach` counts. Where that finds less than half of the handle's points, as a leg that is
-// set forward has nothing across it, the image is shifted onto what is nearest to it.
-PartAcross part_across(const Editor& editor, const Handle& handle, const MirrorPlane& plane, double reach);
+// The points whose mirror image lies nearest to a point of the handle, in the shape of these `positions` (3n,
+// in the order of computation); nothing farther off than `reach` counts. Where that finds less than half of
+// the handle's points, as a leg that is set forward has nothing across it, the image is shifted onto what is
+// nearest to it.
+PartAcross part_across(const Editor& editor, std::span<const float> positions, const Handle& handle,
+                       const MirrorPlane& plane, double reach);
 
 // The motion seen in the mirror, of what stands so far off there: p → T F M(F T⁻¹ p), with F the reflection
 // and T the shift.

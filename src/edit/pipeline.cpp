@@ -40,6 +40,7 @@ void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
     }
     if (input.rest != input_.rest) {
         stale_.areas = stale_.weights = stale_.energy = stale_.systems = stale_.upsampler = true;
+        stale_.memory = true; // of systems: states that are kept lie between what was freed
         std::ranges::fill(changed_points_, std::uint8_t{1}); // other places, other weights
     }
     input_ = input;

@@ -81,12 +81,11 @@ bool command_key(const Hand& hand, Key pressed, const KeyPress& press) {
 
 bool begin_modal(const Hand& hand, TransformKind kind, bool repeated) {
     if (!hand.context.gizmo) return false;
-    const Gizmo& gizmo = *hand.context.gizmo;
-    const bool has_effect = kind == TransformKind::translate ? gizmo.translate
-                            : kind == TransformKind::rotate  ? gizmo.rotate
-                                                             : gizmo.scale;
-    if (!repeated && has_effect) begin_drag(hand, {kind, {}}, true);
-    if (!repeated && !has_effect) hand.tell(RefuseTransform{kind});
+    if (repeated) return true;
+    if (has_effect(*hand.context.gizmo, kind))
+        begin_drag(hand, {kind, {}}, true);
+    else
+        hand.tell(RefuseTransform{kind});
     return true;
 }
 

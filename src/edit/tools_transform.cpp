@@ -85,6 +85,39 @@ void cancel_drag(Tools& tools, std::vector<Command>& commands) {
     finish(tools);
 }
 
+namespace {
+
+std::optional<TransformKind> kind_of(Key pressed) {
+    if (pressed == key('G')) return TransformKind::translate;
+    if (pressed == key('R')) return TransformKind::rotate;
+    if (pressed == key('S')) return TransformKind::scale;
+    return std::nullopt;
+}
+
+// What was begun by G goes on as R or S, from where the handle was when it began.
+void go_on_as(const Hand& hand, TransformKind kind) {
+    TransformDrag& drag = *hand.tools.drag;
+    const Gizmo& gizmo = *hand.context.gizmo;
+    if (drag.kind == kind) return;
+    if (!has_effect(gizmo, kind)) return hand.tell(RefuseTransform{kind});
+    drag = begin_transform(kind, drag.pivot, drag.local_axes, hand.tools.cursor, hand.context.camera,
+                           hand.context.viewport);
+    tell_transform(hand);
+}
+
+} // namespace
+
+bool has_effect(const Gizmo& gizmo, TransformKind kind) {
+    switch (kind) {
+    case TransformKind::translate:
+        return gizmo.translate;
+    case TransformKind::rotate:
+        return gizmo.rotate;
+    default:
+        return gizmo.scale;
+    }
+}
+
 void drag_key(const Hand& hand, const KeyPress& press) {
     TransformDrag& drag = *hand.tools.drag;
     if (press.key == Key::backspace) {
@@ -96,6 +129,8 @@ void drag_key(const Hand& hand, const KeyPress& press) {
     const bool takes_back = press.held.ctrl && press.key == key('Z'); // what is going on, that is
     if (press.key == Key::escape || takes_back) return cancel_drag(hand.tools, hand.commands);
     if (press.key == Key::enter) return end_drag(hand.tools, hand.commands);
+    if (const auto kind = kind_of(press.key); kind && hand.tools.modal && press.held == Modifiers{})
+        return hand.context.gizmo ? go_on_as(hand, *kind) : void();
     const int axis = static_cast<int>(press.key) - static_cast<int>('X');
     if (axis < 0 || axis > 2) return;
     press_axis(drag, axis, press.held.shift);

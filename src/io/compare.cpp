@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
@@ -113,6 +114,16 @@ AttributeDifference difference_of(const Attribute& a, const Attribute& b, std::s
     return difference;
 }
 
+// How far from a value of that type one can be that was rounded to it, and a little more for sums of both.
+double most_rounded(ScalarType type, double value) {
+    constexpr double a_little_more = 1 + 1e-6;
+    if (is_whole(type)) return 0.5 * a_little_more;
+    if (type != ScalarType::float32 || !std::isfinite(value)) return 0;
+    const float size = std::abs(static_cast<float>(value));
+    const float next = std::nextafter(size, std::numeric_limits<float>::infinity());
+    return 0.5 * a_little_more * (static_cast<double>(next) - static_cast<double>(size));
+}
+
 } // namespace
 
 Distances distances_between(const PointCloud& a, const PointCloud& b) {
@@ -125,11 +136,16 @@ Distances distances_between(const PointCloud& cloud, std::span<const float> posi
     require(positions.size() == cloud.positions.size(), "a pose has a position for each point");
     const auto posed = [&](std::size_t i) {
         Vec3d p = cloud.file_position(i);
+        const Vec3d there = other.file_position(i);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double now = positions[3 * i + axis];
             const double rest = cloud.positions[3 * i + axis];
+            double& coordinate = p[static_cast<Eigen::Index>(axis)];
             // What is not finite at rest keeps its own value, as it does when it is saved.
-            if (std::isfinite(rest)) p[static_cast<Eigen::Index>(axis)] += now - rest;
+            if (std::isfinite(rest)) coordinate += now - rest;
+            const ScalarType type = other.attributes[other.coordinate_columns[axis]].type;
+            const double saved = there[static_cast<Eigen::Index>(axis)];
+            if (std::abs(coordinate - saved) <= most_rounded(type, saved)) coordinate = saved;
         }
         return p;
     };

@@ -24,7 +24,8 @@ struct Distances {
 Distances distances_between(const PointCloud& a, const PointCloud& b);
 
 // The same for `cloud` posed: its coordinates are the file's own plus posed - rest, in double, as
-// write_cloud() has them before it rounds. `positions` are 3n, relative to cloud.origin.
+// write_cloud() has them before it rounds; what rounding them to the types of `other` can explain does not
+// count. `positions` are 3n, relative to cloud.origin.
 Distances distances_between(const PointCloud& cloud, std::span<const float> positions,
                             const PointCloud& other);
 

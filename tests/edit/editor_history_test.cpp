@@ -180,6 +180,45 @@ TEST_F(BarEditor, WhoeverLooksBackLosesNothingByAnAct) {
     EXPECT_FALSE(can_redo(editor_)) << "who takes a step back means it";
 }
 
+TEST_F(BarEditor, WhoeverIsBackFromLookingGoesOnThoughThereIsSomethingToRedo) {
+    make_handles();
+    turn_chosen("40");
+    turn_chosen("20");
+    apply(editor_, UndoStep{}); // of the second turn, which stays to be redone
+    calm();
+    const std::size_t home = editor_.past.size();
+    apply(editor_, UndoStep{.to_look = true});
+    EXPECT_TRUE(looks_back(editor_));
+    apply(editor_, RedoStep{.to_look = true});
+    calm();
+    EXPECT_EQ(editor_.past.size(), home);
+    EXPECT_FALSE(looks_back(editor_));
+    editor_.notices.clear();
+    turn_chosen("10");
+    EXPECT_EQ(editor_.past.size(), home + 1);
+    EXPECT_TRUE(editor_.notices.empty());
+    EXPECT_FALSE(can_redo(editor_));
+}
+
+TEST_F(BarEditor, ALaterStepIsNoEarlierOne) {
+    make_handles();
+    turn_chosen("40");
+    apply(editor_, UndoStep{});
+    calm();
+    apply(editor_, UndoStep{.to_look = true});
+    apply(editor_, RedoStep{.to_look = true});
+    apply(editor_, RedoStep{.to_look = true}); // what was undone before
+    calm();
+    EXPECT_FALSE(looks_back(editor_));
+    apply(editor_, UndoStep{.to_look = true});
+    EXPECT_FALSE(looks_back(editor_));
+    apply(editor_, UndoStep{.to_look = true});
+    EXPECT_TRUE(looks_back(editor_));
+    apply(editor_, UndoStep{});
+    EXPECT_FALSE(looks_back(editor_)) << "who takes a step back means it";
+    calm();
+}
+
 TEST_F(BarEditor, PlayingAStepIsDoingItAgain) {
     make_handles();
     move({400, 100});

@@ -208,6 +208,108 @@ TEST_F(BarEditor, AHandleIsToldHowItHoldsAndKeepsItThroughItsRole) {
     EXPECT_EQ(high().falloff, 0);
 }
 
+// Acts wait while the document is at something long, and the hand goes on meanwhile.
+TEST_F(BarEditor, AnActCountsForTheHandlesThatThereAreWhenItsTurnComes) {
+    make_handles();
+    select_heights(-3, -2.5); // which "low" has, too
+    apply(editor_, MakeHandle{HandleRole::fixed, "lowest"});
+    calm();
+    const auto named = [&](const char* name) {
+        const auto& handles = editor_.document->handles;
+        const auto found = std::ranges::find(handles, name, &Handle::name);
+        return found == handles.end() ? nullptr : &*found;
+    };
+    apply(editor_, DeleteHandle{"lowest"}); // the editor has not seen any of these when the next comes
+    apply(editor_, ChangeRole{"low", HandleRole::moving});
+    calm();
+    EXPECT_EQ(named("lowest"), nullptr) << "it was deleted before";
+    ASSERT_NE(named("low"), nullptr);
+    EXPECT_EQ(named("low")->role, HandleRole::moving);
+    apply(editor_, UndoStep{});
+    apply(editor_, UndoStep{});
+    calm();
+    apply(editor_, ColorHandle{"lowest", 0x112233});
+    apply(editor_, RenameHandle{"lowest", "foot"});
+    apply(editor_, ChangeHold{"low", true, 0});
+    calm();
+    EXPECT_EQ(named("lowest"), nullptr);
+    ASSERT_NE(named("foot"), nullptr);
+    EXPECT_EQ(named("foot")->color, 0x112233U);
+    EXPECT_TRUE(named("low")->free_rotation);
+    const std::size_t steps = editor_.past.size();
+    apply(editor_, ChangeRole{"low", HandleRole::moving});
+    apply(editor_, ChangeRole{"low", HandleRole::moving});
+    calm();
+    EXPECT_EQ(editor_.past.size(), steps + 1) << "what changes nothing is no step";
+}
+
+TEST_F(BarEditor, AHandleSaysFromWhomItTakesPoints) {
+    make_handles();
+    editor_.notices.clear();
+    select_heights(-1, 0);
+    apply(editor_, MakeHandle{HandleRole::moving, "middle"});
+    EXPECT_TRUE(editor_.notices.empty());
+    select_heights(-2.5, 1);
+    apply(editor_, MakeHandle{HandleRole::moving, "more"});
+    ASSERT_EQ(editor_.notices.size(), 1U);
+    const std::string& words = editor_.notices.back().words;
+    EXPECT_NE(words.find("from \"low\""), std::string::npos) << words;
+    EXPECT_EQ(words.find("\"low\", which holds none"), std::string::npos) << words;
+    calm();
+    editor_.notices.clear();
+    apply(editor_, ChangeSelection{SelectionStep::all});
+    apply(editor_, MakeHandle{HandleRole::moving, "all"});
+    ASSERT_EQ(editor_.notices.size(), 1U);
+    EXPECT_NE(editor_.notices.back().words.find("\"low\", which holds none any more"), std::string::npos);
+    calm();
+    editor_.notices.clear();
+    apply(editor_, ChangeSelection{SelectionStep::all});
+    apply(editor_, MakeHandle{HandleRole::region_of_interest, "where"});
+    EXPECT_TRUE(editor_.notices.empty()) << "a region takes nothing";
+}
+
+TEST_F(BarEditor, HidesNotAllWhereNothingIsSelected) {
+    apply(editor_, ChangeHidden{HideStep::hide_unselected});
+    EXPECT_EQ(editor_.hidden, 0U);
+    EXPECT_FALSE(can_undo(editor_));
+    ASSERT_EQ(editor_.notices.size(), 1U);
+    select_heights(2, 3);
+    apply(editor_, ChangeHidden{HideStep::hide_unselected});
+    EXPECT_GT(editor_.hidden, 0U);
+}
+
+TEST_F(BarEditor, MirrorsAPoseInTheShapeThatWasCommitted) {
+    editor_.camera.orthographic = true;
+    apply(editor_, ChangeSelection{SelectionStep::all});
+    apply(editor_, MakeHandle{HandleRole::moving, "whole"});
+    calm();
+    move({400, 100});
+    press('G');
+    press('Z');
+    type("3");
+    press(Key::enter);
+    calm();
+    press(Key::enter); // committed
+    calm();
+    apply(editor_, DeleteHandle{"whole"});
+    calm();
+    apply(editor_, FrameView{});
+    select_heights(2.5, 3.5); // the middle of the bar is at 3 now
+    apply(editor_, MakeHandle{HandleRole::fixed, "middle"});
+    select_heights(5, 6);
+    apply(editor_, MakeHandle{HandleRole::moving, "high"});
+    calm();
+    turn_chosen("40");
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    ASSERT_EQ(editor_.document->handles.size(), 3U);
+    const std::optional<glm::dvec3> high = middle_of(editor_, editor_.document->handles[1]);
+    const std::optional<glm::dvec3> low = middle_of(editor_, editor_.document->handles[2]);
+    ASSERT_TRUE(high && low);
+    EXPECT_NEAR(low->z + high->z, 6, 0.05) << "across the plane z = 3";
+    EXPECT_NEAR(low->x, high->x, 0.05);
+}
+
 TEST_F(BarEditor, AnotherColorLeavesThePoseAndIsAStepToUndo) {
     make_handles();
     select_heights(-3, -2.5); // which "low" has, too

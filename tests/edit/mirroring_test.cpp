@@ -85,7 +85,7 @@ TEST(PartAcross, IsFoundWhereItStandsOtherwise) {
     for (Index i = 0; i < half; ++i)
         if (positions[3 * (trunk + i) + 2] < -3.4F) points.push_back(static_cast<Index>(trunk) + i);
     const Handle foot{"foot", HandleRole::moving, std::make_shared<const std::vector<Index>>(points)};
-    const PartAcross across = part_across(editor, foot, {0, 0, true}, 0.06);
+    const PartAcross across = part_across(editor, editor.opened.opened->positions, foot, {0, 0, true}, 0.06);
     EXPECT_NEAR(across.shift.y(), 0.4, 0.05);
     EXPECT_NEAR(across.shift.z(), 0.1, 0.1);
     EXPECT_GT(across.points.size(), points.size() / 2);

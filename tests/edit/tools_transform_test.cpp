@@ -42,6 +42,25 @@ TEST(MoveTools, TurningTwiceRoundIsFourPi) {
     EXPECT_TRUE(is<EndDrag>(bench.commands.back())) << "the release after the click is no click";
 }
 
+TEST(MoveTools, AnotherOfGRSGoesOnAsThatFromWhereTheHandleWas) {
+    Bench bench;
+    bench.add_gizmo({0.1, 0.2, 0.3});
+    bench.move({520, 310});
+    bench.hit('G');
+    bench.move({560, 330});
+    EXPECT_GT(glm::length(bench.last().shift), 0);
+    bench.hit('R');
+    EXPECT_TRUE(bench.tools.modal);
+    bench.type("Z90");
+    EXPECT_NEAR(bench.last().angle, pi / 2, 1e-15);
+    EXPECT_EQ(bench.last().axis, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(glm::length(bench.last().shift), 0);
+    EXPECT_EQ(bench.last().pivot, glm::dvec3(0.1, 0.2, 0.3));
+    bench.hit(Key::enter);
+    EXPECT_EQ(bench.all<BeginDrag>().size(), 1U) << "one drag, and one step to undo";
+    EXPECT_EQ(bench.all<EndDrag>().size(), 1U);
+}
+
 TEST(MoveTools, GFollowsTheHandAndRightClickCancels) {
     Bench bench;
     bench.add_gizmo();
@@ -85,7 +104,7 @@ TEST(MoveTools, NoOtherKeyIsTaken) {
     bench.add_gizmo();
     bench.move({500, 300});
     bench.hit('G');
-    for (const char c : {'A', 'H', 'V', 'F', '1', 'B', 'R', 'S', 'L'}) EXPECT_TRUE(bench.hit(c));
+    for (const char c : {'A', 'H', 'V', 'F', '1', 'B', 'G', 'L'}) EXPECT_TRUE(bench.hit(c));
     EXPECT_TRUE(bench.hit('Y', ctrl)); // snapping, along y
     EXPECT_TRUE(bench.hit(Key::del));
     EXPECT_EQ(bench.all<BeginDrag>().size(), bench.commands.size());

@@ -67,6 +67,31 @@ std::vector<std::string> names_of(const std::vector<AttributeDifference>& differ
     return names;
 }
 
+PointCloud two_points(const std::string& type, const std::string& x, const std::string& other_x) {
+    return read_bytes("ply\nformat ascii 1.0\nelement vertex 2\nproperty " + type + " x\nproperty " + type +
+                      " y\nproperty " + type + " z\nend_header\n" + x + " 0 0\n" + other_x + " 0 0\n");
+}
+
+// A recorded check must hold for the shape that it was recorded of, however its file rounds.
+TEST(Compare, does_not_count_what_rounding_to_the_files_types_explains) {
+    struct Case {
+        const char *type, *x, *other;
+        double half;
+    };
+    for (const auto& [type, x, other, half] :
+         {Case{"int", "0", "10", 0.5}, Case{"float", "4000000", "4000010", 0.125}}) {
+        const PointCloud saved = two_points(type, x, other);
+        const PointCloud cloud = two_points("double", x, other);
+        const auto moved_by = [&](double by) {
+            std::vector<float> posed = cloud.positions;
+            posed[3] += static_cast<float>(by);
+            return distances_between(cloud, posed, saved).largest;
+        };
+        EXPECT_EQ(moved_by(0.9 * half), 0) << type;
+        EXPECT_NEAR(moved_by(1.5 * half), 1.5 * half, 1e-3 * half) << type;
+    }
+}
+
 TEST(Compare, names_attributes_that_differ) {
     const std::vector<float> point{1, 2, 3};
     const std::vector<float> value{4};

@@ -50,6 +50,33 @@ TEST(HandleColors, FollowANewName) {
     EXPECT_EQ(handle_color(colors, b), usual);
 }
 
+TEST(HandleColors, GoByTheNumberInTheNameSoThatASessionLooksTheSameAgain) {
+    const Handle one = handle("handle 1"), two = handle("handle 2"), third = handle("handle 2 and 3");
+    HandleColors made;
+    place_colors(made, std::vector{one});
+    place_colors(made, std::vector{one, two});
+    place_colors(made, std::vector{two});
+    HandleColors opened;
+    place_colors(opened, std::vector{two});
+    EXPECT_EQ(handle_color(opened, two), handle_color(made, two));
+    place_colors(opened, std::vector{two, third});
+    EXPECT_NE(handle_color(opened, third), handle_color(opened, two));
+}
+
+TEST(HandleColors, KeepTheListInTheOrderInWhichHandlesCame) {
+    const Handle a = handle("a"), b = handle("b"), c = handle("c");
+    HandleColors colors;
+    place_colors(colors, std::vector{a, b, c});
+    const std::vector again{b, c, a}; // "a" was changed, and so declared again
+    place_colors(colors, again);
+    EXPECT_EQ(order_of_list(colors, again), (std::vector<std::size_t>{2, 0, 1}));
+    Handle renamed = b;
+    renamed.name = "d";
+    const std::vector after{renamed, c, a};
+    place_colors(colors, after);
+    EXPECT_EQ(order_of_list(colors, after), (std::vector<std::size_t>{2, 0, 1}));
+}
+
 TEST(HandleColors, TheOneTriedCountsThenTheOneChosenThenTheUsual) {
     Handle a = handle("a"), b = handle("b");
     HandleColors colors;

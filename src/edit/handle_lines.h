@@ -1,0 +1,39 @@
+#pragma once
+// Handles as lines of a session, and the lines that change one.
+
+#include "edit/handles.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace knead {
+
+// What of a handle becomes another; what is not here stays as it is.
+struct HandleEdit {
+    std::string handle;
+    std::optional<HandleRole> role = {}; // a region holds nothing: its rotation and falloff go
+    struct Hold {
+        bool free_rotation = false;
+        double falloff = 0;
+    };
+    std::optional<Hold> hold = {}; // nothing for a region
+    struct Color {
+        std::optional<std::uint32_t> rgb; // none: the usual one
+    };
+    std::optional<Color> color = {};
+};
+
+std::vector<IndexRange> ranges_of(const std::vector<Index>& points);
+
+// As the session file declares it.
+HandleLine line_of(const Handle& handle);
+
+// The lines that change it; none where it is not among these handles, or is so already. A handle that is
+// declared anew is the last one, and the last one has what several hold: so those that came later and share
+// points with it come again after it, and with them all that came later. Another colour alone leaves a handle
+// the one that it is.
+std::vector<SessionAction> lines_for(std::span<const Handle> handles, const HandleEdit& edit);
+
+} // namespace knead

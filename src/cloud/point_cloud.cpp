@@ -1,6 +1,7 @@
 #include "cloud/point_cloud.h"
 
 #include "base/require.h"
+#include "cloud/main_part.h"
 
 #include <algorithm>
 #include <cmath>
@@ -220,25 +221,31 @@ bool is_finite(const PointCloud& cloud, std::size_t i) {
 
 void set_positions_from_columns(PointCloud& cloud) {
     const std::size_t points = check_coordinates(cloud);
+    const MainPart main = main_part_of(cloud, points);
     Vec3d lowest = Vec3d::Constant(std::numeric_limits<double>::infinity());
     Vec3d highest = -lowest;
     for_blocks(cloud, points, [&](std::size_t /*begin*/, const PositionBlock& block) {
         for (std::size_t i = 0; i < block.size; ++i) {
             const Vec3d p = block.point(i);
             // What no float can hold would push all other points out of reach as well. False for NaN, too.
-            if (!(p.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= largest_float)) continue;
+            if (!(p.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= largest_float) || main.is_far(p)) continue;
             lowest = lowest.cwiseMin(p);
             highest = highest.cwiseMax(p);
         }
     });
-    const Vec3d middle = 0.5 * lowest + 0.5 * highest;
+    const bool is_lost = main.is_lost_in((highest - lowest).norm());
+    const Vec3d middle = is_lost ? main.middle : Vec3d(0.5 * lowest + 0.5 * highest);
     cloud.origin = middle.allFinite() ? middle : Vec3d::Zero();
     cloud.positions.resize(3 * points);
     for_blocks(cloud, points, [&](std::size_t begin, const PositionBlock& block) {
         float* to = cloud.positions.data() + 3 * begin;
-        for (std::size_t i = 0; i < block.size; ++i)
+        for (std::size_t i = 0; i < block.size; ++i) {
+            const bool is_far = main.is_far(block.point(i));
             for (std::size_t axis = 0; axis < 3; ++axis)
-                *to++ = static_cast<float>(block.values[axis][i] - cloud.origin[static_cast<int>(axis)]);
+                *to++ =
+                    is_far ? std::numeric_limits<float>::quiet_NaN()
+                           : static_cast<float>(block.values[axis][i] - cloud.origin[static_cast<int>(axis)]);
+        }
     });
 }
 

@@ -85,7 +85,8 @@ std::optional<std::array<std::size_t, 3>> find_normals(const PointCloud& cloud);
 // Normals as 3n floats, interleaved; empty without such columns.
 std::vector<float> read_normals(const PointCloud& cloud);
 
-// Whether all three coordinates of point i are finite. Others stay in the file and out of every computation.
+// Whether all three coordinates of point i are finite, and not so far off that it is none of the cloud's
+// (cloud/main_part.h). Others stay in the file and out of every computation.
 bool is_finite(const PointCloud& cloud, std::size_t i);
 
 // Fills `positions` and `origin` from the coordinate columns; readers and generators call it once, last.

@@ -7,6 +7,7 @@
 
 #include "base/workers.h"
 #include "edit/command.h"
+#include "edit/kept_marks.h"
 #include "edit/live_document.h"
 #include "edit/selecting.h"
 #include "edit/tools.h"
@@ -33,9 +34,9 @@ inline constexpr StepNumber step_of_opened_session = 1;
 // One step of undo: a change of selection and hiding, a step of the document, or both.
 struct EditorStep {
     StepNumber document = 0; // 0: none
-    std::shared_ptr<const std::vector<std::uint8_t>> before =
+    std::shared_ptr<const KeptMarks> before =
         {}; // marks of selection and hiding, of a step that changed them; else null
-    std::shared_ptr<const std::vector<std::uint8_t>> after = {};
+    std::shared_ptr<const KeptMarks> after = {};
     // Of settings: when they were changed last. Those that change within a second join it.
     std::optional<std::chrono::steady_clock::time_point> settings_changed = {};
     StepNumber joined = 0; // the newest line of it

@@ -8,19 +8,16 @@
 
 namespace knead {
 
-std::shared_ptr<const std::vector<std::uint8_t>> snapshot(const Editor& editor) {
-    std::vector<std::uint8_t> marks(editor.marks.size());
-    std::ranges::transform(editor.marks, marks.begin(), [](std::uint8_t mark) {
-        return static_cast<std::uint8_t>(mark & marks_of_selection);
-    });
+std::shared_ptr<const KeptMarks> snapshot(const Editor& editor) {
+    KeptMarks marks(editor.marks);
     const auto last = std::ranges::find_if(
         editor.past.rbegin(), editor.past.rend(), [](const auto& after) { return after != nullptr; },
         &EditorStep::after);
     if (last != editor.past.rend() && *last->after == marks) return last->after;
-    return std::make_shared<const std::vector<std::uint8_t>>(std::move(marks));
+    return std::make_shared<const KeptMarks>(std::move(marks));
 }
 
-void add_step(Editor& editor, StepNumber document, std::shared_ptr<const std::vector<std::uint8_t>> before) {
+void add_step(Editor& editor, StepNumber document, std::shared_ptr<const KeptMarks> before) {
     editor.future.clear();
     editor.looks_from.reset(); // whoever acts goes on from here
     const auto after = before ? snapshot(editor) : nullptr;
@@ -30,7 +27,7 @@ void add_step(Editor& editor, StepNumber document, std::shared_ptr<const std::ve
 }
 
 StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
-                     std::shared_ptr<const std::vector<std::uint8_t>> marks_before) {
+                     std::shared_ptr<const KeptMarks> marks_before) {
     const StepNumber step = ++editor.last_step;
     editor.live->post(step, std::move(lines));
     add_step(editor, step, std::move(marks_before));
@@ -54,10 +51,8 @@ void choose_samples(Editor& editor, bool by_itself) {
     editor.live->choose_samples(by_itself);
 }
 
-void restore_selection(Editor& editor, const std::vector<std::uint8_t>& from) {
-    for (std::size_t i = 0; i < editor.marks.size(); ++i)
-        editor.marks[i] =
-            static_cast<std::uint8_t>((editor.marks[i] & mark_handle) | (from[i] & marks_of_selection));
+void restore_selection(Editor& editor, const KeptMarks& from) {
+    from.restore(editor.marks);
     marks_changed(editor);
 }
 

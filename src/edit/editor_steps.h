@@ -13,15 +13,15 @@ Vec3d to_eigen(const glm::dvec3& v);
 void say(Editor& editor, Notice::Kind kind, std::string words);
 
 // A copy of the marks of selection and hiding, to go back to; that of the last step where it is the same.
-std::shared_ptr<const std::vector<std::uint8_t>> snapshot(const Editor& editor);
+std::shared_ptr<const KeptMarks> snapshot(const Editor& editor);
 
 // Puts a step on the history; what could be redone is forgotten. `before`: the marks before it, if it changed
 // them.
-void add_step(Editor& editor, StepNumber document, std::shared_ptr<const std::vector<std::uint8_t>> before);
+void add_step(Editor& editor, StepNumber document, std::shared_ptr<const KeptMarks> before);
 
 // Posts lines as one step of undo; returns its number.
 StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
-                     std::shared_ptr<const std::vector<std::uint8_t>> marks_before = nullptr);
+                     std::shared_ptr<const KeptMarks> marks_before = nullptr);
 
 // Another handle is chosen, or none; with the step done last, if that made it or is to bring it back.
 void choose(Editor& editor, const std::string& handle);
@@ -31,7 +31,7 @@ void choose_with_step(Editor& editor, const std::string& handle);
 void choose_samples(Editor& editor, bool by_itself);
 
 // Selection and hiding as in `from`; the bits of the handles stay.
-void restore_selection(Editor& editor, const std::vector<std::uint8_t>& from);
+void restore_selection(Editor& editor, const KeptMarks& from);
 
 // Counts again what is selected and tells the renderer.
 void marks_changed(Editor& editor);

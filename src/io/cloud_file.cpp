@@ -54,8 +54,8 @@ void add_remarks(PointCloud& cloud) {
     if (const std::size_t strange = cloud.size() - bounds.finite_points; strange > 0)
         cloud.remarks.push_back(
             std::to_string(strange) + " of " + std::to_string(cloud.size()) +
-            " points have a coordinate that is not finite, or beyond what floats hold; they "
-            "are kept and never move");
+            " points have a coordinate that is not finite, or beyond what floats hold, or lie 10,000 times "
+            "as far off as the others are spread; they are kept and never move");
     remark_on_coarse_coordinates(cloud, bounds);
     remark_on_normals_that_stay(cloud);
 }

@@ -25,6 +25,9 @@ void Outputs::hand_over() {
     for (const TemporaryFolder& folder : folders_) refuse_twice(targets, folder.target());
     for (const FileInTheMaking& file : files_) refuse_twice(targets, file.shown());
     for (const TemporaryFolder& folder : folders_) folder.make_ready();
+    for (const TemporaryFolder& folder : folders_)
+        for (const std::filesystem::path& name : folder.names())
+            refuse_twice(targets, folder.target() / name);
     for (FileInTheMaking& file : files_) file.make_ready();
     for (TemporaryFolder& folder : folders_) folder.put_in_place();
     for (FileInTheMaking& file : files_) file.put_in_place();

@@ -22,6 +22,7 @@ public:
 
     const std::filesystem::path& path() const { return claim_->path(); }
     const std::filesystem::path& target() const { return target_; }
+    std::vector<std::filesystem::path> names() const; // of what is in it
 
     // Throws Error (output) for all that hand_over() would, but for what befalls the disk in between.
     void make_ready() const;
@@ -34,8 +35,6 @@ public:
     void hand_over();
 
 private:
-    std::vector<std::filesystem::path> names() const; // of what is in it
-
     std::filesystem::path target_;
     std::optional<Claim> claim_; // none after hand_over()
 };

@@ -91,7 +91,7 @@ void carry_out(Editor& editor, const MakeHandle& command) {
     if (!needs_document(editor)) return;
     if (editor.selected == 0)
         return say(editor, Notice::Kind::information,
-                   "Select the points of the handle first: draw a lasso round them.");
+                   "Select the points of the handle first: " + way_to_select(editor.tools.select) + " them.");
     HandleLine line;
     line.name = command.name.empty() ? free_name(editor, command.role) : command.name;
     line.role = command.role;

@@ -174,9 +174,6 @@ bool can_redo(const Editor& editor) {
     return editor.document && !dragging && !editor.future.empty();
 }
 
-namespace {
-
-// How the tool that is taken selects a part.
 std::string way_to_select(SelectTool tool) {
     switch (tool) {
     case SelectTool::click:
@@ -192,8 +189,6 @@ std::string way_to_select(SelectTool tool) {
     }
     return "draw a lasso round";
 }
-
-} // namespace
 
 std::string next_step(const Editor& editor) {
     if (!editor.document) return {};

@@ -39,6 +39,9 @@ void marks_changed(Editor& editor);
 // The bits that say which handle a point belongs to, from the document's handles.
 void mark_handles(Editor& editor);
 
+// How a tool selects a part: "draw a lasso round".
+std::string way_to_select(SelectTool tool);
+
 // Whether steps were posted that the document has not carried out yet, a drag under way among them.
 bool has_pending_steps(const Editor& editor);
 

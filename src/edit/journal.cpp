@@ -164,9 +164,11 @@ MendedText mended(std::string text, const std::filesystem::path& file) {
 std::vector<LostWork> find_lost_work(const std::filesystem::path& folder) {
     std::vector<LostWork> found;
     std::error_code trouble;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, trouble)) {
-        if (entry.path().extension() != ".knead") continue;
-        if (auto lost = look_at(entry.path())) found.push_back(std::move(*lost));
+    std::filesystem::directory_iterator entry(folder,
+                                              trouble); // its loop form throws where a folder goes away
+    for (; !trouble && entry != std::filesystem::directory_iterator(); entry.increment(trouble)) {
+        if (entry->path().extension() != ".knead") continue;
+        if (auto lost = look_at(entry->path())) found.push_back(std::move(*lost));
     }
     std::ranges::sort(found, std::greater{}, &LostWork::when);
     return found;

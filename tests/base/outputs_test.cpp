@@ -97,6 +97,17 @@ TEST(Outputs, StayOldWhereTheFolderOfOneBecameReadOnly) {
     EXPECT_EQ(read_text(targets.frames / "1.png"), "old");
 }
 
+TEST(Outputs, StayOldWhereAFileIsMeantForOneOfAFolder) {
+    const ScratchFolder scratch;
+    const Targets targets(scratch);
+    Outputs outputs;
+    targets.fill(outputs);
+    outputs.add(FileInTheMaking(targets.frames / "1.png")).write("another");
+    EXPECT_NE(targets.refusal(outputs).find("is named for two outputs"), std::string::npos);
+    for (const fs::path& target : {targets.cloud, targets.picture, targets.frames / "1.png"})
+        EXPECT_EQ(read_text(target), "old");
+}
+
 TEST(Outputs, StayOldWhereOneNameIsMeantTwice) {
     const ScratchFolder scratch;
     const Targets targets(scratch);

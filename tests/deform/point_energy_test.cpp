@@ -40,7 +40,8 @@ struct Held {
     }
 
     PointsBetween between(InfluenceWeights weights) const {
-        return {cloud.graph, cloud.positions, point, nearest, weights, hanging, label, turning, {}, sample, 2};
+        return {cloud.graph, cloud.positions, point, nearest, weights, hanging,
+                label,       turning,         {},    sample,  2};
     }
 
     PointEnergy energy(InfluenceWeights weights, unsigned threads) const {

@@ -27,7 +27,7 @@ std::filesystem::path plain_path(const std::filesystem::path& path) {
 // path that is nowhere keeps its name.
 std::filesystem::path relative_to(const std::filesystem::path& path, const std::filesystem::path& folder) {
     std::error_code ignored;
-    const std::filesystem::path way = path.lexically_relative(folder);
+    std::filesystem::path way = path.lexically_relative(folder);
     if (way.empty() || !std::filesystem::exists(path, ignored)) return way.empty() ? path : way;
     if (are_one_file(folder / way, path)) return way;
     const std::filesystem::path real = std::filesystem::weakly_canonical(path, ignored);

@@ -1,7 +1,6 @@
 #include "cloud/main_part.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>

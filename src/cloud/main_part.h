@@ -3,8 +3,8 @@
 
 #include "cloud/point_cloud.h"
 
-#include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace knead {
 
@@ -17,8 +17,8 @@ struct MainPart {
 
     // Whether a finite point is so far off that it is none of the cloud's: 10⁴ sizes.
     bool is_far(const Vec3d& p) const {
-        const double distance = (p - middle).norm();
-        return size > 0 && distance > 1e4 * size && std::isfinite(distance);
+        const double square = (p - middle).squaredNorm(); // of what is not finite: NaN or infinite
+        return size > 0 && square > 1e8 * size * size && square < std::numeric_limits<double>::infinity();
     }
     // Whether a box is so much larger that its middle says nothing of where the cloud is.
     bool is_lost_in(double diagonal) const { return size > 0 && diagonal > 100 * size; }

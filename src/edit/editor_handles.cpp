@@ -40,20 +40,13 @@ bool is_free(const Editor& editor, const std::string& name) {
     });
 }
 
-// Posts an edit of a handle. The document knows best what there is to change: earlier acts may be on their
-// way to it, of which nothing is seen here yet.
-void post_edit(Editor& editor, HandleEdit edit) {
+// The document knows best what there is to change: earlier acts may be on their way to it, of which nothing
+// is seen here yet.
+void edit_handle(Editor& editor, HandleEdit edit) {
+    const bool is_known = number_of(editor, edit.handle).has_value();
+    if (!is_known || (!has_pending_steps(editor) && !changes(editor.document->handles, edit))) return;
     editor.live->edit_handle(++editor.last_step, std::move(edit));
     add_step(editor, editor.last_step, nullptr);
-}
-
-// Whether an edit would change nothing of what is seen here, and nothing else is on its way.
-bool is_so_already(const Editor& editor, const HandleEdit& edit) {
-    return !has_pending_steps(editor) && lines_for(editor.document->handles, edit).empty();
-}
-
-void edit_handle(Editor& editor, HandleEdit edit) {
-    if (number_of(editor, edit.handle) && !is_so_already(editor, edit)) post_edit(editor, std::move(edit));
 }
 
 } // namespace

@@ -50,16 +50,21 @@ HandleLine line_of(const Handle& handle) {
     return line;
 }
 
-std::vector<SessionAction> lines_for(std::span<const Handle> handles, const HandleEdit& edit) {
+bool changes(std::span<const Handle> handles, const HandleEdit& edit) {
     const auto found = std::ranges::find(handles, edit.handle, &Handle::name);
-    if (found == handles.end()) return {};
+    if (found == handles.end()) return false;
     const Handle after = edited(*found, edit);
-    const bool holds_as_before = holds_the_same(*found, after);
-    if (holds_as_before && after.color == found->color) return {};
+    return !holds_the_same(*found, after) || after.color != found->color;
+}
+
+std::vector<SessionAction> lines_for(std::span<const Handle> handles, const HandleEdit& edit) {
+    if (!changes(handles, edit)) return {};
+    const auto found = std::ranges::find(handles, edit.handle, &Handle::name);
+    const Handle after = edited(*found, edit);
     std::vector<SessionAction> lines{line_of(after)};
-    if (holds_as_before) return lines;
     const std::span<const Handle> later(found + 1, handles.end());
-    if (std::ranges::any_of(later, [&](const Handle& one) { return share_points(*found, one); }))
+    const auto shares = [&](const Handle& one) { return share_points(*found, one); };
+    if (!holds_the_same(*found, after) && std::ranges::any_of(later, shares))
         for (const Handle& handle : later) lines.emplace_back(line_of(handle));
     return lines;
 }

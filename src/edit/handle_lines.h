@@ -30,7 +30,10 @@ std::vector<IndexRange> ranges_of(const std::vector<Index>& points);
 // As the session file declares it.
 HandleLine line_of(const Handle& handle);
 
-// The lines that change it; none where it is not among these handles, or is so already. A handle that is
+// Whether it is among these handles and is not so already.
+bool changes(std::span<const Handle> handles, const HandleEdit& edit);
+
+// The lines that change it; none where there is nothing to change. A handle that is
 // declared anew is the last one, and the last one has what several hold: so those that came later and share
 // points with it come again after it, and with them all that came later. Another colour alone leaves a handle
 // the one that it is.

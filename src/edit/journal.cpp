@@ -164,8 +164,8 @@ MendedText mended(std::string text, const std::filesystem::path& file) {
 std::vector<LostWork> find_lost_work(const std::filesystem::path& folder) {
     std::vector<LostWork> found;
     std::error_code trouble;
-    std::filesystem::directory_iterator entry(folder,
-                                              trouble); // its loop form throws where a folder goes away
+    // Not by a loop over the range, which throws where the folder goes away meanwhile.
+    std::filesystem::directory_iterator entry(folder, trouble);
     for (; !trouble && entry != std::filesystem::directory_iterator(); entry.increment(trouble)) {
         if (entry->path().extension() != ".knead") continue;
         if (auto lost = look_at(entry->path())) found.push_back(std::move(*lost));

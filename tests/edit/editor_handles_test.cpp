@@ -1,0 +1,287 @@
+// Handles in the editor: made, changed, mirrored.
+
+#include "edit/editor_bar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+namespace knead::test {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+} // namespace
+
+TEST_F(BarEditor, ASelectionBecomesAHandleAndBackInOneStep) {
+    make_handles();
+    ASSERT_EQ(editor_.document->handles.size(), 2U);
+    EXPECT_EQ(editor_.document->handles[1].points->size(), points_between(2, 3));
+    EXPECT_EQ(editor_.chosen, "high");
+    EXPECT_EQ(editor_.selected, 0U);
+    EXPECT_EQ(std::ranges::count(editor_.marks, handle_mark(1)),
+              static_cast<std::ptrdiff_t>(points_between(2, 3)));
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(editor_.document->handles.size(), 1U);
+    EXPECT_EQ(editor_.selected, points_between(2, 3));
+    EXPECT_EQ(editor_.chosen, "");
+    apply(editor_, RedoStep{});
+    calm();
+    EXPECT_EQ(editor_.document->handles.size(), 2U);
+    EXPECT_EQ(editor_.selected, 0U);
+}
+
+TEST_F(BarEditor, MirroringTakesThePointsAndThePoseAcross) {
+    make_handles();
+    move({400, 100});
+    press('R');
+    press('X');
+    type("40");
+    press(Key::enter);
+    calm();
+    const Eigen::AngleAxisd first(editor_.document->motions[1].rotation);
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    ASSERT_EQ(editor_.document->handles.size(), 3U);
+    const Handle& mirrored = editor_.document->handles[2];
+    EXPECT_EQ(mirrored.name, "high mirrored");
+    EXPECT_NEAR(static_cast<double>(mirrored.points->size()), static_cast<double>(points_between(-3, -2)),
+                60);
+    const Eigen::AngleAxisd turn(editor_.document->motions[2].rotation);
+    EXPECT_NEAR(turn.angle(), 40 * pi / 180, 1e-9);
+    EXPECT_NEAR(turn.axis().x() * first.axis().x(), -1, 1e-9);
+}
+
+TEST_F(BarEditor, AHandleIsToldHowItHoldsAndKeepsItThroughItsRole) {
+    make_handles();
+    apply(editor_, ChangeHold{"high", true, 0.25});
+    calm();
+    const auto high = [&] {
+        const auto& handles = editor_.document->handles;
+        return *std::ranges::find(handles, "high", &Handle::name);
+    };
+    EXPECT_TRUE(high().free_rotation);
+    EXPECT_EQ(high().falloff, 0.25);
+    apply(editor_, ChangeRole{"high", HandleRole::fixed});
+    calm();
+    EXPECT_EQ(high().role, HandleRole::fixed);
+    EXPECT_TRUE(high().free_rotation);
+    EXPECT_EQ(high().falloff, 0.25);
+    apply(editor_, UndoStep{});
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_FALSE(high().free_rotation);
+    EXPECT_EQ(high().falloff, 0);
+}
+
+// Acts wait while the document is at something long, and the hand goes on meanwhile.
+TEST_F(BarEditor, AnActCountsForTheHandlesThatThereAreWhenItsTurnComes) {
+    make_handles();
+    select_heights(-3, -2.5); // which "low" has, too
+    apply(editor_, MakeHandle{HandleRole::fixed, "lowest"});
+    calm();
+    const auto named = [&](const char* name) {
+        const auto& handles = editor_.document->handles;
+        const auto found = std::ranges::find(handles, name, &Handle::name);
+        return found == handles.end() ? nullptr : &*found;
+    };
+    apply(editor_, DeleteHandle{"lowest"}); // the editor has not seen any of these when the next comes
+    apply(editor_, ChangeRole{"low", HandleRole::moving});
+    calm();
+    EXPECT_EQ(named("lowest"), nullptr) << "it was deleted before";
+    ASSERT_NE(named("low"), nullptr);
+    EXPECT_EQ(named("low")->role, HandleRole::moving);
+    apply(editor_, UndoStep{});
+    apply(editor_, UndoStep{});
+    calm();
+    apply(editor_, ColorHandle{"lowest", 0x112233});
+    apply(editor_, RenameHandle{"lowest", "foot"});
+    apply(editor_, ChangeHold{"low", true, 0});
+    calm();
+    EXPECT_EQ(named("lowest"), nullptr);
+    ASSERT_NE(named("foot"), nullptr);
+    EXPECT_EQ(named("foot")->color, 0x112233U);
+    EXPECT_TRUE(named("low")->free_rotation);
+    const std::size_t steps = editor_.past.size();
+    apply(editor_, ChangeRole{"low", HandleRole::moving});
+    apply(editor_, ChangeRole{"low", HandleRole::moving});
+    calm();
+    EXPECT_EQ(editor_.past.size(), steps + 1) << "what changes nothing is no step";
+}
+
+TEST_F(BarEditor, AHandleSaysFromWhomItTakesPoints) {
+    make_handles();
+    editor_.notices.clear();
+    select_heights(-1, 0);
+    apply(editor_, MakeHandle{HandleRole::moving, "middle"});
+    EXPECT_TRUE(editor_.notices.empty());
+    select_heights(-2.5, 1);
+    apply(editor_, MakeHandle{HandleRole::moving, "more"});
+    ASSERT_EQ(editor_.notices.size(), 1U);
+    const std::string& words = editor_.notices.back().words;
+    EXPECT_NE(words.find("from \"low\""), std::string::npos) << words;
+    EXPECT_EQ(words.find("\"low\", which holds none"), std::string::npos) << words;
+    calm();
+    editor_.notices.clear();
+    apply(editor_, ChangeSelection{SelectionStep::all});
+    apply(editor_, MakeHandle{HandleRole::moving, "all"});
+    ASSERT_EQ(editor_.notices.size(), 1U);
+    EXPECT_NE(editor_.notices.back().words.find("\"low\", which holds none any more"), std::string::npos);
+    calm();
+    editor_.notices.clear();
+    apply(editor_, ChangeSelection{SelectionStep::all});
+    apply(editor_, MakeHandle{HandleRole::region_of_interest, "where"});
+    EXPECT_TRUE(editor_.notices.empty()) << "a region takes nothing";
+}
+
+TEST_F(BarEditor, MirrorsAPoseInTheShapeThatWasCommitted) {
+    editor_.camera.orthographic = true;
+    apply(editor_, ChangeSelection{SelectionStep::all});
+    apply(editor_, MakeHandle{HandleRole::moving, "whole"});
+    calm();
+    move({400, 100});
+    press('G');
+    press('Z');
+    type("3");
+    press(Key::enter);
+    calm();
+    press(Key::enter); // committed
+    calm();
+    apply(editor_, DeleteHandle{"whole"});
+    calm();
+    apply(editor_, FrameView{});
+    select_heights(2.5, 3.5); // the middle of the bar is at 3 now
+    apply(editor_, MakeHandle{HandleRole::fixed, "middle"});
+    select_heights(5, 6);
+    apply(editor_, MakeHandle{HandleRole::moving, "high"});
+    calm();
+    turn_chosen("40");
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    ASSERT_EQ(editor_.document->handles.size(), 3U);
+    const std::optional<glm::dvec3> high = middle_of(editor_, editor_.document->handles[1]);
+    const std::optional<glm::dvec3> low = middle_of(editor_, editor_.document->handles[2]);
+    ASSERT_TRUE(high && low);
+    EXPECT_NEAR(low->z + high->z, 6, 0.05) << "across the plane z = 3";
+    EXPECT_NEAR(low->x, high->x, 0.05);
+}
+
+TEST_F(BarEditor, AnotherColorLeavesThePoseAndIsAStepToUndo) {
+    make_handles();
+    select_heights(-3, -2.5); // which "low" has, too
+    apply(editor_, MakeHandle{HandleRole::fixed, "lowest"});
+    calm();
+    editor_.chosen = "high";
+    turn_chosen("40");
+    const std::vector<float> posed = editor_.frame.positions;
+    editor_.notices.clear();
+    apply(editor_, ColorHandle{"low", 0x123456});
+    calm();
+    const auto color = [&] { return editor_.document->handles.front().color; };
+    EXPECT_EQ(editor_.document->handles.front().name, "low") << "in its place";
+    EXPECT_EQ(color(), 0x123456U);
+    EXPECT_TRUE(editor_.document->posed);
+    EXPECT_TRUE(editor_.notices.empty());
+    apply(editor_, RenameHandle{"low", "foot"});
+    calm();
+    EXPECT_EQ(color(), 0x123456U);
+    apply(editor_, UndoStep{});
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_FALSE(color().has_value());
+    EXPECT_TRUE(editor_.document->posed);
+    EXPECT_EQ(editor_.frame.positions, posed);
+    apply(editor_, RedoStep{});
+    calm();
+    EXPECT_EQ(color(), 0x123456U);
+    apply(editor_, ColorHandle{"low", std::nullopt});
+    calm();
+    EXPECT_FALSE(color().has_value());
+}
+
+TEST_F(BarEditor, APointThatLeavesRotationFreeSaysWhyItDoesNotTurn) {
+    editor_.camera.orthographic = true;
+    apply(editor_, SelectPointUnder{pixel_of({0, 0, 1})});
+    ASSERT_EQ(editor_.selected, 1U);
+    apply(editor_, MakeHandle{HandleRole::moving, "peg"});
+    calm();
+    EXPECT_TRUE(gizmo_of(editor_)->rotate) << "it turns what is around it";
+    EXPECT_GT(least_falloff(editor_, *chosen_handle(editor_)), 0);
+    apply(editor_, ChangeHold{"peg", true, 0});
+    calm();
+    EXPECT_FALSE(gizmo_of(editor_)->rotate);
+    EXPECT_TRUE(gizmo_of(editor_)->translate);
+    for (const char letter : {'R', 'S'}) {
+        editor_.notices.clear();
+        press(letter);
+        EXPECT_FALSE(editor_.tools.drag);
+        ASSERT_EQ(editor_.notices.size(), 1U);
+        EXPECT_NE(editor_.notices[0].words.find("leaves rotation free"), std::string::npos);
+    }
+    press('G');
+    EXPECT_TRUE(editor_.tools.drag);
+    press(Key::escape);
+    apply(editor_, SetPivot{glm::dvec3(0, 0, 0)}); // about which it can go round
+    press('R');
+    EXPECT_TRUE(editor_.tools.drag);
+}
+
+TEST_F(BarEditor, LargeHandlesNeedNoFalloff) {
+    make_handles();
+    for (const Handle& handle : editor_.document->handles) EXPECT_EQ(least_falloff(editor_, handle), 0);
+}
+
+TEST_F(BarEditor, MirroringElsewhereMakesAnotherHandle) {
+    make_handles();
+    const auto names = [&] {
+        std::vector<std::string> all;
+        for (const Handle& handle : editor_.document->handles) all.push_back(handle.name);
+        return all;
+    };
+    for (const int axis : {0, 2, 2}) { // on itself; across; and there again
+        apply(editor_, MirrorHandle{"high", axis});
+        calm();
+    }
+    EXPECT_EQ(names(), (std::vector<std::string>{"low", "high", "high mirrored", "high mirrored 2"}));
+}
+
+// What is declared anew comes last, and the last one has what several hold.
+TEST_F(BarEditor, AChangedHandleLeavesLaterOnesTheirPoints) {
+    make_handles();
+    for (const auto& [from, to, name] : {std::tuple{2.2, 2.4, "ring"}, {-1.0, 0.0, "belt"}}) {
+        select_heights(from, to);
+        apply(editor_, MakeHandle{HandleRole::moving, name});
+        calm();
+    }
+    const std::vector<std::uint8_t> marks = editor_.marks;
+    const std::vector<float> rest = editor_.frame.positions;
+    apply(editor_, ChangeHold{"high", false, 0.25});
+    calm();
+    std::vector<std::string> order;
+    for (const Handle& handle : editor_.document->handles) order.push_back(handle.name);
+    EXPECT_EQ(order, (std::vector<std::string>{"low", "high", "ring", "belt"}));
+    EXPECT_EQ(editor_.marks, marks);
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(chosen_handle(editor_)->name, "belt");
+    EXPECT_EQ(editor_.document->handles[1].falloff, 0) << "all of it is one step";
+    apply(editor_, ChangeRole{"low", HandleRole::moving}); // which shares points with nobody
+    calm();
+    EXPECT_EQ(editor_.document->handles.back().name, "low");
+}
+
+TEST_F(BarEditor, HandlesMadeInQuickSuccessionHaveNamesOfTheirOwn) {
+    editor_.camera.orthographic = true;
+    select_heights(2, 3);
+    apply(editor_, MakeHandle{HandleRole::moving, ""});
+    select_heights(-3, -2);
+    apply(editor_, MakeHandle{HandleRole::moving, ""});
+    calm();
+    ASSERT_EQ(editor_.document->handles.size(), 2U);
+    EXPECT_EQ(editor_.document->handles[1].name, "handle 2");
+}
+
+} // namespace knead::test

@@ -23,6 +23,9 @@ bool something_is_hidden(const Ui& ui) {
 bool handle_is_chosen(const Ui& ui) {
     return ui.has_cloud() && chosen_handle(ui.editor);
 }
+bool handle_and_selection_are_there(const Ui& ui) {
+    return handle_is_chosen(ui) && ui.editor.selected > 0;
+}
 bool moving_handle_is_chosen(const Ui& ui) {
     if (!ui.has_cloud()) return false;
     const Handle* handle = chosen_handle(ui.editor);
@@ -62,6 +65,10 @@ void hide(const Ui& ui) {
 template<HandleRole role>
 void make_handle(const Ui& ui) {
     ui.tell(MakeHandle{role, {}});
+}
+template<SelectMode mode>
+void assign_points(const Ui& ui) {
+    ui.tell(AssignPoints{ui.editor.chosen, mode});
 }
 template<int axis>
 void mirror(const Ui& ui) {
@@ -251,11 +258,21 @@ const Action handle_actions[] = {
      choose_next_handle<1>, handles_are_there, nullptr, true},
     {"Handles", "Handle before", "Shift+Tab", "Chooses the handle before it", on(Key::tab, shift),
      choose_next_handle<-1>, handles_are_there},
-    {"Handles", "Select its points", "Shift+L", "Selects the points of the chosen handle", on('L', shift),
+    {"Handles/Its points", "Select its points", "Shift+L", "Selects the points of the chosen handle",
+     on('L', shift),
      [](const Ui& ui) {
          ui.tell(SelectHandlePoints{ui.editor.chosen, SelectMode::replace});
      },
      handle_is_chosen},
+    {"Handles/Its points", "Add the selection to it", "Ctrl+Shift+H",
+     "The chosen handle holds the selected points, too", on('H', ctrl_shift), assign_points<SelectMode::add>,
+     handle_and_selection_are_there},
+    {"Handles/Its points", "Take the selection from it", "Ctrl+Alt+H",
+     "The chosen handle lets go of the selected points", on('H', ctrl_alt), assign_points<SelectMode::remove>,
+     handle_and_selection_are_there},
+    {"Handles/Its points", "Hold the selection instead", "",
+     "The chosen handle holds the selected points and no others", std::nullopt,
+     assign_points<SelectMode::replace>, handle_and_selection_are_there},
     {"Handles", "Rename", "F2", "Gives the chosen handle another name", on(Key::f2), rename_chosen,
      handle_is_chosen},
     {"Handles", "Reset its pose", "Alt+R", "Puts the chosen handle back where it was at rest", on('R', alt),
@@ -409,6 +426,7 @@ std::span<const Gesture> gestures() {
         Gesture{"While moving, turning or scaling", "Shift", "Ten times slower"},
         Gesture{"While moving, turning or scaling", "Enter", "Done (or click)"},
         Gesture{"While moving, turning or scaling", "Esc", "As it was (or right click)"},
+        Gesture{"In the panels", "Ctrl+click", "Type the number of a slider"},
     };
     return list;
 }

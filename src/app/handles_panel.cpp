@@ -18,7 +18,8 @@ namespace knead {
 
 namespace {
 
-constexpr float fewest_rows = 6; // of the list
+constexpr float fewest_rows = 6;    // of the list
+constexpr double most_falloff = 10; // in diagonals of the cloud: what is typed beyond is a slip
 
 void selection_words(const Ui& ui) {
     const std::size_t selected = ui.editor.selected;
@@ -62,6 +63,22 @@ void mirror_items(const Ui& ui, const Handle& handle) {
     if (ImGui::MenuItem("Along Z")) ui.tell(MirrorHandle{handle.name, 2});
 }
 
+// What the handle holds.
+void point_items(const Ui& ui, const Handle& handle) {
+    if (ImGui::MenuItem("Select its points", "Shift+L"))
+        ui.tell(SelectHandlePoints{handle.name, SelectMode::replace});
+    ImGui::Separator();
+    const struct {
+        SelectMode mode;
+        const char* label;
+    } ways[] = {{SelectMode::add, "Add the selection to it"},
+                {SelectMode::remove, "Take the selection from it"},
+                {SelectMode::replace, "Hold the selection instead"}};
+    for (const auto& [mode, label] : ways)
+        if (ImGui::MenuItem(label, nullptr, false, ui.editor.selected > 0))
+            ui.tell(AssignPoints{handle.name, mode});
+}
+
 // How far the handle pulls what is around it, in parts of the cloud's diagonal.
 void falloff_menu(const Ui& ui, const Handle& handle) {
     const Bounds& bounds = ui.editor.opened.bounds;
@@ -86,6 +103,15 @@ void falloff_menu(const Ui& ui, const Handle& handle) {
         const bool is_now = std::abs(handle.falloff - part * diagonal) < 1e-9 * diagonal;
         if (ImGui::MenuItem(words_about(part).c_str(), nullptr, is_now)) pull(part);
     }
+    ImGui::Separator();
+    inline_caption("Length", ui.scaled(70));
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    double length = std::max(handle.falloff, least * diagonal);
+    if (ImGui::InputDouble("##length", &length, 0, 0, "%.4g", ImGuiInputTextFlags_EnterReturnsTrue)) {
+        pull(std::clamp(length / diagonal, 0.0, most_falloff));
+        ImGui::CloseCurrentPopup();
+    }
+    explain("In the units of the file; Enter takes it");
 }
 
 // What holds, and how.
@@ -111,8 +137,10 @@ void handle_menu(const Ui& ui, const Handle& handle) {
         ui.state.renaming_begins = true;
     }
     if (ImGui::MenuItem("Colour…")) ui.state.recoloring = handle.name;
-    if (ImGui::MenuItem("Select its points", "Shift+L"))
-        ui.tell(SelectHandlePoints{handle.name, SelectMode::replace});
+    if (ImGui::BeginMenu("Its points")) {
+        point_items(ui, handle);
+        ImGui::EndMenu();
+    }
     if (ImGui::MenuItem("Reset its pose", "Alt+R", false,
                         handle.role == HandleRole::moving && ui.editor.document->posed))
         ui.tell(ResetPose{handle.name});

@@ -50,6 +50,10 @@ struct ChooseHandle {
 struct RenameHandle {
     std::string handle, to;
 };
+struct AssignPoints { // the selection: instead of the handle's points, beside them, or taken from them
+    std::string handle;
+    SelectMode mode = SelectMode::replace;
+};
 struct ChangeRole {
     std::string handle;
     HandleRole role = HandleRole::moving;
@@ -133,9 +137,9 @@ struct SetPivotUnder { // a double click: the point under the cursor becomes the
 
 using Command =
     std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
-                 MakeHandle, ChooseHandle, RenameHandle, ChangeRole, ChangeHold, ColorHandle, DeleteHandle,
-                 ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag, RefuseTransform, SetPivot,
-                 ChangeSettings, ChooseSamples, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying,
-                 AdvancePlaying, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
+                 MakeHandle, ChooseHandle, RenameHandle, AssignPoints, ChangeRole, ChangeHold, ColorHandle,
+                 DeleteHandle, ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag,
+                 RefuseTransform, SetPivot, ChangeSettings, ChooseSamples, CommitPose, UndoStep, RedoStep,
+                 PlayStep, PacePlaying, AdvancePlaying, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
 
 } // namespace knead

@@ -352,8 +352,9 @@ bool is_one_of(const Command& command) {
 // Whether it would add a step, after which those that come later are gone.
 bool is_act(const Command& command) {
     return is_one_of<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
-                     MakeHandle, RenameHandle, ChangeRole, ChangeHold, ColorHandle, DeleteHandle, ResetPose,
-                     MirrorHandle, BeginDrag, ChangeSettings, ChooseSamples, CommitPose>(command);
+                     MakeHandle, RenameHandle, AssignPoints, ChangeRole, ChangeHold, ColorHandle,
+                     DeleteHandle, ResetPose, MirrorHandle, BeginDrag, ChangeSettings, ChooseSamples,
+                     CommitPose>(command);
 }
 
 void decline(Editor& editor, const char* words) {

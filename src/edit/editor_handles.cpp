@@ -49,6 +49,41 @@ void edit_handle(Editor& editor, HandleEdit edit) {
     add_step(editor, editor.last_step, nullptr);
 }
 
+// How many points follow a handle, and how many of them are selected. Of what several hold the last one has
+// it, which is what the marks say.
+struct Held {
+    std::size_t points = 0, selected = 0;
+};
+Held held_by(const Editor& editor, std::size_t number) {
+    Held held;
+    for (const Index i : *editor.document->handles[number].points) {
+        const std::uint8_t mark = editor.ordered[i] == no_index ? 0 : editor.marks[editor.ordered[i]];
+        if ((mark & mark_handle) != handle_mark(number)) continue;
+        ++held.points;
+        held.selected += (mark & mark_selected) != 0;
+    }
+    return held;
+}
+
+// A handle that is given these marks takes the points that it shares with others; a region takes none of
+// theirs. Says from whom it takes.
+void tell_who_is_robbed(Editor& editor, HandleRole role, const std::string& name) {
+    if (role == HandleRole::region_of_interest) return;
+    std::string words;
+    for (std::size_t h = 0; h < editor.document->handles.size(); ++h) {
+        const Handle& handle = editor.document->handles[h];
+        if (handle.role == HandleRole::region_of_interest || handle.name == name) continue;
+        const Held held = held_by(editor, h);
+        if (held.selected == 0) continue;
+        words += (words.empty() ? " takes " : ", and ") + counted(held.selected, "point") + " from \"" +
+                 handle.name + "\"";
+        if (held.selected == held.points) words += ", which holds none any more";
+    }
+    if (!words.empty())
+        say(editor, Notice::Kind::information,
+            "\"" + name + "\"" + words + ": what several hold follows the one that took it last.");
+}
+
 } // namespace
 
 std::string free_name(const Editor& editor, HandleRole role) {
@@ -56,27 +91,6 @@ std::string free_name(const Editor& editor, HandleRole role) {
         std::string name = std::string(word_for(role)) + " " + std::to_string(number);
         if (is_free(editor, name)) return name;
     }
-}
-
-// A handle that is made of these marks takes the points that it shares with others; a region takes none of
-// theirs. Says from whom it takes.
-void tell_who_is_robbed(Editor& editor, HandleRole role, const std::string& name) {
-    if (role == HandleRole::region_of_interest) return;
-    std::string words;
-    for (const Handle& handle : editor.document->handles) {
-        if (handle.role == HandleRole::region_of_interest || handle.name == name) continue;
-        const auto taken = static_cast<std::size_t>(std::ranges::count_if(*handle.points, [&](Index i) {
-            const Index place = editor.ordered[i];
-            return place != no_index && (editor.marks[place] & mark_selected) != 0;
-        }));
-        if (taken == 0) continue;
-        words += (words.empty() ? " takes " : ", and ") + counted(taken, "point") + " from \"" + handle.name +
-                 "\"";
-        if (taken == handle.points->size()) words += ", which holds none any more";
-    }
-    if (!words.empty())
-        say(editor, Notice::Kind::information,
-            "\"" + name + "\"" + words + ": what several hold follows the handle that was made last.");
 }
 
 // The selection becomes the handle, and the handle's tint takes its place on the screen.
@@ -111,6 +125,33 @@ void carry_out(Editor& editor, const RenameHandle& command) {
     const StepNumber step = post_step(editor, {RenameLine{command.handle, command.to}});
     editor.posted_names.emplace_back(step, command.to);
     if (editor.chosen == command.handle) choose_with_step(editor, command.to);
+}
+
+// As with a new handle, the tint of what the handle has now takes the place of the selection.
+void carry_out(Editor& editor, const AssignPoints& command) {
+    const auto number = number_of(editor, command.handle);
+    if (!number) return;
+    if (editor.selected == 0)
+        return say(editor, Notice::Kind::information,
+                   "Select the points first: " + way_to_select(editor.tools.select) + " them.");
+    const Handle& handle = editor.document->handles[*number];
+    HandleEdit edit{.handle = command.handle};
+    edit.points = {command.mode,
+                   selected_ranges(editor.marks, *editor.opened.order, editor.opened.cloud->size())};
+    if (!has_pending_steps(editor) && !changes(editor.document->handles, edit)) {
+        const bool takes_away = command.mode == SelectMode::remove;
+        return say(editor, Notice::Kind::information,
+                   "\"" + handle.name + "\" " +
+                       (!takes_away                             ? "holds just these points already."
+                        : held_by(editor, *number).selected > 0 ? "would hold no point any more: delete it."
+                                                                : "holds none of the selected points."));
+    }
+    if (command.mode != SelectMode::remove) tell_who_is_robbed(editor, handle.role, handle.name);
+    auto before = snapshot(editor);
+    select_none(editor.marks, editor.workers);
+    marks_changed(editor);
+    editor.live->edit_handle(++editor.last_step, std::move(edit));
+    add_step(editor, editor.last_step, std::move(before));
 }
 
 void carry_out(Editor& editor, const ChangeRole& command) {

@@ -60,6 +60,7 @@ void carry_out(Editor& editor, const AdvancePlaying& command);
 void carry_out(Editor& editor, const MakeHandle& command);
 void carry_out(Editor& editor, const ChooseHandle& command);
 void carry_out(Editor& editor, const RenameHandle& command);
+void carry_out(Editor& editor, const AssignPoints& command);
 void carry_out(Editor& editor, const ChangeRole& command);
 void carry_out(Editor& editor, const ChangeHold& command);
 void carry_out(Editor& editor, const ColorHandle& command);

@@ -1,6 +1,7 @@
 #include "edit/handle_lines.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace knead {
 
@@ -16,8 +17,49 @@ bool share_points(const Handle& a, const Handle& b) {
     return false;
 }
 
-// All of a handle but its points.
-Handle edited(Handle handle, const HandleEdit& edit) {
+std::vector<Index> points_in(const std::vector<IndexRange>& ranges) {
+    std::vector<Index> points;
+    for (const IndexRange& range : ranges)
+        for (std::uint64_t i = range.first; i <= range.last; ++i) points.push_back(static_cast<Index>(i));
+    return points;
+}
+
+std::vector<Index> without(const std::vector<Index>& points, const std::vector<Index>& gone) {
+    std::vector<Index> left;
+    std::ranges::set_difference(points, gone, std::back_inserter(left));
+    return left;
+}
+
+// What follows a handle: of the points that it declares, those that no later one does.
+std::vector<Index> own_points(const Handle& handle, std::span<const Handle> later) {
+    std::vector<Index> own = *handle.points;
+    if (handle.role == HandleRole::region_of_interest) return own;
+    for (const Handle& other : later)
+        if (other.role != HandleRole::region_of_interest) own = without(own, *other.points);
+    return own;
+}
+
+// What a handle declares then.
+std::vector<Index> assigned(const HandleEdit::Points& edit, const Handle& handle,
+                            const std::vector<Index>& own) {
+    std::vector<Index> chosen = points_in(edit.chosen);
+    if (edit.mode == SelectMode::replace) return chosen;
+    if (edit.mode == SelectMode::remove) return without(*handle.points, chosen);
+    std::vector<Index> both;
+    std::ranges::set_union(own, chosen, std::back_inserter(both));
+    return both;
+}
+
+Handle with_points(Handle handle, std::span<const Handle> later, const HandleEdit::Points& edit) {
+    const std::vector<Index> own = own_points(handle, later);
+    std::vector<Index> points = assigned(edit, handle, own);
+    if (!points.empty() && points != own && points != *handle.points)
+        handle.points = std::make_shared<const std::vector<Index>>(std::move(points));
+    return handle;
+}
+
+Handle edited(const Handle& before, std::span<const Handle> later, const HandleEdit& edit) {
+    Handle handle = edit.points ? with_points(before, later, *edit.points) : before;
     if (edit.role) handle.role = *edit.role;
     if (edit.hold) {
         handle.free_rotation = edit.hold->free_rotation;
@@ -53,18 +95,19 @@ HandleLine line_of(const Handle& handle) {
 bool changes(std::span<const Handle> handles, const HandleEdit& edit) {
     const auto found = std::ranges::find(handles, edit.handle, &Handle::name);
     if (found == handles.end()) return false;
-    const Handle after = edited(*found, edit);
+    const Handle after = edited(*found, {found + 1, handles.end()}, edit);
     return !holds_the_same(*found, after) || after.color != found->color;
 }
 
 std::vector<SessionAction> lines_for(std::span<const Handle> handles, const HandleEdit& edit) {
     if (!changes(handles, edit)) return {};
     const auto found = std::ranges::find(handles, edit.handle, &Handle::name);
-    const Handle after = edited(*found, edit);
-    std::vector<SessionAction> lines{line_of(after)};
     const std::span<const Handle> later(found + 1, handles.end());
+    const Handle after = edited(*found, later, edit);
+    std::vector<SessionAction> lines{line_of(after)};
+    const bool takes = edit.points && edit.points->mode != SelectMode::remove;
     const auto shares = [&](const Handle& one) { return share_points(*found, one); };
-    if (!holds_the_same(*found, after) && std::ranges::any_of(later, shares))
+    if (!takes && !holds_the_same(*found, after) && std::ranges::any_of(later, shares))
         for (const Handle& handle : later) lines.emplace_back(line_of(handle));
     return lines;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Handles as lines of a session, and the lines that change one.
 
+#include "edit/command.h"
 #include "edit/handles.h"
 
 #include <optional>
@@ -23,6 +24,11 @@ struct HandleEdit {
         std::optional<std::uint32_t> rgb; // none: the usual one
     };
     std::optional<Color> color = {};
+    struct Points {
+        SelectMode mode = SelectMode::replace;
+        std::vector<IndexRange> chosen; // ascending
+    };
+    std::optional<Points> points = {}; // nothing where none would be left
 };
 
 std::vector<IndexRange> ranges_of(const std::vector<Index>& points);
@@ -35,8 +41,9 @@ bool changes(std::span<const Handle> handles, const HandleEdit& edit);
 
 // The lines that change it; none where there is nothing to change. A handle that is
 // declared anew is the last one, and the last one has what several hold: so those that came later and share
-// points with it come again after it, and with them all that came later. Another colour alone leaves a handle
-// the one that it is.
+// points with it come again after it, and with them all that came later. But points that a handle is given it
+// takes from any: then it stays the last one, without what it had declared and others hold. Another colour
+// alone leaves a handle the one that it is.
 std::vector<SessionAction> lines_for(std::span<const Handle> handles, const HandleEdit& edit);
 
 } // namespace knead

@@ -273,6 +273,70 @@ TEST_F(BarEditor, AChangedHandleLeavesLaterOnesTheirPoints) {
     EXPECT_EQ(editor_.document->handles.back().name, "low");
 }
 
+TEST_F(BarEditor, AHandleIsGivenTheSelectionAndLetsGoOfIt) {
+    make_handles();
+    const std::vector<std::uint8_t> made = editor_.marks;
+    select_heights(2.3, 3); // of "high", which ends at 2.5
+    apply(editor_, MakeHandle{HandleRole::moving, "tip"});
+    calm();
+    const auto held = [&](const char* name) {
+        const auto& handles = editor_.document->handles;
+        const auto number = std::ranges::find(handles, name, &Handle::name) - handles.begin();
+        return static_cast<std::size_t>(std::ranges::count(editor_.marks, handle_mark(std::size_t(number))));
+    };
+    const std::size_t high = held("high"), tip = held("tip");
+    EXPECT_EQ(high, points_between(2, 2.3));
+    editor_.notices.clear();
+    select_heights(1, 2.4);
+    apply(editor_, AssignPoints{"high", SelectMode::add});
+    calm();
+    EXPECT_EQ(held("high"), points_between(1, 2.4));
+    EXPECT_EQ(held("tip"), points_between(2.4, 3)) << "what was not asked for is left to it";
+    EXPECT_EQ(editor_.selected, 0U);
+    EXPECT_NE(editor_.notices.back().words.find("\"high\" takes"), std::string::npos);
+    EXPECT_NE(editor_.notices.back().words.find("from \"tip\""), std::string::npos);
+
+    select_heights(2.2, 3);
+    apply(editor_, AssignPoints{"high", SelectMode::remove});
+    calm();
+    EXPECT_EQ(held("high"), points_between(1, 2.2));
+    EXPECT_EQ(held("tip"), tip) << "it had them before";
+
+    select_heights(-1, 0);
+    apply(editor_, AssignPoints{"high", SelectMode::replace});
+    calm();
+    EXPECT_EQ(held("high"), points_between(-1, 0));
+
+    for (int step = 0; step < 6; ++step) apply(editor_, UndoStep{}); // with their selections
+    calm();
+    EXPECT_EQ(held("high"), high);
+    EXPECT_EQ(held("tip"), tip);
+    EXPECT_EQ(editor_.selected, 0U);
+    for (int step = 0; step < 2; ++step) apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(editor_.marks, made);
+}
+
+TEST_F(BarEditor, PointsThatChangeNothingAreSaidAndAreNoStep) {
+    make_handles();
+    const auto told = [&](SelectMode mode) {
+        editor_.notices.clear();
+        const std::size_t steps = editor_.past.size(), selected = editor_.selected;
+        apply(editor_, AssignPoints{"high", mode});
+        calm();
+        EXPECT_EQ(editor_.past.size(), steps);
+        EXPECT_EQ(editor_.selected, selected);
+        return editor_.notices.size() == 1 ? editor_.notices.back().words : "";
+    };
+    EXPECT_NE(told(SelectMode::add).find("Select the points first"), std::string::npos);
+    select_heights(2, 3);
+    EXPECT_NE(told(SelectMode::add).find("already"), std::string::npos);
+    EXPECT_NE(told(SelectMode::replace).find("already"), std::string::npos);
+    EXPECT_NE(told(SelectMode::remove).find("would hold no point"), std::string::npos);
+    select_heights(0, 1);
+    EXPECT_NE(told(SelectMode::remove).find("holds none"), std::string::npos);
+}
+
 TEST_F(BarEditor, HandlesMadeInQuickSuccessionHaveNamesOfTheirOwn) {
     editor_.camera.orthographic = true;
     select_heights(2, 3);

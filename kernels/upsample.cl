@@ -13,6 +13,9 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
+// From so many points on, no cache holds the moved ones until they are looked at.
+#define STREAMED_POINTS 750000
+
 #define CONCATENATED(a, b) a##b
 #define VECTOR_OF(type, lanes) CONCATENATED(type, lanes)
 typedef VECTOR_OF(float, LANES) real;
@@ -53,8 +56,19 @@ __attribute__((always_inline)) inline void read_whole(__global const float* from
     m[0] = vload16(0, from), m[1] = vload16(1, from), m[2] = vload16(2, from);
 }
 
-__attribute__((always_inline)) inline void write_whole(const real* m, __global float* to) {
-    vstore16(m[0], 0, to), vstore16(m[1], 1, to), vstore16(m[2], 2, to);
+// vstore16() comes out as three narrow stores each, and what waits to be written then fills the processor's queue.
+typedef float16 __attribute__((aligned(4))) float16_anywhere;
+
+// `streamed`: past the caches, whole lines of them. These stores are seen by others after the next locked instruction,
+// and no device tells that an item is done without one.
+__attribute__((always_inline)) inline void write_whole(const real* m, __global float* to, bool streamed) {
+    __global float16_anywhere* const t = (__global float16_anywhere*)to;
+    if (streamed && (size_t)to % sizeof(float16) == 0) {
+        __global float16* const lines = (__global float16*)to;
+        for (int k = 0; k < 3; ++k) __builtin_nontemporal_store(m[k], lines + k);
+    } else {
+        t[0] = m[0], t[1] = m[1], t[2] = m[2];
+    }
 }
 
 // The shares of an entry in the points of its group.
@@ -84,7 +98,7 @@ inline void read_whole(__global const float* from, real* m) {
     m[0] = f[0], m[1] = f[1], m[2] = f[2];
 }
 
-inline void write_whole(const real* m, __global float* to) {
+inline void write_whole(const real* m, __global float* to, bool streamed) {
     __global float4* const t = (__global float4*)to;
     t[0] = m[0], t[1] = m[1], t[2] = m[2];
 }
@@ -110,13 +124,14 @@ __attribute__((always_inline)) inline vector load(__global const float* from, si
     return apart(whole);
 }
 
-__attribute__((always_inline)) inline void store(vector v, __global float* to, size_t count) {
+__attribute__((always_inline)) inline void store(vector v, __global float* to, size_t count, bool streamed) {
     real whole[3];
     together(v, whole);
     if (count == LANES) {
-        write_whole(whole, to);
+        write_whole(whole, to, streamed);
     } else {
-        const float* const all = (const float*)whole;
+        const real kept[3] = {whole[0], whole[1], whole[2]}; // so that only here they are memory
+        const float* const all = (const float*)kept;
         for (size_t i = 0; i < 3 * count; ++i) to[i] = all[i];
     }
 }
@@ -269,13 +284,15 @@ upsample(ulong points, __global const uint* block, __global const float* positio
     const size_t begin =
         POINTS_IN_BLOCK * (size_t)block[get_group_id(0)] + POINTS_PER_ITEM * get_local_id(0);
     const size_t end = min(begin + POINTS_PER_ITEM, (size_t)points);
+    const bool streamed = points >= STREAMED_POINTS;
     for (size_t first = begin; first < end; first += LANES) {
         const size_t count = min((size_t)LANES, end - first);
         const vector p = load(positions + 3 * first, count);
         real blend[16];
         blend_motions(how, first / POINTS_IN_GROUP, first % POINTS_IN_GROUP, p, blend);
-        store(moved(p, blend), moved_positions + 3 * first, count);
-        if (normals) store(turned(load(normals + 3 * first, count), blend), moved_normals + 3 * first, count);
+        store(moved(p, blend), moved_positions + 3 * first, count, streamed);
+        if (normals)
+            store(turned(load(normals + 3 * first, count), blend), moved_normals + 3 * first, count, streamed);
     }
 }
 

@@ -6,11 +6,36 @@
 // they are set to "madvise" for what asks.
 
 #include <cstddef>
+#include <new>
 #include <vector>
 
 namespace knead {
 
 class Workers;
+
+// Bytes of a line of the processor's cache.
+inline constexpr std::size_t cache_line = 64;
+
+// For arrays that begin where a line does, so that no vector of a line's size lies across two. (Those of
+// std::allocator begin 16 bytes behind, if they are large.)
+template<typename Value>
+struct LineAllocator {
+    using value_type = Value;
+    LineAllocator() = default;
+    template<typename Other>
+    LineAllocator(const LineAllocator<Other>& /*other*/) {}
+
+    Value* allocate(std::size_t count) {
+        return static_cast<Value*>(::operator new(count * sizeof(Value), std::align_val_t(cache_line)));
+    }
+    void deallocate(Value* memory, std::size_t count) {
+        ::operator delete(memory, count * sizeof(Value), std::align_val_t(cache_line));
+    }
+    friend bool operator==(const LineAllocator&, const LineAllocator&) { return true; }
+};
+
+template<typename Value>
+using LineArray = std::vector<Value, LineAllocator<Value>>;
 
 // Asks for them, for memory that nothing was written to so far, and has all workers take them at once: a page
 // is cleared when it is touched first, and a vector that is filled touches them one after the other. Only a
@@ -18,10 +43,10 @@ class Workers;
 void take_large_pages(void* memory, std::size_t bytes, Workers& workers);
 
 // array.resize(count), in new memory if it has to become larger; what the array held is lost then.
-template<typename Value>
-void resize_in_large_pages(std::vector<Value>& array, std::size_t count, Workers& workers) {
+template<typename Value, typename Allocator>
+void resize_in_large_pages(std::vector<Value, Allocator>& array, std::size_t count, Workers& workers) {
     if (count > array.capacity()) {
-        array = std::vector<Value>(); // {} would keep the memory
+        array = std::vector<Value, Allocator>(); // {} would keep the memory
         array.reserve(count);
         take_large_pages(array.data(), count * sizeof(Value), workers);
     }

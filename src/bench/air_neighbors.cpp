@@ -77,11 +77,12 @@ std::vector<float> posed_through_the_air(const Pipeline& pipeline, const std::ve
     for (std::size_t v = 0; v < label.size(); ++v)
         if (label[v] != no_index) held[components.component[v]] = true;
 
-    std::vector<float> posed = pipeline.opened().positions;
+    const std::span<const float> opened = pipeline.opened().positions;
+    std::vector<float> posed(opened.begin(), opened.end());
     constexpr std::size_t grain = 256;
     workers.for_each(pipeline.order().points(), grain, [&](std::size_t i) {
         if (!held[components.component[pipeline.order().vertex[i]]]) return;
-        const Vec3d p = point_at(pipeline.opened().positions, i);
+        const Vec3d p = point_at(opened, i);
         const Index handle = pipeline.handle_of(pipeline.labels().point[i]);
         const Vec3d way =
             handle < motions.size() ? of_handle(p, motions[handle]).displaced(p) : displaced(p, samples);

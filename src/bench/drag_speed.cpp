@@ -19,11 +19,11 @@ constexpr int frames = 30, frames_at_rest = 8;
 constexpr double share_of_region = 0.05;
 
 // Drags the document's handle through the task's pose, and takes that back. `rested`: where it came to rest.
-DraggedWay drag(const DeformationTask& task, bool coarse, Document& document, std::vector<float>& rested,
+DraggedWay drag(const DeformationTask& task, bool coarse, Document& document, LineArray<float>& rested,
                 Progress& progress) {
     DraggedWay result;
     std::vector<double> seconds;
-    std::vector<float> before;
+    LineArray<float> before;
     const double diagonal = document.bounds().diagonal();
     const auto shape = [&] { return document.pipeline().posed().positions; };
     const Eigen::AngleAxisd whole(task.pose.rotate);
@@ -37,7 +37,7 @@ DraggedWay drag(const DeformationTask& task, bool coarse, Document& document, st
         (frame == 1 ? result.first_frame : seconds.emplace_back()) = clock.seconds();
     }
     result.frame = summarize(std::move(seconds));
-    const std::vector<float> last = shape();
+    const LineArray<float> last = shape();
     result.last_step = deviation_between(before, last, diagonal);
     for (int frame = 0; frame < frames_at_rest; ++frame) {
         document.drag_frame(turned(degrees, whole.axis()), task.name, progress);
@@ -63,7 +63,7 @@ DragSpeeds measure_drags(const std::string& name, PointCloud cloud, std::span<co
         if (count >= speeds.points) continue;
         const auto document = open_task(task, with_samples(count), workers, *choice.upsampler);
         DragSpeed row;
-        std::vector<float> rested, rested_too;
+        LineArray<float> rested, rested_too;
         row.full = drag(task, false, *document, rested, progress);
         row.coarse = drag(task, true, *document, rested_too, progress);
         row.samples = document->pipeline().samples().size();

@@ -24,7 +24,8 @@ std::vector<float> settled(const DeformationTask& task, ScanSampleCount& count, 
     const auto document = open_task(task, with_samples(count.asked), workers, upsampler);
     document->drag(whole_motion(task), task.name, progress);
     const Settling settling = settle(*document, settle_limit, progress);
-    std::vector<float> positions = document->shape(progress).positions;
+    const LineArray<float>& shape = document->shape(progress).positions;
+    std::vector<float> positions(shape.begin(), shape.end());
     count.samples = document->pipeline().samples().size();
     count.iterations = settling.iterations;
     count.at_rest = settling.at_rest;

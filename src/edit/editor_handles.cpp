@@ -228,7 +228,8 @@ std::string name_of_mirrored(const Editor& editor, const Handle& handle, const s
 // Where the points are in this edit while no handle is moved.
 std::span<const float> rest_positions(const Editor& editor) {
     if (editor.document->rest) return editor.document->rest->positions;
-    return editor.document->posed ? editor.opened.opened->positions : editor.frame.positions;
+    if (editor.document->posed) return editor.opened.opened->positions;
+    return editor.frame.positions;
 }
 
 Vec3d rest_middle(const Editor& editor, const std::vector<Index>& points) {

@@ -105,7 +105,7 @@ std::optional<Gizmo> gizmo_of(const Editor& editor) {
 
 double least_falloff(const Editor& editor, const Handle& handle) {
     if (handle.role == HandleRole::region_of_interest) return 0;
-    const std::vector<float>& opened = editor.opened.opened->positions;
+    const std::span<const float> opened = editor.opened.opened->positions;
     HeldExtent held;
     std::optional<Vec3d> first;
     // The window asks in every picture: of very many points some tell how far they are spread.

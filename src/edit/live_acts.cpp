@@ -193,7 +193,7 @@ std::vector<float> LiveWork::in_file_order(std::span<const float> ordered, float
 }
 
 std::vector<float> LiveWork::displacement_column() {
-    const std::vector<float>& opened = document_->pipeline().opened().positions;
+    const std::span<const float> opened = document_->pipeline().opened().positions;
     return in_file_order(displacements(opened, document_->shown(progress_).positions, workers_), 0);
 }
 

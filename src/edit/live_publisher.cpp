@@ -25,7 +25,7 @@ void LivePublisher::note_changes(const RestShape& shape, const Pipeline& pipelin
 }
 
 // Into what holds the points of back_.points_version.
-void LivePublisher::copy_changes(const std::vector<float>& from, std::vector<float>& to) {
+void LivePublisher::copy_changes(std::span<const float> from, std::vector<float>& to) {
     to.resize(from.size());
     if (from.empty()) return;
     workers_.for_chunks(changed_in_.size(), 64, [&](std::size_t block, std::size_t end) {

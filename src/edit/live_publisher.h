@@ -46,7 +46,7 @@ public:
 private:
     void note_changes(const RestShape& shape, const Pipeline& pipeline);
     static void note_facts(PosedFrame& frame, const FrameFacts& facts);
-    void copy_changes(const std::vector<float>& from, std::vector<float>& to);
+    void copy_changes(std::span<const float> from, std::vector<float>& to);
     void note_samples(const Pipeline& pipeline);
     void note_spacings(const Pipeline& pipeline);
     void tell(Notice::About about, std::string words, std::string& told);

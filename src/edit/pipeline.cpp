@@ -132,7 +132,8 @@ void Pipeline::prepare_order(Progress& progress) {
 }
 
 std::span<const float> Pipeline::vertex_positions() const {
-    return merged_positions_.empty() ? opened_.positions : merged_positions_;
+    if (!merged_positions_.empty()) return merged_positions_;
+    return opened_.positions;
 }
 
 void Pipeline::prepare_points(Progress& progress) {

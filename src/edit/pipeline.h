@@ -23,6 +23,7 @@
 //               away to be joined is carried
 // Outliers hang on the surface and do not pull, whatever it says.
 
+#include "base/large_pages.h"
 #include "base/progress.h"
 #include "deform/acceleration.h"
 #include "deform/coarse_level.h"
@@ -49,8 +50,8 @@ namespace knead {
 
 // The shape that an edit starts from, in the order of computation.
 struct RestShape {
-    std::vector<float> positions; // 3n, relative to the cloud's origin
-    std::vector<float> normals;   // 3n, or empty
+    LineArray<float> positions; // 3n, relative to the cloud's origin
+    LineArray<float> normals;   // 3n, or empty
     // How each point turned since the cloud was opened: 4n, w x y z. Only committed shapes of clouds of
     // splats have it, see Pipeline::rotations().
     std::vector<float> rotations = {};

@@ -160,7 +160,7 @@ void InfluenceGroups::make_all(const UpsampleInput& input, Workers& workers) {
     const std::size_t blocks = blocks_of(input.mover.size());
     groups_.resize((input.mover.size() + points_in_group - 1) / points_in_group);
     motion_ = std::vector<Index>(); // {} would keep the memory
-    share_ = std::vector<std::uint16_t>();
+    share_ = LineArray<std::uint16_t>();
     std::vector<Index> all(blocks);
     std::iota(all.begin(), all.end(), Index{0});
     const std::vector<Index> counts = count_entries(all, input, workers);

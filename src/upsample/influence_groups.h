@@ -12,6 +12,7 @@
 // a point that is held is held to the bit. (Rounding moves a point by 1/131,070 of how far apart the motions
 // around it send it, at most for each; distances come in coarser levels, graph/flood.h.)
 
+#include "base/large_pages.h"
 #include "upsample/shares.h"
 #include "upsample/upsample.h"
 
@@ -65,7 +66,7 @@ private:
 
     std::vector<InfluenceGroup> groups_;
     std::vector<Index> motion_;
-    std::vector<std::uint16_t> share_;
+    LineArray<std::uint16_t> share_;
     std::vector<Room> room_; // of each block
     std::size_t used_ = 0;   // entries; behind them is room for blocks that grow
     struct Made {            // of what

@@ -87,7 +87,7 @@ TEST(LinkNoise, IsThatOfTheStretch) {
     document->drag(whole_motion(task), "", progress);
     const Pipeline& pipeline = document->pipeline();
     EXPECT_EQ(link_noise(pipeline, pipeline.opened().positions), 0);
-    std::vector<float> twice = pipeline.opened().positions;
+    LineArray<float> twice = pipeline.opened().positions;
     for (float& value : twice) value *= 2;
     EXPECT_NEAR(link_noise(pipeline, twice), std::log(2.0), 1e-6);
     EXPECT_GT(link_noise(pipeline, document->shape(progress).positions), 1e-3);

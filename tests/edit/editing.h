@@ -77,8 +77,8 @@ inline bool says(const std::string& words, const std::string& part) {
 }
 #define EXPECT_SAYS(words, part) EXPECT_PRED2(::knead::test::says, words, part)
 
-inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-    return std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
+inline bool same_bits(std::span<const float> a, std::span<const float> b) {
+    return std::ranges::equal(std::as_bytes(a), std::as_bytes(b));
 }
 
 inline PointCloud made(Shape shape, std::size_t points) {
@@ -134,7 +134,7 @@ inline std::string set(const std::string& settings) {
     return R"({"op":"set",)" + settings + "}\n";
 }
 
-inline Vec3d at(const std::vector<float>& positions, std::size_t i) {
+inline Vec3d at(std::span<const float> positions, std::size_t i) {
     return Eigen::Map<const Vec3f>(positions.data() + 3 * i).cast<double>();
 }
 

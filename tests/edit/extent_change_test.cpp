@@ -25,7 +25,7 @@ struct Measured {
             const Vec3f moved = (map * p.cast<double>()).cast<float>();
             now.insert(now.end(), moved.begin(), moved.end());
         }
-        const std::vector<float> normals = with_normals ? opened.normals : std::vector<float>{};
+        const LineArray<float> normals = with_normals ? opened.normals : LineArray<float>{};
         change = extent_change(pipeline.order(), pipeline.graph(), opened.positions, normals, now, workers);
     }
 };

@@ -62,7 +62,7 @@ protected:
 
     // How far the points went from where they were opened, at most.
     double largest_displacement() {
-        const std::vector<float>& opened = live_->opened().opened->positions;
+        const std::span<const float> opened = live_->opened().opened->positions;
         double largest = 0;
         for (std::size_t i = 0; i < opened.size(); ++i)
             largest = std::max(largest, std::abs(static_cast<double>(frame_.positions[i] - opened[i])));

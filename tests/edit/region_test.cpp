@@ -65,13 +65,13 @@ public:
     const Pipeline& pipeline() const { return holding_.pipeline(); }
 
 private:
-    static void note(const Desk& desk, std::vector<std::vector<float>>& frames) {
+    static void note(const Desk& desk, std::vector<LineArray<float>>& frames) {
         frames.push_back(desk.pipeline().posed().positions);
         frames.push_back(desk.pipeline().posed().normals);
     }
 
     Desk holding_, whole_;
-    std::vector<std::vector<float>> frames_[2];
+    std::vector<LineArray<float>> frames_[2];
 };
 
 PointCloud bar_of_splats(std::size_t points) {

@@ -12,7 +12,7 @@ inline double widest_seam(const Desk& desk) {
     const Pipeline& pipeline = desk.pipeline();
     const std::vector<Index>& label = pipeline.labels().vertex;
     const PointOrder& order = pipeline.order();
-    const auto length = [&](const std::vector<float>& shape, Index v, Index w) {
+    const auto length = [&](std::span<const float> shape, Index v, Index w) {
         return (at(shape, order.first_point[v]) - at(shape, order.first_point[w])).norm();
     };
     double widest = 0;

@@ -1,11 +1,13 @@
 // What every Upsampler promises, asked of the reference, of every OpenCL device, and of every OpenCL device
 // made to copy as a GPU does.
 
+#include "base/large_pages.h"
 #include "base/require.h"
 #include "upsample/every_upsampler.h"
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 namespace knead {
 
@@ -72,6 +74,32 @@ TEST_P(EveryUpsampler, FollowsTheFormulas) {
                     ASSERT_LT((at(posed.normals, i) - turned.normalized()).norm(), normal_tolerance) << i;
                 }
             }
+        }
+}
+
+// The kernel, made to write past the caches however few points there are.
+std::string streaming_kernel() {
+    constexpr std::string_view from = "#define STREAMED_POINTS ";
+    std::string text = embedded::upsample_kernel;
+    const std::size_t at = text.find(from);
+    require(at != std::string::npos, "the kernel says from how many points on it streams");
+    return text.insert(at + from.size(), "0 //");
+}
+
+TEST_P(EveryUpsampler, WritesTheSamePastTheCachesAndIntoThem) {
+    const Scene scene = random_scene(5003, 50, 16);
+    const std::string kernel = streaming_kernel();
+    const auto streaming = all(0, kernel.c_str());
+    const auto usual = all();
+    for (std::size_t u = 0; u < usual.size(); ++u)
+        for (const std::size_t begin : {0, 1}) { // at a line of the cache, and not
+            LineArray<float> positions(begin + scene.positions.size()), normals(positions.size());
+            const auto behind = [&](LineArray<float>& array) { return std::span(array).subspan(begin); };
+            streaming[u]->prepare(scene.input(), scene.motions.size());
+            streaming[u]->run(scene.motions, behind(positions), behind(normals), Held::nothing);
+            const Posed expected = upsampled(*usual[u], scene);
+            EXPECT_TRUE(std::ranges::equal(behind(positions), expected.positions)) << begin;
+            EXPECT_TRUE(std::ranges::equal(behind(normals), expected.normals)) << begin;
         }
 }
 

@@ -22,7 +22,9 @@
 //     than `short_way` of the spacing there from the nearest vertex of another piece, and
 //         - they are crumbs, of fewer than `crumb` vertices, or
 //         - they are mist: that vertex lies within ten of a vertex's own spacings, and the spacing there is
-//           less than that by a factor of `short_way`.
+//           less than that by a factor of `short_way`; but they are no surface: a sparse part of a scan that
+//           goes on where a denser one ends, of whose vertices most lie in a plane, or on a line, with those
+//           of their neighbours that are of the same piece.
 //     Crumbs are never what others stick out from.
 
 #include "graph/neighbors.h"

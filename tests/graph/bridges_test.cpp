@@ -165,6 +165,20 @@ TEST(Outliers, AreNotFoundWhereThereAreNone) {
     EXPECT_FALSE(hung_of(cloud_of({})));
 }
 
+// A scan is sparse where the scanner saw it from afar.
+TEST(Outliers, AreNoSparseStripWhereADenseSurfaceEnds) {
+    std::vector<float> positions = grid_positions(100, 100);
+    constexpr int rows = 7, columns = 25;
+    for (int row = 1; row <= rows; ++row)
+        for (int column = 0; column < columns; ++column)
+            append(positions, Vec3d(99 + 4 * row, 4 * column, 0));
+    const Cloud cloud = cloud_of(positions);
+    ASSERT_EQ(cloud.components.size.size(), 1U);
+    // The row at the seam may hang; the others are of the surface.
+    EXPECT_LE(bridged_of(cloud).outliers, columns);
+    EXPECT_EQ(parts(bridged_of(cloud).graph), 1U);
+}
+
 TEST(Outliers, AreNeverAll) {
     for (const std::size_t points : {0U, 1U, 2U, 3U, 6U, 8U, 40U}) {
         const Cloud cloud = cloud_of(random_positions(points, 11));

@@ -2,8 +2,11 @@
 
 #include "app/ui.h"
 #include "app/widgets.h"
+#include "base/counts.h"
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 
 namespace knead {
 
@@ -121,6 +124,17 @@ void overwriting_question(const Ui& ui) {
     ImGui::EndPopup();
 }
 
+// Words about a line of a file, without which line and which key that was.
+std::string without_place(std::string words) {
+    for (const std::string_view key : {"\"cloud\": ", "\"sha256\": ", "\"points\": "})
+        if (const std::size_t at = words.find(key); at != std::string::npos) {
+            words.erase(0, at + key.size());
+            words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+            return words;
+        }
+    return words;
+}
+
 // A session whose cloud was moved, or is another file by now.
 void cloud_question(const Ui& ui) {
     std::optional<Editor::WithoutCloud>& session = ui.state.without_cloud;
@@ -134,10 +148,10 @@ void cloud_question(const Ui& ui) {
         return;
     }
     ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(session->why.c_str());
+    ImGui::TextUnformatted(without_place(session->why).c_str());
     ImGui::PopTextWrapPos();
-    faint_text("The session can be opened with any cloud of as many points in the same order: the file where "
-               "it is now, or a copy of it.");
+    faint_text("Choose the cloud as it was when the session began: where that file is now, or a copy of it. "
+               "Poses are put on top of whatever is chosen.");
     ImGui::Dummy({0, ui.scaled(8)});
     const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
     if (main_button("Choose the cloud…", {width, 0}) || pressed(ImGuiKey_Enter)) {
@@ -152,9 +166,40 @@ void cloud_question(const Ui& ui) {
     ImGui::EndPopup();
 }
 
+// What a crash left is gone for good then: there is no other copy.
+void deleting_question(const Ui& ui) {
+    std::optional<LostWork>& work = ui.state.deleting;
+    if (work && !ImGui::IsPopupOpen("delete")) ImGui::OpenPopup("delete");
+    if (!begin_question(ui, "delete", "Delete what was not saved?")) return;
+    if (!work) {
+        ImGui::CloseCurrentPopup();
+        ImGui::EndPopup();
+        return;
+    }
+    const std::string file = (work->session.empty() ? work->cloud : work->session).filename().string();
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(
+        (counted(work->acts, "recorded step") + " on " + file + " will be gone for good.").c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::Dummy({0, ui.scaled(8)});
+    const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    if (ImGui::Button("Delete", {width, 0})) {
+        ui.wish(WishDeleteLost{*work});
+        work.reset();
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::SameLine();
+    if (main_button("Keep", {width, 0}) || pressed(ImGuiKey_Enter) || pressed(ImGuiKey_Escape)) {
+        work.reset();
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
 } // namespace
 
 void draw_dialogs(const Ui& ui) {
+    deleting_question(ui);
     unsaved_question(ui);
     overwriting_question(ui);
     cloud_question(ui);

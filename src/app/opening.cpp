@@ -53,9 +53,9 @@ void draw_opening(const Ui& ui) {
     if (ui.editor.opening) {
         const LiveDocument::Status status = ui.editor.opening->status();
         const OpenRequest& request = ui.editor.opening_request;
-        const std::filesystem::path& file = request.restore ? *request.restore : request.file;
         begin_card(ui, "opening", 400, 0.5f);
-        ImGui::TextUnformatted(("Opening " + file.filename().string()).c_str());
+        ImGui::TextUnformatted(
+            ((request.restore ? "Restoring " : "Opening ") + request.file.filename().string()).c_str());
         bar(ui, status.fraction);
         faint_text(status.doing.empty() ? "Reading" : sentence(status.doing));
         ImGui::SameLine(ImGui::GetWindowWidth() - ui.scaled(110));
@@ -90,7 +90,7 @@ void draw_recovery(const Ui& ui) {
     ImGui::Indent(ui.scaled(30));
     ImGui::TextUnformatted("knead ended without saving");
     const bool is_saved = !work.session.empty();
-    faint_text((work.acts == 1 ? "There is " : "There are ") + counted(work.acts, "act") + " on " +
+    faint_text((work.acts == 1 ? "There is " : "There are ") + counted(work.acts, "recorded step") + " on " +
                (is_saved ? work.session : work.cloud).filename().string() +
                (is_saved ? " after it was saved last" : " that no session file has") +
                ". Restoring brings back everything up to the last finished one.");
@@ -106,7 +106,7 @@ void draw_recovery(const Ui& ui) {
     if (ImGui::Button("Keep for later", {width, 0})) ui.state.lost.erase(ui.state.lost.begin());
     explain("Asks again at the next start");
     ImGui::SameLine();
-    if (ImGui::Button("Delete", {width, 0})) ui.wish(WishDeleteLost{work});
+    if (ImGui::Button("Delete…", {width, 0})) ui.state.deleting = work;
     end_card();
 }
 

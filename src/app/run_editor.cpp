@@ -49,6 +49,7 @@ struct Loop {
 
     bool close_menus = false;    // in the next frame
     bool button_is_ours = false; // a press began over the cloud
+    bool press_is_hands = false; // and ended what a full hand was doing: no panel is to see it
     int frames_to_draw = 3;      // even if nothing happens: ImGui needs some to settle
     bool opening_before = false;
     double calm_since = 0; // ImGui's time of the last event
@@ -131,6 +132,7 @@ void take(Loop& loop, MouseMove event) {
 void take(Loop& loop, MousePress event) {
     if (!over_cloud(loop, event.cursor) && !loop.button_is_ours && !hand_is_full(loop)) return;
     loop.button_is_ours = true;
+    loop.press_is_hands |= hand_is_full(loop);
     event.cursor = in_view(loop, event.cursor);
     handle_input(loop.editor, event);
 }
@@ -211,7 +213,11 @@ bool take_news(Loop& loop) {
     const bool changed = refresh(editor);
     if (was_opening && !editor.opening && editor.live.get() != before) {
         const OpenRequest& request = editor.opening_request;
-        if (!request.restore) remember_file(loop.state.recent, request.file);
+        if (request.restore)
+            std::erase_if(loop.state.lost,
+                          [&](const LostWork& lost) { return lost.journal == *request.restore; });
+        else
+            remember_file(loop.state.recent, request.file);
         loop.state.handle_colors = {};
         loop.state.overwriting.reset(); // which asked about the document before, as these would
         editor.held_saves.clear();
@@ -358,7 +364,8 @@ void draw(Loop& loop) {
     const Window::Size size = loop.window.framebuffer();
     if (size.width == 0 || size.height == 0) return;
     const Stopwatch clock;
-    loop.window.begin_frame();
+    loop.window.begin_frame(loop.press_is_hands || hand_is_full(loop));
+    loop.press_is_hands &= loop.button_is_ours;
     draw_panels(loop);
     const bool played = loop.state.playback.playing;
     play_on(loop.ui);

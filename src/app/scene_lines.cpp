@@ -71,11 +71,18 @@ void add_samples(const Editor& editor, const SceneLinesOf& what, std::vector<Ove
     }
 }
 
+// The ground would be one bright line, across the feet of what stands there.
+bool is_seen_edge_on(const Camera& camera) {
+    const Upward up = upward(camera.up);
+    const glm::dmat4 view = view_matrix(camera);
+    return camera.orthographic && std::abs(view[up.axis][2]) < 0.02;
+}
+
 } // namespace
 
 SceneLinesOf scene_lines_of(const Editor& editor, const Display& display) {
     SceneLinesOf what;
-    what.grid = display.grid;
+    what.grid = display.grid && !is_seen_edge_on(editor.camera);
     what.up = editor.camera.up;
     const DocumentView& document = *editor.document;
     const bool there = document.sample_vertices && document.sample_vertices->size() <= most_shown_samples;

@@ -89,20 +89,23 @@ std::string sample_words(const DocumentView& document) {
     return grouped(*asked) + " asked: " + used + " used, handle borders included.";
 }
 
-// What decided an automatic number, in words.
 std::string words_about(const SampleChoice& choice) {
-    const std::string many = choice.samples ? counted(*choice.samples, "sample") : "Every point a sample";
+    return choice.samples ? counted(*choice.samples, "sample") : "Every point a sample";
+}
+
+// What decided an automatic number.
+const char* reason_for(const SampleChoice& choice) {
     switch (choice.reason) {
     case SampleReason::few_points:
-        return many + ": there are no more points than that.";
+        return "There are no more points than that.";
     case SampleReason::points:
-        return many + ": a good part of the points.";
+        return "They are a good part of the points.";
     case SampleReason::enough:
-        return many + ": more would hardly show.";
+        return "More would hardly show.";
     case SampleReason::handles:
-        return many + ": the handles are small, many or close together.";
+        return "The handles are small, many or close together.";
     default:
-        return many + ": what this machine moves at 40 frames a second.";
+        return "That many this machine moves at 40 frames a second.";
     }
 }
 
@@ -119,13 +122,15 @@ void sample_choice(const Ui& ui, const Settings& settings) {
     if (clicked != all && (clicked == automatic || settings.samples))
         return ui.wish(WishChooseSamples{clicked == automatic});
     SettingsChange wanted;
-    wanted.samples = clicked == all ? std::optional<std::uint64_t>{} : std::optional<std::uint64_t>{1000};
+    wanted.samples = clicked == all ? std::optional<std::uint64_t>{} : std::optional(ui.state.some_samples);
     ui.tell(ChangeSettings{wanted});
 }
 
 void samples_slider(const Ui& ui, const Settings& settings) {
     ImGui::BeginDisabled(!settings.samples);
-    int samples = static_cast<int>(std::min<std::uint64_t>(settings.samples.value_or(1000), 1000000));
+    ui.state.some_samples = settings.samples.value_or(ui.state.some_samples);
+    const std::uint64_t used = std::max<std::uint64_t>(ui.editor.document->samples, 1);
+    int samples = static_cast<int>(std::min<std::uint64_t>(settings.samples.value_or(used), 1'000'000'000));
     if (bar_slider("Samples", samples, 50, 20000, "%d",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
         SettingsChange wanted;
@@ -145,9 +150,11 @@ void samples_slider(const Ui& ui, const Settings& settings) {
     if (!ui.editor.chooses_samples) return;
     const SampleChoice& suited = ui.editor.document->suited;
     const bool waits = suited.samples != settings.samples;
+    // One line whatever it says: nothing below it is to jump.
     const char* const when =
-        ui.editor.document->posed ? "From the next commit on: " : "From the next edit on: ";
-    faint_text(waits ? when + words_about(suited) : words_about(suited));
+        ui.editor.document->posed ? " from the next commit on" : " from the next edit on";
+    faint_text(words_about(suited) + (waits ? when : ""));
+    explain(reason_for(suited));
 }
 
 void iterations_slider(const Ui& ui, const Settings& settings) {

@@ -148,13 +148,15 @@ struct UiState {
     bool toasts_on_top = false; // in the upper corner of the view; else in the lower one
     float toasts_height = 0;    // of all in the last frame
     std::vector<std::filesystem::path> recent;
-    std::vector<LostWork> lost; // that was found at the start
+    std::vector<LostWork> lost;       // that was found at the start
+    std::optional<LostWork> deleting; // the dialog asks whether to
 
     bool show_help = false;
     bool show_about = false;
     bool show_panels = true;
-    bool ask_unsaved = false;   // the dialog is to be opened
-    bool choose_samples = true; // by themselves, of the next cloud; remembered
+    bool ask_unsaved = false;          // the dialog is to be opened
+    bool choose_samples = true;        // by themselves, of the next cloud; remembered
+    std::uint64_t some_samples = 1000; // the number there was last, for after All
     AfterSaving after;
     std::optional<WishSaveTo> overwriting;             // the dialog asks whether to overwrite this
     std::optional<Editor::WithoutCloud> without_cloud; // which cloud it is to be opened with

@@ -4,6 +4,8 @@
 #include "app/ui.h"
 #include "app/widgets.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 
 namespace knead {
@@ -37,8 +39,8 @@ void recent_rows(const Ui& ui) {
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float height = ImGui::GetTextLineHeight() + ui.scaled(6);
         ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0.0f, 0.5f});
-        if (ImGui::Selectable(("       " + recent[i].filename().string()).c_str(), false, 0, {0, height}))
-            ui.wish(WishOpen{recent[i]});
+        const float whole = ImGui::GetContentRegionAvail().x;
+        if (ImGui::Selectable("##recent", false, 0, {0, height})) ui.wish(WishOpen{recent[i]});
         ImGui::PopStyleVar();
         explain(recent[i].string());
         const bool session = recent[i].extension() == ".knead";
@@ -46,9 +48,12 @@ void recent_rows(const Ui& ui) {
                   {at.x + ui.scaled(10), at.y + height / 2}, ui.scaled(14), palette::accent);
         const std::string folder = recent[i].parent_path().filename().string();
         const float width = ImGui::CalcTextSize(folder.c_str()).x;
-        ImGui::GetWindowDrawList()->AddText(
-            {at.x + ImGui::GetContentRegionAvail().x - width, at.y + ui.scaled(3)}, palette::faint,
-            folder.c_str());
+        const float end = at.x + whole - width, down = at.y + ui.scaled(3);
+        ImGui::GetWindowDrawList()->AddText({end, down}, palette::faint, folder.c_str());
+        const float name_end = end - ui.scaled(12);
+        ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), {at.x + ui.scaled(26), down},
+                                  {name_end, at.y + height}, name_end, name_end, recent[i].filename().c_str(),
+                                  nullptr, nullptr);
         ImGui::PopID();
     }
 }

@@ -187,7 +187,8 @@ bool section(const char* title, ImFont* font, bool unfold) {
     const ImU32 ink = ImGui::IsItemHovered() ? palette::accent_hovered : palette::text;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddText(font, font->FontSize, {corner.x, corner.y + (size.y - font->FontSize) / 2}, ink, title);
-    const float middle = corner.y + size.y / 2, right = corner.x + size.x - 8, reach = 4;
+    const float unit = font->FontSize / 15; // as the display is scaled
+    const float middle = corner.y + size.y / 2, right = corner.x + size.x - 8 * unit, reach = 4 * unit;
     if (open) // a chevron downwards, or to the left
         for (const ImVec2 point :
              {ImVec2(right - reach, middle - reach / 2), ImVec2(right, middle + reach / 2),
@@ -198,7 +199,7 @@ bool section(const char* title, ImFont* font, bool unfold) {
              {ImVec2(right + reach / 2, middle - reach), ImVec2(right - reach / 2, middle),
               ImVec2(right + reach / 2, middle + reach)})
             list.PathLineTo(point);
-    list.PathStroke(palette::faint, ImDrawFlags_None, 1.6f);
+    list.PathStroke(palette::faint, ImDrawFlags_None, 1.6f * unit);
     return open;
 }
 

@@ -240,7 +240,7 @@ void Window::take_in(double seconds) {
 
 // A key that went down and up again between two frames is shown to ImGui as down for one frame. ImGui checks
 // that its modifiers do not change within a frame, so it is let go when the next one begins.
-void Window::begin_frame() {
+void Window::begin_frame(bool mouse_is_taken) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGuiIO& io = ImGui::GetIO();
@@ -260,6 +260,10 @@ void Window::begin_frame() {
         shown_as_down_.push_back(tapped.key);
     }
     tapped_.clear();
+    if (mouse_is_taken) {
+        io.MousePos = {-FLT_MAX, -FLT_MAX};
+        std::ranges::fill(io.MouseDown, false);
+    }
     ImGui::NewFrame();
 }
 

@@ -43,9 +43,10 @@ public:
     void take_in(double seconds);
     std::vector<WindowEvent> take_events() { return std::exchange(events_, {}); }
 
-    void begin_frame(); // of ImGui
-    void end_frame();   // draws ImGui's part into the window
-    void swap();        // shows what was drawn
+    // Of ImGui. `mouse_is_taken`: its panels see neither the cursor nor the buttons.
+    void begin_frame(bool mouse_is_taken);
+    void end_frame(); // draws ImGui's part into the window
+    void swap();      // shows what was drawn
 
     void set_title(const std::string& title);
     std::string drawn_by() const; // "llvmpipe (LLVM 15.0.6, 256 bits)"

@@ -81,7 +81,6 @@ void fulfil(Work& work, const WishRestore& wish) {
     OpenRequest request;
     request.file = wish.work.cloud;
     request.restore = wish.work.journal;
-    std::erase_if(work.state.lost, [&](const LostWork& lost) { return lost.journal == wish.work.journal; });
     begin_opening(work, std::move(request));
 }
 

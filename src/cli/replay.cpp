@@ -138,10 +138,17 @@ int run_replay(const Arguments& arguments, Terminal& terminal) {
     }
     ReplayReport report =
         replay(session, options, terminal, [&](const std::string& words) { terminal.warn(words); });
-    if (arguments.record_checks && !arguments.dry_run && overrides_settings(arguments)) {
-        report.warnings.emplace_back("the checks were recorded with other settings than the session has; it "
-                                     "holds them only with the same --set or --samples");
+    const auto warn_of_checks = [&](const char* words) {
+        report.warnings.emplace_back(std::string("the checks were recorded with ") + words);
         terminal.warn(report.warnings.back());
+    };
+    if (arguments.record_checks && !arguments.dry_run) {
+        if (overrides_settings(arguments))
+            warn_of_checks("other settings than the session has; it holds them only with the same --set or "
+                           "--samples");
+        if (options.cloud)
+            warn_of_checks(
+                "the cloud of --cloud; the session holds them only with a cloud of the same points");
     }
     if (pictures) {
         for (std::filesystem::path& path : pictures->targets()) report.written.push_back(std::move(path));
@@ -188,7 +195,7 @@ void add_replay(CLI::App& app, Job& job) {
     command->add_option("--picture", arguments->pictures.picture,
                         "A PNG file for a picture of the last shape");
     command->add_option("--frames", arguments->pictures.frames,
-                        "A folder for a picture of every frame of the drags");
+                        "A folder for a picture of every frame of the drags, and of every shape that settled");
     declare_picture_options(*command, arguments->pictures.look);
     command->callback([arguments, &job] {
         job = [arguments](Terminal& terminal) { return run_replay(*arguments, terminal); };

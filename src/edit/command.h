@@ -33,6 +33,7 @@ struct SelectHandlePoints {
     std::string handle;
     SelectMode mode = SelectMode::replace;
 };
+struct DropChoice {}; // selects nothing; or, where nothing is selected, chooses no handle
 enum class HideStep { hide_selected, hide_unselected, show_all };
 struct ChangeHidden {
     HideStep step = HideStep::show_all;
@@ -136,9 +137,9 @@ struct SetPivotUnder { // a double click: the point under the cursor becomes the
 };
 
 using Command =
-    std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
-                 MakeHandle, ChooseHandle, RenameHandle, AssignPoints, ChangeRole, ChangeHold, ColorHandle,
-                 DeleteHandle, ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag,
+    std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, DropChoice,
+                 ChangeHidden, MakeHandle, ChooseHandle, RenameHandle, AssignPoints, ChangeRole, ChangeHold,
+                 ColorHandle, DeleteHandle, ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag,
                  RefuseTransform, SetPivot, ChangeSettings, ChooseSamples, CommitPose, UndoStep, RedoStep,
                  PlayStep, PacePlaying, AdvancePlaying, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
 

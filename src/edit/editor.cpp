@@ -200,7 +200,8 @@ std::vector<std::uint8_t> hidden_points(const Editor& editor) {
 // Settings that change so soon after one another are one movement of a slider.
 constexpr std::chrono::seconds one_gesture{1};
 
-constexpr double click_radius = 8; // pixels
+constexpr double click_radius = 8;  // pixels
+constexpr double least_framed = 8;  // spacings of the points, to each side
 
 void carry_out(Editor& editor, const SelectRegion& command) {
     if (!needs_document(editor)) return;
@@ -326,6 +327,12 @@ void carry_out(Editor& editor, const FrameView& command) {
     std::optional<Box3> box;
     if (command.what == FrameWhat::selection) box = box_of_selection(editor);
     if (command.what == FrameWhat::selection && !box) box = box_of_chosen(editor);
+    if (box) { // a point, or a few, with what is around them
+        const glm::dvec3 middle = (box->lowest + box->highest) / 2.0,
+                         least(least_framed * editor.opened.spacing);
+        box->lowest = glm::min(box->lowest, middle - least);
+        box->highest = glm::max(box->highest, middle + least);
+    }
     frame(editor.camera, box ? *box : bulk_box(editor.frame.positions), editor.viewport);
 }
 

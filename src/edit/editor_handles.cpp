@@ -118,6 +118,13 @@ void carry_out(Editor& editor, const ChooseHandle& command) {
     choose(editor, command.handle);
 }
 
+void carry_out(Editor& editor, const DropChoice& /*command*/) {
+    if (editor.selected > 0)
+        apply(editor, ChangeSelection{SelectionStep::none});
+    else
+        apply(editor, ChooseHandle{});
+}
+
 void carry_out(Editor& editor, const RenameHandle& command) {
     if (!number_of(editor, command.handle) || command.to.empty() || command.to == command.handle) return;
     if (number_of(editor, command.to))

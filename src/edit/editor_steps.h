@@ -68,6 +68,7 @@ void carry_out(Editor& editor, const DeleteHandle& command);
 void carry_out(Editor& editor, const ResetPose& command);
 void carry_out(Editor& editor, const MirrorHandle& command);
 void carry_out(Editor& editor, const SelectHandlePoints& command);
+void carry_out(Editor& editor, const DropChoice& command);
 void carry_out(Editor& editor, const BeginDrag& command);
 void carry_out(Editor& editor, const DragTo& command);
 void carry_out(Editor& editor, const EndDrag& command);

@@ -13,6 +13,9 @@ namespace knead {
 
 namespace {
 
+// Handles are searched round so many at a time, and in between it is asked whether to go on.
+constexpr std::size_t handles_at_once = 16;
+
 constexpr double strength = 4;
 constexpr double nearest = 0.0012; // of the cloud's size: nearer than this the pull does not grow any more
 
@@ -90,7 +93,8 @@ double least_falloff(const HeldExtent& held, double cloud_size) {
 
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> label,
                                    std::span<const HeldBlock> blocks, std::span<const Index> samples,
-                                   const Graph& graph, std::span<const float> positions, double cloud_size) {
+                                   const Graph& graph, std::span<const float> positions, double cloud_size,
+                                   Workers& workers, Progress& progress) {
     const std::vector<HeldExtent> extents = extents_of(handles.size(), blocks);
     std::vector<double> falloff(handles.size(), 0);
     std::vector<bool> pulls(handles.size(), false);
@@ -104,17 +108,31 @@ std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span
     std::unordered_map<Index, Index> sample_of;
     for (Index s = 0; s < samples.size(); ++s)
         if (label[samples[s]] == no_index) sample_of.emplace(samples[s], s);
-    NearestOfHandle nearest_sample(label, samples, positions);
-    std::vector<Pulled> pulled;
-    for (Index h = 0; h < held.size(); ++h) {
-        if (!pulls[h]) continue;
+    const auto pulled_by = [&](Index h) {
+        std::vector<Pulled> pulled;
         for (const Reached& near : reached_within(graph, positions, held[h], falloff[h])) {
             const auto sample = sample_of.find(near.vertex);
             if (sample != sample_of.end() && near.distance < falloff[h])
-                pulled.push_back({sample->second, h, near.distance / falloff[h], falloff[h], near.source,
-                                  handles[h].free_rotation ? nearest_sample.to(near.source) : no_index});
+                pulled.push_back(
+                    {sample->second, h, near.distance / falloff[h], falloff[h], near.source, no_index});
         }
+        return pulled;
+    };
+    std::vector<Pulled> pulled;
+    std::vector<std::vector<Pulled>> some(handles_at_once);
+    for (std::size_t first = 0; first < held.size(); first += handles_at_once) {
+        progress.step("finding what handles pull",
+                      static_cast<double>(first) / static_cast<double>(held.size()));
+        const std::size_t count = std::min(handles_at_once, held.size() - first);
+        workers.for_each(count, 1, [&](std::size_t k) {
+            const auto h = static_cast<Index>(first + k);
+            some[k] = pulls[h] ? pulled_by(h) : std::vector<Pulled>();
+        });
+        for (std::size_t k = 0; k < count; ++k) pulled.insert(pulled.end(), some[k].begin(), some[k].end());
     }
+    NearestOfHandle nearest_sample(label, samples, positions);
+    for (Pulled& one : pulled)
+        if (handles[one.handle].free_rotation) one.turner = nearest_sample.to(one.held);
     return pulled;
 }
 

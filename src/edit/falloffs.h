@@ -1,6 +1,8 @@
 #pragma once
 // Handles that pull what is around them.
 
+#include "base/progress.h"
+#include "base/workers.h"
 #include "deform/sample_system.h"
 #include "edit/handles.h"
 #include "graph/held_blocks.h"
@@ -30,7 +32,8 @@ double least_falloff(const HeldExtent& held, double cloud_size);
 // samples are not pulled, and each handle's falloff is at least its least one.
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> label,
                                    std::span<const HeldBlock> blocks, std::span<const Index> samples,
-                                   const Graph& graph, std::span<const float> positions, double cloud_size);
+                                   const Graph& graph, std::span<const float> positions, double cloud_size,
+                                   Workers& workers, Progress& progress);
 
 // How strongly, with the samples' graph, weights and rest positions in `rest`. The pull is that of a bed of
 // springs whose stiffness over that of the surface is the inverse of a length squared: it looks alike for any

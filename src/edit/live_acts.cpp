@@ -38,9 +38,11 @@ void LiveWork::carry_out_line(const SessionAction& line, bool joins, bool pose_i
         carry_out_act(*document_, CommitLine{}, "", progress_);
         add_act(CommitLine{}, done++ > 0 || joins);
         if (pose_is_seen)
-            say(Notice::Kind::information,
-                "The pose was committed first, since this cannot change while one stands: it counts from the "
-                "next pose on. Ctrl+Z takes both back.");
+            publisher_.say(
+                Notice::Kind::information,
+                "The pose was committed first, since this cannot change while one stands: it counts "
+                "from the next pose on. Ctrl+Z takes both back.",
+                Notice::About::committed);
     }
     carry_out_act(*document_, line, "", progress_);
     add_act(line, done++ > 0 || joins);
@@ -100,6 +102,7 @@ void LiveWork::carry_out(task::Undo& task) {
     may_choose_ = false;
     if (refused_.contains(task.step) || !recording_->can_undo()) return;
     take_back_step(task.to_look);
+    publisher_.say(Notice::Kind::information, {}, Notice::About::committed); // it may have been this
     show_where_it_rests();
 }
 

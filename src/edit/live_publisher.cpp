@@ -7,8 +7,8 @@
 
 namespace knead {
 
-void LivePublisher::say(Notice::Kind kind, const std::string& words) {
-    shared_.with([&](LiveShared& s) { s.notices.push_back({.kind = kind, .words = words}); });
+void LivePublisher::say(Notice::Kind kind, const std::string& words, Notice::About about) {
+    shared_.with([&](LiveShared& s) { s.notices.push_back({kind, words, about}); });
 }
 
 void LivePublisher::refuse(StepNumber step) {

@@ -10,7 +10,7 @@ class LivePublisher {
 public:
     LivePublisher(Locked<LiveShared>& shared, Workers& workers) : shared_(shared), workers_(workers) {}
 
-    void say(Notice::Kind kind, const std::string& words);
+    void say(Notice::Kind kind, const std::string& words, Notice::About about = Notice::About::itself);
     void refuse(StepNumber step);
 
     // The newest points. `pose_set`: of a drag, when the hand set the pose that they show.

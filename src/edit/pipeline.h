@@ -181,7 +181,7 @@ private:
     std::vector<std::pair<Index, Index>> find_hinges(std::span<const BorderVertex> borders) const;
     std::vector<FloodStart> handle_starts(std::span<const BorderVertex> borders) const;
     Index followed_by(std::size_t point) const;
-    void find_pulled();
+    void find_pulled(Progress& progress);
     void choose_coarse_samples();
     void label_vertices();
     void label_hanging();

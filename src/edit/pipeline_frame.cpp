@@ -117,7 +117,10 @@ void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleSt
 void Pipeline::put_exactly(Index sample, const Vec3d& displacement) {
     const RestShape& rest = input_.rest ? *input_.rest : opened_;
     const Index vertex = samples_[sample];
-    for (Index point = order_.first_point[vertex]; point < order_.first_point[vertex + 1]; ++point)
+    for (Index point = order_.first_point[vertex]; point < order_.first_point[vertex + 1]; ++point) {
+        const Index held_by = labels_.point[point];
+        if (held_by != no_index && held_by != labels_.vertex[vertex])
+            continue; // another's, in the same place
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::size_t at = 3 * std::size_t{point} + axis;
             const double way = displacement[static_cast<Eigen::Index>(axis)];
@@ -127,6 +130,7 @@ void Pipeline::put_exactly(Index sample, const Vec3d& displacement) {
             posed_.positions[at] = there;
             written_[point / points_in_block] = upsampled_;
         }
+    }
 }
 
 HandleDemand Pipeline::demand(const SampleState& state) const {

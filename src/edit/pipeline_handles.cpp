@@ -22,9 +22,9 @@ std::size_t handle_budget(std::size_t base_samples) {
 
 } // namespace
 
-void Pipeline::find_pulled() {
+void Pipeline::find_pulled(Progress& progress) {
     pulled_ = pulled_samples(slots_.handles, labels_.vertex, held_blocks_, samples_, *graph_,
-                             vertex_positions(), cloud_size_);
+                             vertex_positions(), cloud_size_, workers_, progress);
 }
 
 void Pipeline::prepare_handles(Progress& progress) {
@@ -33,7 +33,7 @@ void Pipeline::prepare_handles(Progress& progress) {
     label_vertices();
     if (every_point_) { // their graph is that of the points, whatever the handles are
         seconds_.sampling += clock.lap();
-        find_pulled();
+        find_pulled(progress);
         choose_coarse_samples();
         seconds_.geodesic += clock.lap();
         return;
@@ -55,7 +55,7 @@ void Pipeline::prepare_handles(Progress& progress) {
     const std::vector<WideRow> more = rows_without(from_handles_, nearest_, needed.added);
     rows.insert(rows.end(), more.begin(), more.end());
     sample_graph_ = knead::sample_graph(rows, borders, workers_);
-    find_pulled();
+    find_pulled(progress);
     choose_coarse_samples();
     seconds_.geodesic += clock.lap();
 }

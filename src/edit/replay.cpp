@@ -91,6 +91,10 @@ private:
     // What cannot be written, or should not be, is told before the work, not after it.
     void refuse_bad_targets() const {
         if (options_.out) refuse_bad_target(*options_.out);
+        std::error_code ignored;
+        if (options_.out && std::filesystem::equivalent(*options_.out, session_.file, ignored))
+            throw Error(Trouble::output, options_.out->string(),
+                        "is the session itself; give the shape another name");
         if (!options_.record_checks || options_.rehearse) return;
         const TemporaryFolder checks(folder_of_session());
         const FileInTheMaking session(session_.file);
@@ -272,7 +276,10 @@ private:
     }
 
     std::filesystem::path folder_of_session() const {
-        const std::filesystem::path folder = session_.file.parent_path();
+        // Where it lies itself, not a link to it: there it is written, and there it is read with its checks.
+        std::error_code ignored;
+        const std::filesystem::path file = std::filesystem::canonical(session_.file, ignored);
+        const std::filesystem::path folder = (ignored ? session_.file : file).parent_path();
         return folder.empty() ? "." : folder;
     }
 

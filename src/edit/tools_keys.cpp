@@ -27,7 +27,7 @@ const std::array<Shortcut, 27>& shortcuts() {
     static const std::array<Shortcut, 27> all{{
         {key('A'), plain, ChangeSelection{SelectionStep::all}},
         {key('A'), alt, ChangeSelection{SelectionStep::none}},
-        {Key::escape, plain, ChangeSelection{SelectionStep::none}},
+        {Key::escape, plain, DropChoice{}},
         {key('I'), ctrl, ChangeSelection{SelectionStep::invert}},
         {key('='), ctrl, ChangeSelection{SelectionStep::grow}},
         {key('='), ctrl_shift, ChangeSelection{SelectionStep::grow}}, // the plus of a US keyboard

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
 
 namespace knead {
 
@@ -80,11 +81,20 @@ public:
             for (Index i = 0; i < counts.points; ++i) owners_.point_of_normal[i] = i;
         } else {
             image.has_normals = corners_with_normals_ > 0 && owners_.are_pairs();
+            if (counts.normals == counts.points) pair_the_rest();
         }
         if (image.has_normals) image.point_of_normal = std::move(owners_.point_of_normal);
     }
 
 private:
+    // Where as many normals as points go by their numbers at every corner, those at no corner do so, too.
+    void pair_the_rest() {
+        std::vector<Index>& point_of = owners_.point_of_normal;
+        for (Index i = 0; i < point_of.size(); ++i)
+            if (point_of[i] != no_index && point_of[i] != i) return;
+        std::iota(point_of.begin(), point_of.end(), Index{0});
+    }
+
     // Steps over a slash, if there is one; whether a number follows it.
     static bool part(std::string_view& rest) {
         if (!rest.starts_with('/')) return false;

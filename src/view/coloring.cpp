@@ -135,7 +135,7 @@ Legend color_by_height(const ColorBy& by, const PointsToColor& points, std::span
     std::optional<ValueRange> given = by.range;
     if (given) given = ValueRange{given->low - origin, given->high - origin};
     const ValueRange range = color_values(heights(points, upward(by.up)), given, colors, workers);
-    return {"height", by.range ? *by.range : ValueRange{range.low + origin, range.high + origin}};
+    return {"Height", by.range ? *by.range : ValueRange{range.low + origin, range.high + origin}};
 }
 
 } // namespace

@@ -52,7 +52,7 @@ struct PointsToColor {
 
 // What was told by colour.
 struct Legend {
-    std::string title;               // "height", the column's name, …; empty where there is nothing to tell
+    std::string title;               // "Height", the column's name, …; empty where there is nothing to tell
     std::optional<ValueRange> range; // of the viridis scale, where it was used
 };
 

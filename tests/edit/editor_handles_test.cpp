@@ -337,6 +337,34 @@ TEST_F(BarEditor, PointsThatChangeNothingAreSaidAndAreNoStep) {
     EXPECT_NE(told(SelectMode::remove).find("holds none"), std::string::npos);
 }
 
+TEST_F(BarEditor, EscapeDropsTheSelectionAndThenTheChosenHandle) {
+    make_handles();
+    select_heights(0, 1);
+    press(Key::escape);
+    EXPECT_EQ(editor_.selected, 0U);
+    EXPECT_EQ(editor_.chosen, "high");
+    press(Key::escape);
+    EXPECT_EQ(editor_.chosen, "");
+    EXPECT_FALSE(gizmo_of(editor_));
+    press(Key::escape);
+    apply(editor_, UndoStep{});
+    EXPECT_EQ(editor_.selected, points_between(0, 1));
+}
+
+TEST_F(BarEditor, WhatIsSaidOfAPoseThatWasCommittedFirstGoesWithItsUndoing) {
+    make_handles();
+    turn_chosen("40");
+    editor_.notices.clear();
+    apply(editor_, ChangeHold{"high", true, 0});
+    calm();
+    ASSERT_EQ(editor_.notices.size(), 1U);
+    EXPECT_EQ(editor_.notices.back().about, Notice::About::committed);
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(editor_.notices.back().about, Notice::About::committed);
+    EXPECT_EQ(editor_.notices.back().words, "") << "it holds no longer";
+}
+
 TEST_F(BarEditor, HandlesMadeInQuickSuccessionHaveNamesOfTheirOwn) {
     editor_.camera.orthographic = true;
     select_heights(2, 3);

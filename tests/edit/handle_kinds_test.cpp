@@ -264,5 +264,24 @@ TEST(HandleKinds, AFixedPegOfOnePointKeepsItsBits) {
     }
 }
 
+TEST(HandleKinds, APegLeavesWhatOthersHoldInItsPlace) {
+    std::vector<float> positions = bar(700).positions;
+    const std::vector<float> twice(positions.begin() + 21, positions.begin() + 24);
+    positions.insert(positions.end(), twice.begin(), twice.end()); // point 700 lies where point 7 does
+    Desk desk(make_cloud(positions));
+    const std::vector<float> rest = desk.shape();
+    desk.play(R"({"op":"handle","name":"held","role":"fixed","points":[7,8,9,10]})"
+              "\n"
+              R"({"op":"handle","name":"peg","role":"moving","rotation":"free","points":[700]})"
+              "\n"
+              R"({"op":"drag","handle":"peg","frames":[{"translate":[0,0.1,0]}]})"
+              "\n" +
+              settle(5));
+    const std::vector<float> shape = desk.shape();
+    EXPECT_EQ(at(shape, 7), at(rest, 7));
+    EXPECT_NEAR((at(shape, 700) - at(rest, 700)).y(), 0.1, 1e-6);
+    EXPECT_LT(desk.handle_error(), 1e-6);
+}
+
 } // namespace
 } // namespace knead

@@ -177,6 +177,14 @@ TEST(Obj, NormalsOfCornersBelongToPointsWhereTheyArePairs) {
     EXPECT_EQ(saved(cloud, {{}, turned}), points + replaced(normals, "0 0 -1", "0 0 -2") + faces);
 }
 
+// As other readers take them: nothing tells that the others are not by number.
+TEST(Obj, NormalsOfNoCornerBelongToPointsByTheirNumbers) {
+    const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    const std::string normals = "vn 1 0 0\nvn 0 1 0\nvn 0 0 1\nvn 0 0 -1\n";
+    const PointCloud cloud = read_obj_text(points + normals + "f 1//1 2//2 3//3\n");
+    EXPECT_EQ(read_normals(cloud), (std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1}));
+}
+
 TEST(Obj, NormalsThatAreNotPairedAreLeftWithAWord) {
     const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (const char* rest : {"vn 0 0 1\nf 1//1 2//1 3//1\n", // shared

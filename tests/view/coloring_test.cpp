@@ -82,7 +82,7 @@ TEST(Coloring, tells_height_in_the_files_coordinates) {
     ColorBy by;
     by.kind = ColorBy::Kind::height;
     const std::vector<std::uint32_t> colors = it.colors(by);
-    EXPECT_EQ(it.legend.title, "height");
+    EXPECT_EQ(it.legend.title, "Height");
     ASSERT_TRUE(it.legend.range);
     EXPECT_DOUBLE_EQ(it.legend.range->low, 102);
     EXPECT_DOUBLE_EQ(it.legend.range->high, 298);

@@ -243,5 +243,8 @@ private:
 // That this handle moves nothing, as handles that were declared later hold all of its points; "" where it
 // does. After an act that prepared it: a drag.
 std::string words_about_swallowed(const Document& document, const std::string& handle);
+// That nothing stays of the part of the cloud which this handle moves, though there is what stays elsewhere;
+// "" where that is not so. After the same.
+std::string words_about_loose(const Document& document, const std::string& handle);
 
 } // namespace knead

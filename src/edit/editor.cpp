@@ -200,8 +200,8 @@ std::vector<std::uint8_t> hidden_points(const Editor& editor) {
 // Settings that change so soon after one another are one movement of a slider.
 constexpr std::chrono::seconds one_gesture{1};
 
-constexpr double click_radius = 8;  // pixels
-constexpr double least_framed = 8;  // spacings of the points, to each side
+constexpr double click_radius = 8; // pixels
+constexpr double least_framed = 8; // spacings of the points, to each side
 
 void carry_out(Editor& editor, const SelectRegion& command) {
     if (!needs_document(editor)) return;

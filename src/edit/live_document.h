@@ -89,7 +89,7 @@ struct Notice {
     enum class Kind { information, warning, error } kind = Kind::information;
     std::string words; // empty: what was said about this before holds no longer
     // One about the shape takes the place of what was said about the same before.
-    enum class About { itself, demand, strays, swallowed, committed } about = About::itself;
+    enum class About { itself, demand, strays, swallowed, loose, committed } about = About::itself;
 };
 
 // Everything that stays of the opened cloud; views into the live document, valid as long as it lives.

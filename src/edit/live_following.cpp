@@ -48,6 +48,7 @@ void LiveWork::carry_out(task::BeginDrag& task) {
                            document_->cloud().origin});
     publisher_.strays(document_->pipeline().strays());
     publisher_.swallowed(*document_, task.handle);
+    publisher_.loose(*document_, task.handle);
     publish_view();
 }
 

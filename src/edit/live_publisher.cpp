@@ -139,6 +139,14 @@ void LivePublisher::swallowed(const Document& document, const std::string& handl
     tell(Notice::About::swallowed, words_about_swallowed(document, handle), told_of_swallowed_);
 }
 
+void LivePublisher::loose(const Document& document, const std::string& handle) {
+    std::string words = words_about_loose(document, handle);
+    if (!words.empty() && document.settings().strays != Strays::bridge)
+        words += "; \"Strays: Join\" in the shape panel joins them. It commits what is posed: take that back "
+                 "first (Ctrl+Z)";
+    tell(Notice::About::loose, std::move(words), told_of_loose_);
+}
+
 void LivePublisher::note_spacings(const Pipeline& pipeline) {
     if (!pipeline.shared_graph() || pipeline.shared_graph() == graph_seen_) return;
     graph_seen_ = pipeline.shared_graph();

@@ -42,6 +42,7 @@ public:
     void demand(const HandleDemand& demand);
     // And a handle that is dragged and has no points left to move.
     void swallowed(const Document& document, const std::string& handle);
+    void loose(const Document& document, const std::string& handle);
 
 private:
     void note_changes(const RestShape& shape, const Pipeline& pipeline);
@@ -59,7 +60,7 @@ private:
     // Which of the pipeline's the last frame shows; 0: it shows another shape.
     std::uint64_t shown_upsampling_ = 0;
     bool last_is_drawn_ = false;
-    std::string told_of_strays_, told_of_demand_, told_of_swallowed_;
+    std::string told_of_strays_, told_of_demand_, told_of_swallowed_, told_of_loose_;
     // Copies for the window, which may look at them while the pipeline makes others.
     std::uint64_t samples_seen_ = 0;
     std::shared_ptr<const std::vector<Index>> sample_vertices_;

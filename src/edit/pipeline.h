@@ -164,6 +164,9 @@ public:
     // Whether a handle of the list moves any point: not where others that were declared later hold all that
     // it holds. Of what is prepared.
     bool moves_points(Index handle) const;
+    // Whether nothing of the part of the cloud stays that it moves (of several the largest): no fixed handle
+    // is there, nor what lies outside a region of interest. Of what is prepared.
+    bool is_on_loose_part(Index handle) const;
 
     const StageSeconds& seconds() const { return seconds_; }
 

@@ -178,6 +178,25 @@ bool Pipeline::moves_points(Index handle) const {
     return std::ranges::find(labels_.point, label) != labels_.point.end();
 }
 
+// Of the largest part that it reaches into.
+bool Pipeline::is_on_loose_part(Index handle) const {
+    const Index label = slots_.slot[handle];
+    Index part = no_index;
+    for (const HeldBlock& block : held_blocks_)
+        for (const HeldPart& held : block.parts)
+            if (held.label == label &&
+                (part == no_index || components_->size[held.component] > components_->size[part]))
+                part = held.component;
+    const auto stays = [&](const HeldPart& held) {
+        const bool is_fixed =
+            held.label == labels_.outside || slots_.handles[held.label].role == HandleRole::fixed;
+        return held.component == part && is_fixed;
+    };
+    return part != no_index && std::ranges::none_of(held_blocks_, [&](const HeldBlock& block) {
+               return std::ranges::any_of(block.parts, stays);
+           });
+}
+
 // The handle that moves a point alone, or no_index. Beside what a handle holds itself, that is what is right
 // there, inside of it: twins of what it holds, and outliers that hang on it.
 Index Pipeline::followed_by(std::size_t point) const {

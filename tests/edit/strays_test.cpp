@@ -52,6 +52,36 @@ double largest_change_of_distance(const std::vector<Vec3d>& before, const std::v
     return largest;
 }
 
+// --- Parts that nothing holds back
+
+// Of the ball, and of the bar's ends.
+const std::string of_ball = R"({"op":"handle","name":"ball","role":"moving","region":{"sphere":)"
+                            R"({"center":[1.2,0,0.8],"radius":0.2}}})"
+                            "\n";
+std::string drag_ball() {
+    return drag(R"({"translate":[0.1,0,0]})", "ball");
+}
+
+TEST(LooseParts, AreThoseWithoutAnythingThatStays) {
+    Desk desk(bar_and_ball({1.2, 0, 1.1}));
+    desk.play(ends + of_ball + drag_ball() + drag(lift));
+    EXPECT_NE(words_about_loose(desk.document(), "ball").find("nothing that stays"), std::string::npos);
+    EXPECT_EQ(words_about_loose(desk.document(), "top"), "");
+    EXPECT_EQ(words_about_loose(desk.document(), "nobody"), "");
+}
+
+TEST(LooseParts, AreNoneWhereTheyAreJoinedOrARegionEndsOnThem) {
+    Desk joined(bar_and_ball({0.95, 0, 0.8}));
+    joined.play(bridge + ends + R"({"op":"handle","name":"ball","role":"moving","region":{"sphere":)" +
+                R"({"center":[1.3,0,0.8],"radius":0.2}}})" + "\n" + drag_ball());
+    ASSERT_EQ(joined.pipeline().components().size.size(), 1U);
+    EXPECT_EQ(words_about_loose(joined.document(), "ball"), "");
+    Desk region(bar_and_ball({1.2, 0, 1.1}));
+    region.play(ends + R"({"op":"handle","name":"some","role":"roi","region":{"sphere":)" +
+                R"({"center":[1.2,0,0.9],"radius":0.35}}})" + "\n" + of_ball + drag_ball());
+    EXPECT_EQ(words_about_loose(region.document(), "ball"), "");
+}
+
 // --- Carry
 
 TEST(CarriedParts, MoveRigidlyWithWhatIsNearest) {

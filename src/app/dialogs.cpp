@@ -36,7 +36,7 @@ std::string what_is_unsaved(const Editor& editor) {
     if (session.empty())
         return "The handles and poses of " + editor.opened.file.filename().string() +
                " are not saved yet. A session keeps all of them, to go on with later.";
-    return "What was done since " + session.string() + " was saved is not in it.";
+    return "What changed since " + session.string() + " was saved is not in it.";
 }
 
 void unsaved_question(const Ui& ui) {

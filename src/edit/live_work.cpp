@@ -64,7 +64,8 @@ void LiveWork::open() {
     replay_session(session, *document_, *recording_, progress_);
     if (request_.restore && !session_file_.empty())
         saved_.session_state = state_after(session.lines, recording_->facts().saved_lines);
-    if (!request_.restore) saved_.session_state = recording_->state();
+    // One that was opened with another cloud than it names is not saved before it names that.
+    if (!request_.restore && !request_.cloud) saved_.session_state = recording_->state();
     if (!request_.restore && !is_plain_cloud) recording_->is_in(session_file_);
     recording_->chooses_samples(choosing_);
     recording_->is_on(cloud_stamp_);

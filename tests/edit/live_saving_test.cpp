@@ -215,8 +215,10 @@ TEST_F(LiveBar, ASavedSessionKnowsItsCloudAgain) {
     wait_until_open(live);
     ASSERT_EQ(live.status().stage, LiveDocument::Stage::open);
     EXPECT_EQ(live.opened().file, elsewhere);
+    EXPECT_FALSE(live.saved().session_state) << "the session names another cloud";
     live.save_session(folder_ / "b.knead");
     wait_until_idle(live);
+    EXPECT_EQ(live.saved().session_state, live.view()->state);
     EXPECT_EQ(read_session(folder_ / "b.knead").cloud, "elsewhere.ply");
 }
 

@@ -127,6 +127,7 @@ bool is_up(const Ui& ui) {
 template<int direction>
 void choose_next_handle(const Ui& ui) {
     const std::vector<Handle>& handles = ui.editor.document->handles;
+    if (handles.empty()) return;
     const int count = static_cast<int>(handles.size());
     int at = direction > 0 ? -1 : 0;
     for (int i = 0; i < count; ++i)

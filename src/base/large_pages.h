@@ -28,8 +28,8 @@ struct LineAllocator {
     Value* allocate(std::size_t count) {
         return static_cast<Value*>(::operator new(count * sizeof(Value), std::align_val_t(cache_line)));
     }
-    void deallocate(Value* memory, std::size_t count) {
-        ::operator delete(memory, count * sizeof(Value), std::align_val_t(cache_line));
+    void deallocate(Value* memory, std::size_t /*count*/) {
+        ::operator delete(memory, std::align_val_t(cache_line));
     }
     friend bool operator==(const LineAllocator&, const LineAllocator&) { return true; }
 };

@@ -130,8 +130,7 @@ __attribute__((always_inline)) inline void store(vector v, __global float* to, s
     if (count == LANES) {
         write_whole(whole, to, streamed);
     } else {
-        const real kept[3] = {whole[0], whole[1], whole[2]}; // so that only here they are memory
-        const float* const all = (const float*)kept;
+        const float* const all = (const float*)whole;
         for (size_t i = 0; i < 3 * count; ++i) to[i] = all[i];
     }
 }

@@ -24,6 +24,15 @@ std::string quoted(const std::string& name) {
     return "\"" + name + "\"";
 }
 
+// In a rehearsal nobody knows which points a region is after a commit. One point, twice, stands for them: no
+// list of points has any twice.
+std::vector<Index> unknown_points(Index any) {
+    return {any, any};
+}
+bool is_unknown(const std::vector<Index>& points) {
+    return points.size() == 2 && points[0] == points[1];
+}
+
 void refuse_absurd(const HandleMotion& motion, double diagonal, std::size_t frame, const std::string& place) {
     // Points that all lie in one place have no size to compare with.
     const double reach = diagonal > 0 ? std::min(most_diagonals * diagonal, farthest) : farthest;
@@ -333,10 +342,8 @@ std::optional<Index> Document::recolored_by(const HandleLine& line, const std::s
     const bool holds_alike =
         old->role == line.role && old->free_rotation == line.free_rotation && old->falloff == line.falloff;
     if (!holds_alike) return std::nullopt;
-    // In a rehearsal nobody knows what the points of a region are after a commit: these may be them.
     const std::vector<Index> points = resolve_points(line, cloud_, nullptr, place);
-    const bool may_be = mode_ == Mode::rehearsal && old->points->size() == 1 && now().rest;
-    if (*old->points != points && !may_be) return std::nullopt;
+    if (*old->points != points && !is_unknown(*old->points)) return std::nullopt; // those may be these
     return static_cast<Index>(old - handles_.begin());
 }
 
@@ -473,7 +480,7 @@ std::shared_ptr<const RestShape> Document::posed_shape(const std::vector<HandleM
 std::vector<Index> Document::resolve(const HandleLine& line, const std::string& place) {
     if (mode_ == Mode::rehearsal && now().rest && std::holds_alternative<Region>(line.points)) {
         for (Index i = 0; i < cloud_.size(); ++i)
-            if (is_finite(cloud_, i)) return {i};
+            if (is_finite(cloud_, i)) return unknown_points(i);
     }
     SilentProgress silent;
     const std::vector<float> rest = now().rest ? positions(silent) : std::vector<float>{};

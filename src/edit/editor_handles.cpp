@@ -49,6 +49,14 @@ void edit_handle(Editor& editor, HandleEdit edit) {
     add_step(editor, editor.last_step, nullptr);
 }
 
+// What is selected, which a handle's tint takes the place of: nothing is selected any more.
+auto take_selection(Editor& editor) {
+    auto before = snapshot(editor);
+    select_none(editor.marks, editor.workers);
+    marks_changed(editor);
+    return before;
+}
+
 // How many points follow a handle, and how many of them are selected. Of what several hold the last one has
 // it, which is what the marks say.
 struct Held {
@@ -104,9 +112,7 @@ void carry_out(Editor& editor, const MakeHandle& command) {
     line.role = command.role;
     line.points = selected_ranges(editor.marks, *editor.opened.order, editor.opened.cloud->size());
     tell_who_is_robbed(editor, command.role, line.name);
-    auto before = snapshot(editor);
-    select_none(editor.marks, editor.workers);
-    marks_changed(editor);
+    auto before = take_selection(editor);
     const std::string name = line.name;
     const StepNumber step = post_step(editor, {std::move(line)}, std::move(before));
     editor.posted_names.emplace_back(step, name);
@@ -154,9 +160,7 @@ void carry_out(Editor& editor, const AssignPoints& command) {
                                                                 : "holds none of the selected points."));
     }
     if (command.mode != SelectMode::remove) tell_who_is_robbed(editor, handle.role, handle.name);
-    auto before = snapshot(editor);
-    select_none(editor.marks, editor.workers);
-    marks_changed(editor);
+    auto before = take_selection(editor);
     editor.live->edit_handle(++editor.last_step, std::move(edit));
     add_step(editor, editor.last_step, std::move(before));
 }

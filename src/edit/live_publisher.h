@@ -42,6 +42,7 @@ public:
     void demand(const HandleDemand& demand);
     // And a handle that is dragged and has no points left to move.
     void swallowed(const Document& document, const std::string& handle);
+    // And one of a part that nothing holds back.
     void loose(const Document& document, const std::string& handle);
 
 private:

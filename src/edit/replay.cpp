@@ -96,9 +96,19 @@ private:
             throw Error(Trouble::output, options_.out->string(),
                         "is the session itself; give the shape another name");
         if (!options_.record_checks || options_.rehearse) return;
+        refuse_link_from_elsewhere();
         const TemporaryFolder checks(folder_of_session());
         const FileInTheMaking session(session_.file);
         refuse_other_uses_of_checks();
+    }
+
+    // The session would be written where the link leads, and its checks could be found from one of them only.
+    void refuse_link_from_elsewhere() const {
+        std::error_code trouble, ignored;
+        const std::filesystem::path file = std::filesystem::canonical(session_.file, trouble);
+        if (!trouble && !std::filesystem::equivalent(file.parent_path(), folder_of_session(), ignored))
+            throw Error(Trouble::output, session_.file.string(),
+                        "is a link into another folder; record the checks of " + file.string() + " itself");
     }
 
     // A check is written beside the session, over what has its name.
@@ -276,10 +286,7 @@ private:
     }
 
     std::filesystem::path folder_of_session() const {
-        // Where it lies itself, not a link to it: there it is written, and there it is read with its checks.
-        std::error_code ignored;
-        const std::filesystem::path file = std::filesystem::canonical(session_.file, ignored);
-        const std::filesystem::path folder = (ignored ? session_.file : file).parent_path();
+        const std::filesystem::path folder = session_.file.parent_path();
         return folder.empty() ? "." : folder;
     }
 

@@ -233,6 +233,9 @@ TEST(Replay, ARehearsalFindsMistakesAndComputesNothing) {
                     R"("region":{"halfspace":{"point":[0,0,2],"normal":[0,0,1]}}})" + "\n" + drag(lift) +
                     top + R"("points":[1,2,3],"color":"#112233"})" + "\n"),
               "accepted");
+    EXPECT_SAYS(words(ends + drag(lift) + commit + top + R"("points":[7]})" + "\n" + drag(lift) + top +
+                      R"("points":[1,2,3],"color":"#112233"})" + "\n"),
+                "s.knead:8: ");
 }
 
 TEST(Replay, AnEditWithNoIterationsIsEquationOneAlone) {
@@ -274,21 +277,26 @@ TEST(Replay, NeverPutsTheShapeInThePlaceOfTheSession) {
     EXPECT_EQ(read_text(session.file), text);
 }
 
-// The clouds of the checks go where the session is, not where a link to it is.
-TEST(Replay, RecordsChecksBesideTheSessionThatALinkLeadsTo) {
+TEST(Replay, RecordsNoChecksThroughALinkFromAnotherFolder) {
     const ScratchFolder folder;
-    std::filesystem::create_directory(folder / "real");
+    std::filesystem::create_directory(folder / "links");
     const Session session = session_in(folder, ends + drag(lift));
-    std::filesystem::rename(session.file, folder / "real/s.knead");
-    std::filesystem::rename(folder / "bar.ply", folder / "real/bar.ply");
-    std::filesystem::create_symlink(folder / "real/s.knead", session.file);
-    std::filesystem::create_symlink(folder / "real/bar.ply", folder / "bar.ply");
+    const std::string text = read_text(session.file);
+    std::filesystem::create_symlink(session.file, folder / "links/s.knead");
+    std::filesystem::create_symlink(session.file, folder / "beside.knead");
+    std::filesystem::create_symlink(folder / "bar.ply", folder / "links/bar.ply");
     ReplayOptions options = on_the_reference();
     options.record_checks = true;
-    told(read_session(session.file), options);
-    EXPECT_TRUE(std::filesystem::exists(folder / "real/s-check-1.ply"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "s-check-1.ply"));
-    const ReplayReport again = told(read_session(folder / "real/s.knead"), on_the_reference()).report;
+    try {
+        told(read_session(folder / "links/s.knead"), options);
+        ADD_FAILURE() << "it was accepted";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.trouble(), Trouble::output);
+        EXPECT_SAYS(error.what(), "is a link into another folder");
+    }
+    EXPECT_EQ(read_text(session.file), text);
+    told(read_session(folder / "beside.knead"), options);
+    const ReplayReport again = told(read_session(session.file), on_the_reference()).report;
     ASSERT_EQ(again.checks.size(), 1U);
     EXPECT_TRUE(again.checks[0].held);
 }

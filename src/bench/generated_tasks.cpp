@@ -81,8 +81,9 @@ DeformationTask generated_task(std::string_view name, const ShapeOptions& sampli
             task, [](const Vec3d& p) { return p.z() <= -long_bar_free; },
             [](const Vec3d& p) { return p.z() >= long_bar_free; });
         task.pose.rotate = turn(180, Vec3d::UnitZ());
-    } else if (name == "made-cylinder") {
-        task.cloud = make_shape(Shape::cylinder, sampling, workers, progress);
+    } else if (name == "made-cylinder" || name == "made-solid-bar") {
+        const Shape shape = name == "made-cylinder" ? Shape::cylinder : Shape::solid_bar;
+        task.cloud = make_shape(shape, sampling, workers, progress);
         hold_ends(task);
         bend(task, 120);
     } else {

@@ -5,6 +5,7 @@
 #include "io/cloud_file.h"
 #include "shapes/random.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -49,18 +50,19 @@ struct Pair {
 };
 
 constexpr std::size_t made_points = 10'000;
+constexpr int denser = 20;
 
-ShapeOptions even(std::uint64_t seed = 1) {
+ShapeOptions even(std::uint64_t seed = 1, std::size_t points = made_points) {
     ShapeOptions options;
-    options.points = made_points;
+    options.points = points;
     options.seed = seed;
     return options;
 }
 
-// Denser by 20 from end to end.
+// Denser and denser from end to end.
 ShapeOptions graded() {
     ShapeOptions options = even();
-    options.gradient = 20;
+    options.gradient = denser;
     return options;
 }
 
@@ -135,6 +137,40 @@ void add_dusty_dragon(const DataFolders& scans, Progress& progress, std::vector<
         pairs.push_back({"dragon, bent 60°", words, with_dust(twin, 0.02), twin, points, strays, {1000U}});
 }
 
+// Some of a task's points.
+DeformationTask task_of(const DeformationTask& task, const std::vector<Index>& points) {
+    DeformationTask result = task;
+    const std::vector<float> all = in_file_coordinates(task.cloud, task.cloud.positions);
+    const auto holds = [](const std::vector<Index>& handle, Index i) {
+        return std::ranges::binary_search(handle, i);
+    };
+    std::vector<float> positions;
+    result.fixed.clear();
+    result.handle.clear();
+    for (Index k = 0; k < points.size(); ++k) {
+        const float* at = &all[3 * std::size_t{points[k]}];
+        positions.insert(positions.end(), at, at + 3);
+        if (holds(task.fixed, points[k])) result.fixed.push_back(k);
+        if (holds(task.handle, points[k])) result.handle.push_back(k);
+    }
+    result.cloud = make_cloud(positions);
+    return result;
+}
+
+// All points of the middle third along z, as if somebody had scanned that from near, and one of twenty of the
+// others, thrown at random.
+DeformationTask with_denser_middle(const DeformationTask& task) {
+    constexpr std::uint64_t purpose = 2;
+    const Bounds bounds = bounds_of(task.cloud);
+    std::vector<Index> kept;
+    for (Index i = 0; i < task.cloud.size(); ++i) {
+        const double z =
+            (task.cloud.file_position(i).z() - bounds.lowest.z()) / (bounds.highest.z() - bounds.lowest.z());
+        if ((z > 1.0 / 3 && z < 2.0 / 3) || Random(1, purpose, i).uniform() < 1.0 / denser) kept.push_back(i);
+    }
+    return task_of(task, kept);
+}
+
 std::vector<Pair> all_pairs(const DataFolders& survey, const DataFolders& scans, Workers& workers,
                             Progress& progress) {
     const auto task = [&](const char* name, const ShapeOptions& options) {
@@ -164,6 +200,14 @@ std::vector<Pair> all_pairs(const DataFolders& survey, const DataFolders& scans,
         for (const auto& each : samplings)
             pairs.push_back(
                 {words, each.words, task(name, each.options), task(name, even()), made_points, each.strays});
+    for (const auto& [words, options] : {std::pair{"another seed", even(2)}, {"1 : 20 denser", graded()}})
+        pairs.push_back({"solid bar, bent 120°", words, task("made-solid-bar", options),
+                         task("made-solid-bar", even()), made_points});
+    for (const auto& [name, words] : shapes) {
+        DeformationTask uneven = with_denser_middle(task(name, even(1, denser * made_points)));
+        const std::size_t points = uneven.cloud.size();
+        pairs.push_back({words, "middle 20 times denser", std::move(uneven), task(name, even()), points});
+    }
     add_dusty_dragon(scans, progress, pairs);
     return pairs;
 }

@@ -30,8 +30,9 @@ struct SamplingResult {
 };
 
 // All pairs: even twins with another seed (what is left between them is the yardstick), rings (with the
-// survey's cylinder, where its folder is at hand), densities of 1 : 20, noise, strays, and both; each
-// with every point a sample and with 1000. And, with 1000, the dragon among strays, where it is at hand.
+// survey's cylinder, where its folder is at hand), densities of 1 : 20, by and by and all at once, noise,
+// strays, and both; each with every point a sample and with 1000. And, with 1000, the dragon among strays,
+// where it is at hand.
 std::vector<SamplingResult> evaluate_sampling(const DataFolders& survey, const DataFolders& scans,
                                               Workers& workers, Upsampler& upsampler, Progress& progress);
 

@@ -41,8 +41,8 @@ std::optional<std::filesystem::path> survey_folder(const DataFolders& folders);
 // Likenesses: "made-bar" twisted by 135°, "made-cylinder" bent by 120°, "made-plane" pulled
 // aside and up, each of some thousand points.
 std::vector<std::string> generated_names();
-// Those, and "made-long-bar", twice as long as the other and twisted by 180°: its ends lie at ±long_bar_half
-// along z, its free part between ±long_bar_free.
+// Those; "made-solid-bar", bent by 120°; and "made-long-bar", twice as long as the first and twisted by 180°:
+// its ends lie at ±long_bar_half along z, its free part between ±long_bar_free.
 inline constexpr double long_bar_half = 5, long_bar_free = 4.5;
 DeformationTask generated_task(std::string_view name, Workers& workers, Progress& progress);
 // The same with other points; strays among them are held where they lie in a handle's reach.

@@ -1,88 +1,88 @@
 #include "cloud/extent.h"
 
-#include "base/workers.h"
+#include "base/require.h"
+#include "cloud/point_cloud.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace knead {
 
 namespace {
 
 constexpr double kept_part = 0.95;
-constexpr std::size_t grain = 1 << 14;
+constexpr double most_over_mean = 16;
 
-std::vector<Vec3f> finite_points(std::span<const float> positions) {
-    std::vector<Vec3f> points;
-    points.reserve(positions.size() / 3);
-    for (std::size_t i = 0; i < positions.size(); i += 3)
-        if (const Vec3f p(positions[i], positions[i + 1], positions[i + 2]); p.allFinite())
-            points.push_back(p);
-    return points;
+double sum_of(const std::vector<double>& amount) {
+    return std::accumulate(amount.begin(), amount.end(), 0.0);
 }
 
-// The median along each axis.
-Vec3f middle_of(const std::vector<Vec3f>& points, Workers& workers) {
-    Vec3f middle;
-    workers.for_each(3, 1, [&](std::size_t axis) {
-        std::vector<float> values(points.size());
-        std::ranges::transform(points, values.begin(),
-                               [axis](const Vec3f& p) { return p[static_cast<Eigen::Index>(axis)]; });
-        const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), at, values.end());
-        middle[static_cast<Eigen::Index>(axis)] = *at;
-    });
-    return middle;
-}
-
-// Of each point the distance from there, squared.
-std::vector<double> squared_distances(const std::vector<Vec3f>& points, const Vec3f& from, Workers& workers) {
-    std::vector<double> squared(points.size());
-    workers.for_each(points.size(), grain, [&](std::size_t i) {
-        squared[i] = (points[i].cast<double>() - from.cast<double>()).squaredNorm();
-    });
-    return squared;
-}
-
-// The so many nearest to the middle; of equally far ones the first by coordinates.
-std::vector<Vec3f> nearest(const std::vector<Vec3f>& points, std::size_t count, Workers& workers) {
-    const std::vector<double> squared = squared_distances(points, middle_of(points, workers), workers);
-    std::vector<double> sorted = squared;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count) - 1, sorted.end());
-    const double farthest = sorted[count - 1];
-    std::vector<Vec3f> kept, on_the_edge;
-    kept.reserve(count);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (squared[i] < farthest) kept.push_back(points[i]);
-        if (squared[i] == farthest) on_the_edge.push_back(points[i]);
+// What each point stands for, none more than so many times the mean of what is left then: the mean falls
+// from round to round, and ends where no more is cut off.
+std::vector<double> limited(std::span<const float> area) {
+    constexpr int most_rounds = 100;
+    constexpr double nothing_more = 1e-9;
+    std::vector<double> amount(area.begin(), area.end());
+    double sum = sum_of(amount);
+    if (!(sum > 0)) return std::vector<double>(area.size(), 1.0);
+    for (int round = 0; round < most_rounds; ++round) {
+        const double most = most_over_mean * sum / static_cast<double>(amount.size());
+        for (double& each : amount) each = std::min(each, most);
+        const double before = std::exchange(sum, sum_of(amount));
+        if (before - sum <= nothing_more * before) break;
     }
-    std::ranges::sort(on_the_edge, [](const Vec3f& a, const Vec3f& b) {
-        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-    });
-    on_the_edge.resize(count - kept.size());
-    kept.insert(kept.end(), on_the_edge.begin(), on_the_edge.end());
-    return kept;
+    return amount;
+}
+
+// The place along an axis below which half of the body lies.
+double median_along(std::span<const float> positions, const std::vector<double>& amount, std::size_t axis) {
+    std::vector<std::pair<float, double>> places(amount.size());
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = {positions[3 * i + axis], amount[i]};
+    std::ranges::sort(places);
+    double left = sum_of(amount) / 2;
+    for (const auto& [place, part] : places)
+        if ((left -= part) <= 0) return place;
+    return places.back().first;
+}
+
+// Lets go of what is the farthest from the middle; of equally far points all count for equally less.
+void keep_nearest(std::span<const float> positions, std::vector<double>& amount) {
+    const Vec3d middle(median_along(positions, amount, 0), median_along(positions, amount, 1),
+                       median_along(positions, amount, 2));
+    std::vector<std::pair<double, std::size_t>> by_distance(amount.size());
+    for (std::size_t i = 0; i < amount.size(); ++i)
+        by_distance[i] = {(point_at(positions, i) - middle).squaredNorm(), i};
+    std::ranges::sort(by_distance);
+    double left = kept_part * sum_of(amount);
+    for (auto first = by_distance.begin(); first != by_distance.end();) {
+        const auto last = std::find_if(first, by_distance.end(),
+                                       [&](const auto& each) { return each.first > first->first; });
+        double here = 0;
+        for (auto each = first; each != last; ++each) here += amount[each->second];
+        const double kept = here > 0 ? std::clamp(left / here, 0.0, 1.0) : 0;
+        for (auto each = first; each != last; ++each) amount[each->second] *= kept;
+        left -= here;
+        first = last;
+    }
 }
 
 } // namespace
 
-double cloud_size(const PointCloud& cloud, Workers& workers) {
-    return cloud_size(cloud.positions, workers);
-}
-
-double cloud_size(std::span<const float> positions, Workers& workers) {
-    std::vector<Vec3f> points = finite_points(positions);
-    if (points.empty()) return 1;
-    const auto count = std::lround(kept_part * static_cast<double>(points.size()));
-    points = nearest(points, std::max<std::size_t>(1, static_cast<std::size_t>(count)), workers);
-
+double cloud_size(std::span<const float> positions, std::span<const float> area) {
+    require(positions.size() == 3 * area.size(), "each point stands for something");
+    if (area.empty()) return 1;
+    std::vector<double> amount = limited(area);
+    keep_nearest(positions, amount);
+    const double sum = sum_of(amount);
     Vec3d mean = Vec3d::Zero();
-    for (const Vec3f& p : points) mean += p.cast<double>();
-    mean /= static_cast<double>(points.size());
+    for (std::size_t i = 0; i < amount.size(); ++i) mean += amount[i] / sum * point_at(positions, i);
     double trace = 0;
-    for (const Vec3f& p : points) trace += (p.cast<double>() - mean).squaredNorm();
-    trace /= static_cast<double>(points.size());
+    for (std::size_t i = 0; i < amount.size(); ++i)
+        trace += amount[i] / sum * (point_at(positions, i) - mean).squaredNorm();
     return trace > 0 ? std::sqrt(12 * trace) : std::numeric_limits<float>::min();
 }
 

@@ -1,20 +1,17 @@
 #pragma once
-// How large a cloud is, in a measure that neither turns with the axes nor grows with one outlier.
-
-#include "cloud/point_cloud.h"
+// How large a cloud is, in a measure that neither turns with the axes, nor grows with one outlier, nor asks
+// how densely which part was scanned.
 
 #include <span>
 
 namespace knead {
 
-class Workers;
-
-// s = √(12 tr Cov) over the points but the 5 % farthest from their median: the diagonal of a box, where the
-// points fill one evenly. Stiffness β = α s² is told in it. In the file's units; at least a tiny positive
-// number. Points that are not finite do not count.
-double cloud_size(const PointCloud& cloud, Workers& workers);
-// The same of positions, 3n, relative to any origin. Give each once: a scanner that writes what it did not
-// see to one place would make another cloud of it.
-double cloud_size(std::span<const float> positions, Workers& workers);
+// s = √(12 tr Cov) of a body, but for the twentieth of it that is the farthest from its median: the diagonal
+// of a box, where the body fills one. Stiffness β = α s² is told in it. `positions`: 3 floats a point, all
+// finite, relative to any origin; `area`: of each how much of the body it stands for, >= 0, up to a factor
+// that is the same for all (where all are 0, each as much as another). A point counts for at most 16 times
+// the mean: a few that are far from everything make no body. In the unit of the positions; at least a tiny
+// positive number, and 1 of nothing.
+double cloud_size(std::span<const float> positions, std::span<const float> area);
 
 } // namespace knead

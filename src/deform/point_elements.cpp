@@ -263,6 +263,15 @@ Mat3d ContributionFinder::add_gradients(Index vertex, const Vec3d& position, con
     return matrix_of(slope);
 }
 
+// As the base sample says that is the nearest to the vertex; 1 where handles alone are around it.
+double ContributionFinder::area_of_links(Index vertex) const {
+    if (between_.area_of_links.empty()) return 1;
+    for (const Index sample : between_.nearest[vertex].sample)
+        if (sample < between_.area_of_links.size())
+            return static_cast<double>(between_.area_of_links[sample]);
+    return 1;
+}
+
 const Contribution& ContributionFinder::find(Index vertex) {
     found_.body.clear();
     found_.element.clear();
@@ -279,7 +288,7 @@ const Contribution& ContributionFinder::find(Index vertex) {
     found_.dimension = std::max(1.0, along.trace());
     const double square_length = links.spread.trace() / static_cast<double>(row_.size());
     const double share = 1 - std::numbers::pi / 4 * links.pull.norm() / links.effort;
-    found_.measure = 3 / found_.dimension * square_length * share;
+    found_.measure = 3 / found_.dimension * square_length * share * area_of_links(vertex);
     const Mat3d slope = add_gradients(vertex, position, surroundings.inverse);
     for (const Index body : found_.body) place_[body] = no_index;
     drop_nothing(found_);

@@ -41,6 +41,7 @@ public:
 
 private:
     std::size_t place_of(Index body);
+    double area_of_links(Index vertex) const;
     Mat3d add_gradients(Index vertex, const Vec3d& position, const Mat3d& inverse);
 
     const PointsBetween& between_;

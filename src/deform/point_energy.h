@@ -26,9 +26,10 @@
 // Σ_s p_s ∇v_sᵀ what the blend makes of the positions themselves: linear in the place, turns have no more
 // slope than they should. (Balanced weights, graph/balanced_weights.h, have a G near the identity already.)
 //
-// Gradients are those of least squares over the neighbours of a point. ω = 3/dim · h² c stands for the
+// Gradients are those of least squares over the neighbours of a point. ω = 3/dim · a h² c stands for the
 // surface around it, with h² the mean square length of its links, c its share of all directions
-// (graph/edge_weights.h), and dim = tr P; so that Σ ω matches what links add up to when every point is one.
+// (graph/edge_weights.h), a what these fall short of its area (graph/territory_areas.h), and dim = tr P; so
+// that Σ ω matches what links add up to when every point is one.
 
 #include "base/workers.h"
 #include "graph/csr.h"
@@ -82,6 +83,8 @@ struct PointsBetween {
     const Numbering& point;           // of each vertex: one of its points
     const InfluenceRows& nearest;     // of each vertex
     InfluenceWeights weights;
+    std::span<const float> area_of_links;  // of each base sample: what the area of points that are nearest to
+                                           // it is of what their links tell; empty: 1
     std::span<const std::uint8_t> hanging; // of each vertex: 1 for an outlier, which says nothing of the
                                            // surface; empty without any
     std::span<const Index> label;          // of each vertex: its handle, or no_index

@@ -118,7 +118,7 @@ double least_falloff(const Editor& editor, const Handle& handle) {
         if (!first) first = at;
         held.add(at - *first);
     }
-    return held.count > 0 ? least_falloff(held, editor.opened.size) : 0;
+    return held.count > 0 ? least_falloff(held, editor.document->cloud_size) : 0;
 }
 
 Box3 box_of(const Editor& editor) {

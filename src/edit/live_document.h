@@ -54,6 +54,7 @@ struct DocumentView {
     std::shared_ptr<const RestShape> rest;        // of this edit; null: as opened, or it was let go of
     std::shared_ptr<const Graph> graph;           // of the vertices; null until it was built
     std::shared_ptr<const Components> components; // and what hangs together in it; null as long
+    double cloud_size = 0;                        // Pipeline::cloud_size(); 0 as long
     std::shared_ptr<const std::vector<float>>
         spacings; // of the points as opened; null until the graph was built
     std::shared_ptr<const std::vector<Index>> sample_vertices; // where the samples are; null before a drag
@@ -100,7 +101,6 @@ struct OpenedCloud {
     const RestShape* opened = nullptr;
     Bounds bounds;      // in the file's coordinates
     double spacing = 0; // the usual distance between neighbouring points
-    double size = 0;    // as cloud_size() of cloud/extent.h tells it
 };
 
 // What is saved with a cloud beside its own attributes.

@@ -99,6 +99,7 @@ void LivePublisher::view(const Document& document, const LiveRecording& recordin
     view->rest = document.kept_rest();
     view->graph = pipeline.shared_graph();
     view->components = pipeline.shared_components();
+    view->cloud_size = pipeline.cloud_size();
     note_spacings(pipeline);
     view->spacings = spacings_;
     note_samples(pipeline);

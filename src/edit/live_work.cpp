@@ -112,7 +112,6 @@ void LiveWork::publish_opened() {
     opened.opened = &document_->pipeline().opened();
     opened.bounds = document_->bounds();
     opened.spacing = usual_spacing(opened.opened->positions);
-    opened.size = document_->pipeline().cloud_size();
     publish_shape(document_->shape(progress_), false);
     publish_view();
     shared_.with([&](LiveShared& s) {

@@ -26,11 +26,13 @@ namespace {
 
 constexpr int relaxing_rounds = 3;
 
+// Vertices that tell how large the cloud is: of ten times as many it is the same within a thousandth.
+constexpr std::size_t asked_for_size = 1 << 13;
+
 } // namespace
 
 Pipeline::Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampler)
-    : cloud_(cloud), workers_(workers), upsampler_(upsampler),
-      cloud_size_(knead::cloud_size(cloud, workers)) {}
+    : cloud_(cloud), workers_(workers), upsampler_(upsampler) {}
 
 void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
     note_changes(input.settings);
@@ -123,10 +125,8 @@ void Pipeline::prepare_order(Progress& progress) {
     const std::vector<float> normals = read_normals(cloud_);
     resize_in_large_pages(opened.normals, normals.empty() ? 0 : 3 * order_.points(), workers_);
     if (!normals.empty()) gather(order_, normals, 3, opened.normals, workers_);
-    if (order_.vertices() < order_.points()) {
+    if (order_.vertices() < order_.points())
         merged_positions_ = knead::vertex_positions(order_, opened.positions, workers_);
-        cloud_size_ = knead::cloud_size(merged_positions_, workers_);
-    }
     opened_ = std::move(opened);
     seconds_.order += clock.seconds();
 }
@@ -166,7 +166,21 @@ void Pipeline::prepare_bridges(Progress& progress) {
     }
     components_ = std::make_shared<const Components>(find_components(*graph_, workers_));
     link_lengths_ = link_lengths(*graph_, vertex_positions(), workers_);
+    find_size();
     seconds_.neighbors += clock.seconds();
+}
+
+// Of the surface, not of its outliers, nor of what joins its parts.
+void Pipeline::find_size() {
+    const AskedVertices asked = ask_vertices(*neighbors_, opened_.positions, order_.first_point, hanging_,
+                                             asked_for_size, 1, workers_);
+    std::vector<float> positions;
+    positions.reserve(3 * asked.vertex.size());
+    for (const Index v : asked.vertex) {
+        const std::span<const float> at = vertex_positions().subspan(3 * v, 3);
+        positions.insert(positions.end(), at.begin(), at.end());
+    }
+    cloud_size_ = knead::cloud_size(positions, asked.area);
 }
 
 void Pipeline::prepare_samples(Progress& progress) {
@@ -209,10 +223,13 @@ void Pipeline::prepare_samples(Progress& progress) {
 // Of what territories are made, on the shape as it is at rest.
 void Pipeline::prepare_areas() {
     const Stopwatch clock;
-    asked_ = {};
     const RestShape& rest = input_.rest ? *input_.rest : opened_;
-    if (!every_point_)
-        asked_ = ask_vertices(*graph_, rest.positions, order_.first_point, hanging_, base_samples_, workers_);
+    const std::size_t all = order_.vertices();
+    const Asking asking = every_point_ ? Asking{all, 1} : asking_for(base_samples_);
+    asked_ = ask_vertices(every_point_ ? sample_graph_.graph : *graph_, rest.positions, order_.first_point,
+                          hanging_, asking.vertices, asking.vertices < all ? asking.of_cells : 1, workers_);
+    area_of_links_.clear();
+    if (!every_point_) area_of_links_ = level_areas(asked_, territories_, base_samples_);
     seconds_.sampling += clock.seconds();
 }
 
@@ -235,17 +252,26 @@ void Pipeline::find_energy(const SampleRest& rest) {
     const double share = share_of_points(base_samples_, order_.vertices()); // whatever handles add
     if (every_point_ || share == 0) return;
     const RestShape& shape = input_.rest ? *input_.rest : opened_;
-    const PointsBetween between{*graph_,        shape.positions,          order_.first_point,
-                                nearest_,       input_.settings.weights,  hanging_,
-                                labels_.vertex, rest.turns_freely,        turns_by_samples(),
-                                rest.position,  slots_.handles.size() + 1}; // and what is outside
+    const PointsBetween between{*graph_,
+                                shape.positions,
+                                order_.first_point,
+                                nearest_,
+                                input_.settings.weights,
+                                area_of_links_,
+                                hanging_,
+                                labels_.vertex,
+                                rest.turns_freely,
+                                turns_by_samples(),
+                                rest.position,
+                                slots_.handles.size() + 1}; // and what is outside
     energy_ = point_energy(between, workers_);
     energy_.share = share;
 }
 
 void Pipeline::find_link_weights(const SampleRest& rest) {
-    std::vector<double> areas;
-    if (!every_point_) areas = territory_areas(asked_, territories_, samples_.size(), workers_);
+    const std::vector<double> areas = every_point_
+                                          ? std::vector<double>(asked_.area.begin(), asked_.area.end())
+                                          : territory_areas(asked_, territories_, samples_.size(), workers_);
     link_weights_ =
         isotropic_weights(rest.graph, rest.position, sample_graph_.contact,
                           every_point_ ? border_of_points : border_of_territories, areas, workers_);

@@ -151,6 +151,7 @@ public:
     Index first_handle_motion() const { return static_cast<Index>(first_handle_motion_); }
     const SampleSystem& system() const { return system_; }
     const RestShape& opened() const { return opened_; } // the shape in the file
+    // How large it is (cloud/extent.h), as its graph tells; 0 before there is one.
     double cloud_size() const { return cloud_size_; }
 
     // Parts of the cloud that hold no handle, and what becomes of them.
@@ -175,6 +176,7 @@ private:
     void prepare_stages_without_handles(Progress& progress);
     void prepare_points(Progress& progress);
     void prepare_bridges(Progress& progress);
+    void find_size();
     void prepare_samples(Progress& progress);
     void prepare_areas();
     void prepare_handles(Progress& progress);
@@ -209,7 +211,6 @@ private:
     const PointCloud& cloud_;
     Workers& workers_;
     Upsampler& upsampler_;
-    double cloud_size_;
     PipelineInput input_;
     StageSeconds seconds_;
 
@@ -229,6 +230,7 @@ private:
     std::shared_ptr<const Components> components_;
     std::vector<std::uint8_t> hanging_; // of each vertex: 1 for an outlier that hangs; empty without any
     std::vector<std::uint8_t> link_lengths_;
+    double cloud_size_ = 0;
 
     bool every_point_ = false;
     std::vector<Index> samples_;
@@ -239,7 +241,8 @@ private:
     std::vector<std::uint8_t> changed_rows_;       // since those were found
     std::vector<WideRow> rows_of_base_;            // of the base samples, in the flood from them alone
     ChangingTerritories territories_;
-    AskedVertices asked_; // of what territories are made
+    AskedVertices asked_;              // of what territories are made
+    std::vector<float> area_of_links_; // level_areas()
 
     HandleSlots slots_; // by which the stages tell handles
     HandleLabels labels_;

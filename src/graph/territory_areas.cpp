@@ -1,69 +1,69 @@
 #include "graph/territory_areas.h"
 
 #include "base/require.h"
-#include "graph/star_weights.h"
 
-#include <algorithm>
+#include <span>
 
 namespace knead {
 
 namespace {
 
-constexpr std::size_t asked_a_sample = 16;
+// A vertex whose star says so many times more than those around on the mean is no example for them: a stray
+// that none took for one, or of a much sparser part.
+constexpr double no_example = 4;
 
-// More hardly change what one vertex finds out by itself.
-constexpr int updates = 2;
+// Of the asked vertices of a territory.
+struct Sums {
+    double area = 0, star = 0, links = 0, vertices = 0;
 
-// What vertices stand for, one after the other in the same memory.
-class AreaFinder {
-public:
-    AreaFinder(const Graph& points, std::span<const float> positions, const Numbering& point,
-               std::span<const std::uint8_t> hanging)
-        : points_(points), positions_(positions), point_(point), hanging_(hanging) {}
-
-    double find(Index vertex) {
-        if (hangs(vertex)) return 0;
-        star_.clear();
-        const Vec3d own = position_of(vertex);
-        for (const Index other : points_.row(vertex))
-            if (!hangs(other)) star_.push_back(spoke_along(position_of(other) - own, 1));
-        if (star_.empty()) return 0;
-        weight_.resize(star_.size());
-        const double sum = start_weights(star_, weight_);
-        for (int update = 0; update < updates; ++update) even_out(star_, sum, weight_);
-        return area_of(star_, weight_);
+    void add(const Sums& other) {
+        area += other.area;
+        star += other.star;
+        links += other.links;
+        vertices += other.vertices;
     }
-
-private:
-    bool hangs(Index vertex) const { return !hanging_.empty() && hanging_[vertex] != 0; }
-    Vec3d position_of(Index vertex) const { return point_at(positions_, point_[vertex]); }
-
-    const Graph& points_;
-    std::span<const float> positions_;
-    const Numbering& point_;
-    std::span<const std::uint8_t> hanging_;
-    std::vector<Spoke> star_;
-    std::vector<double> weight_;
 };
+
+// Those of each territory and all that touch it; of the asked vertices for which counts(k, its sample) holds.
+template<typename Counts>
+std::vector<Sums> sums_around(const AskedVertices& asked, std::span<const Index> sample,
+                              std::span<const TerritoryBorder> borders, std::size_t samples,
+                              Counts&& counts) {
+    std::vector<Sums> own(samples);
+    for (std::size_t k = 0; k < sample.size(); ++k)
+        if (sample[k] < samples && counts(k, sample[k]))
+            own[sample[k]].add({asked.area[k], asked.star[k], asked.links[k], 1});
+    std::vector<Sums> sums = own;
+    for (const TerritoryBorder& border : borders) {
+        if (border.a >= samples || border.b >= samples) continue; // of one that was added
+        sums[border.a].add(own[border.b]);
+        sums[border.b].add(own[border.a]);
+    }
+    return sums;
+}
+
+float ratio(double of, double to) {
+    return of > 0 && to > 0 ? static_cast<float>(of / to) : 1;
+}
 
 } // namespace
 
-AskedVertices ask_vertices(const Graph& points, std::span<const float> positions, const Numbering& point,
-                           std::span<const std::uint8_t> hanging, std::size_t samples, Workers& workers) {
-    const std::size_t vertices = points.size(), count = std::min(asked_a_sample * samples, vertices);
-    AskedVertices asked;
-    if (count == 0) return asked;
-    asked.each = static_cast<double>(vertices) / static_cast<double>(count);
-    asked.vertex.resize(count);
-    asked.area.resize(count);
-    workers.for_chunks(count, 1024, [&](std::size_t begin, std::size_t end) {
-        AreaFinder finder(points, positions, point, hanging);
-        for (std::size_t k = begin; k < end; ++k) {
-            asked.vertex[k] = static_cast<Index>(k * vertices / count);
-            asked.area[k] = static_cast<float>(finder.find(asked.vertex[k]));
-        }
-    });
-    return asked;
+std::vector<float> level_areas(AskedVertices& asked, const ChangingTerritories& territories,
+                               std::size_t base_samples) {
+    const std::vector<Index> sample = nearest_of_base(territories, asked.vertex);
+    const std::vector<Sums> all = sums_around(asked, sample, territories.borders, base_samples,
+                                              [](std::size_t, Index) { return true; });
+    const auto is_example = [&](std::size_t k, Index s) {
+        return asked.area[k] >= 0 && asked.star[k] * all[s].vertices <= no_example * all[s].star;
+    };
+    const std::vector<Sums> sums = sums_around(asked, sample, territories.borders, base_samples, is_example);
+    for (std::size_t k = 0; asked.each > 1 && k < sample.size(); ++k)
+        if (sample[k] < base_samples)
+            asked.area[k] = asked.star[k] * ratio(sums[sample[k]].area, sums[sample[k]].star);
+    std::vector<float> of_links;
+    of_links.reserve(base_samples);
+    for (const Sums& each : sums) of_links.push_back(ratio(each.area, each.links));
+    return of_links;
 }
 
 std::vector<double> territory_areas(const AskedVertices& asked, const ChangingTerritories& territories,

@@ -3,29 +3,29 @@
 
 #include "base/workers.h"
 #include "graph/changing_territories.h"
-#include "graph/csr.h"
-#include "graph/point_order.h"
+#include "graph/vertex_areas.h"
 
+#include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <span>
 #include <vector>
 
 namespace knead {
 
-// Some vertices, evenly spread along their order, and what each stands for where every point is a sample:
-// Σ_j w_ij |e_ij|² of its weights (edge_weights.h), as far as it knows them by itself.
-struct AskedVertices {
-    std::vector<Index> vertex; // ascending
-    std::vector<float> area;   // of each; 0 for an outlier that hangs
-    double each = 1;           // they stand for so many vertices each
+// So many vertices are to be asked for so many samples, one of `of_cells` for its cell; more change little.
+struct Asking {
+    std::size_t vertices, of_cells;
 };
+constexpr Asking asking_for(std::size_t samples) {
+    constexpr std::size_t a_sample = 16, fewest = 8192, few_samples = 2000;
+    return {std::max(a_sample * samples, fewest), samples <= few_samples ? 1U : 2U};
+}
 
-// Asks so many vertices a sample that more change nothing, or all there are. `points`: the graph of the
-// vertices; `positions`: 3 floats a point, of which `point` names one for each vertex; `hanging`: of each
-// vertex 1 for an outlier, which counts neither itself nor as a neighbour; empty without any.
-AskedVertices ask_vertices(const Graph& points, std::span<const float> positions, const Numbering& point,
-                           std::span<const std::uint8_t> hanging, std::size_t samples, Workers& workers);
+// Where not all vertices were asked, makes the area of each what its star says, times what areas are of stars
+// over the territory of its base sample and those beside it: cells differ too much for some to tell what
+// others are. Areas are known of all then. Returns the same ratio of areas to what links say, one entry a
+// base sample; 1 where nothing was asked.
+std::vector<float> level_areas(AskedVertices& asked, const ChangingTerritories& territories,
+                               std::size_t base_samples);
 
 // The areas of the vertices in the territory of each of so many samples, base samples and added ones; 0 where
 // none of them was asked. The same for any number of workers.

@@ -113,7 +113,7 @@ TEST_F(Replay, PrintsOneJsonObjectWithEveryKey) {
     EXPECT_EQ(all["cloud"]["strays"], 0);
     EXPECT_EQ(all["samples"], 800);
     EXPECT_EQ(all["frames"], 4);
-    EXPECT_EQ(all["iterations"], 4 * 3 + 8);
+    EXPECT_EQ(all["iterations"], 4 * 3 + 9);
     EXPECT_EQ(all["threads"], 2);
     EXPECT_TRUE(all["device"].is_string());
     EXPECT_GT(all["peak_rss_bytes"].get<std::uint64_t>(), 1'000'000U);

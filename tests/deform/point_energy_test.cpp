@@ -23,6 +23,7 @@ struct Held {
     std::vector<bool> turning;
     InfluenceRows nearest;
     std::vector<std::uint8_t> hanging;
+    std::vector<float> of_links;
     Numbering point;
 
     explicit Held(std::size_t points = 3000)
@@ -40,8 +41,8 @@ struct Held {
     }
 
     PointsBetween between(InfluenceWeights weights) const {
-        return {cloud.graph, cloud.positions, point, nearest, weights, hanging,
-                label,       turning,         {},    sample,  2};
+        return {cloud.graph, cloud.positions, point,   nearest, weights, of_links,
+                hanging,     label,           turning, {},      sample,  2};
     }
 
     PointEnergy energy(InfluenceWeights weights, unsigned threads) const {
@@ -151,6 +152,27 @@ TEST(PointEnergy, IsTheSumOverThePoints) {
 }
 
 // Of many points some are asked, and evenly: no part of the bar tells more than where all its points are.
+TEST(PointEnergy, CountsAreasAsTheBaseSamplesSay) {
+    Held held;
+    const PointEnergy plain = held.energy(InfluenceWeights::smooth, 2);
+    held.of_links.assign(held.sample.size(), 2.0F);
+    const PointEnergy twice = held.energy(InfluenceWeights::smooth, 2);
+    ASSERT_EQ(twice.body, plain.body);
+    for (std::size_t s = 0; s < held.sample.size(); ++s)
+        EXPECT_NEAR(twice.confidence[s], 2 * plain.confidence[s], 1e-6 * plain.confidence[s]);
+    // One alone counts for the points that are nearest to it.
+    std::ranges::fill(held.of_links, 1.0F);
+    held.of_links[7] = 3;
+    const PointEnergy one = held.energy(InfluenceWeights::smooth, 2);
+    const auto more = [&](std::size_t s) { return one.confidence[s] / plain.confidence[s]; };
+    EXPECT_GT(more(7), 1.3);
+    EXPECT_LT(more(7), 3);
+    for (std::size_t s = 0; s < held.sample.size(); ++s)
+        if ((held.sample[s] - held.sample[7]).norm() > 1.5) {
+            EXPECT_EQ(more(s), 1);
+        }
+}
+
 TEST(PointEnergy, AsksSomeOfManyPointsEverywhere) {
     const Held few(6000), many(60'000);
     const auto shares = [](const Held& held) { // of the confidence, along the bar

@@ -322,6 +322,30 @@ TEST(Pipeline, CopiesOfAPointChangeNothing) {
         ASSERT_LT((at(shape, i) - at(expected, i)).norm(), 1e-6 * one.diagonal()) << i;
 }
 
+// The upper third scanned 16 times as densely; and points far off that belong to nothing.
+TEST(Pipeline, CloudsAreAsLargeHoweverDenselyTheyWereScanned) {
+    const std::vector<float> all = bar(16'000).positions;
+    std::vector<float> even, uneven;
+    for (std::size_t i = 0; i < all.size() / 3; ++i) {
+        const auto point = std::span(all).subspan(3 * i, 3);
+        const bool kept = i % 16 == 0; // points come in an order that no place is favoured by
+        if (kept) even.insert(even.end(), point.begin(), point.end());
+        if (kept || point[2] > 0.8F) uneven.insert(uneven.end(), point.begin(), point.end());
+    }
+    std::vector<float> with_strays = even;
+    for (int i = 0; i < 6; ++i) with_strays.insert(with_strays.end(), {0, 100, static_cast<float>(i * i)});
+    const auto size_of = [](const std::vector<float>& positions) {
+        Desk desk(make_cloud(positions));
+        SilentProgress progress;
+        desk.document().prepare_ahead(progress);
+        return desk.pipeline().cloud_size();
+    };
+    const double size = size_of(even);
+    EXPECT_NEAR(size, std::sqrt(27.0), 0.1 * std::sqrt(27.0)); // a shell's is not a box's
+    EXPECT_NEAR(size_of(uneven), size, 0.02 * size);
+    EXPECT_NEAR(size_of(with_strays), size, 0.02 * size);
+}
+
 TEST(Pipeline, CloudsOfAnySizeAndPlaceAreTheSame) {
     Desk plain(bar());
     plain.play(ends + drag(turn('y', 60, "[0.5,0,0]")) + settle(30));

@@ -3,6 +3,7 @@
 #include "graph/clouds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace knead {
@@ -30,9 +31,9 @@ struct Divided {
         samples.insert(samples.end(), added.begin(), added.end());
     }
 
-    AskedVertices asked(std::size_t of_samples, const std::vector<std::uint8_t>& hanging = {}) {
-        return ask_vertices(cloud.graph, cloud.positions, Numbering::as_they_stand(cloud.size()), hanging,
-                            of_samples, machine.workers);
+    AskedVertices asked(std::size_t of_samples) {
+        return ask_vertices(cloud.graph, cloud.positions, Numbering::as_they_stand(cloud.size()), {},
+                            16 * of_samples, 1, machine.workers);
     }
 
     std::vector<double> areas(const AskedVertices& of) {
@@ -107,20 +108,39 @@ TEST(TerritoryAreas, GoToSamplesThatAreAddedAndBack) {
     EXPECT_EQ(divided.areas(asked), before);
 }
 
-TEST(TerritoryAreas, KnowNothingOfOutliersThatHang) {
-    std::vector<float> positions = test::grid_positions(20, 20);
-    const Cloud plain = test::cloud_of(positions, 4);
-    test::append(positions, Vec3d(10, 10, 7)); // is linked to some of the grid
-    const Cloud cloud = test::cloud_of(positions, 4);
-    std::vector<std::uint8_t> hanging(cloud.size(), 0);
-    for (std::size_t v = 0; v < cloud.size(); ++v) hanging[v] = cloud.at(v).z() > 1;
-    Divided divided(cloud, 10), without(plain, 10);
-    const auto sum = [](const AskedVertices& asked) {
-        return std::accumulate(asked.area.begin(), asked.area.end(), 0.0);
+// Some of very many points, picked at random: the cells of some tell little of the others', those of all
+// around much.
+TEST(TerritoryAreas, OfSomeVerticesAreLevelledToWhatIsAround) {
+    std::mt19937 random(5);
+    const std::vector<float> many = test::shape_positions(Shape::sphere, 200'000);
+    std::vector<float> picked;
+    for (std::size_t i = 0; i < many.size() / 3; ++i)
+        if (random() % 20 == 0) test::append(picked, point_at(many, i));
+    const Cloud cloud = test::cloud_of(picked);
+    Divided divided(cloud, 100);
+    AskedVertices some = divided.asked(60);
+    const std::vector<double> exact = divided.areas(divided.asked(cloud.size()));
+    const auto off = [&] {
+        const std::vector<double> area = divided.areas(some);
+        double squares = 0;
+        for (std::size_t s = 0; s < area.size(); ++s) squares += std::pow(area[s] / exact[s] - 1, 2);
+        return std::sqrt(squares / static_cast<double>(area.size()));
     };
-    const double all = sum(without.asked(plain.size()));
-    EXPECT_NEAR(sum(divided.asked(cloud.size(), hanging)), all, 1e-3 * all);
-    EXPECT_GT(sum(divided.asked(cloud.size())), 1.03 * all);
+    const double before = off();
+    const std::vector<float> of_links = level_areas(some, divided.territories, divided.samples.size());
+    EXPECT_LT(off(), 0.95 * before);
+    ASSERT_EQ(of_links.size(), divided.samples.size());
+    for (const float each : of_links) EXPECT_NEAR(each, 1.03, 0.25); // of even ones it is 0.9
+}
+
+TEST(TerritoryAreas, OfAllVerticesStayWhatTheyAre) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::sphere, 3000));
+    Divided divided(cloud, 50);
+    const AskedVertices asked = divided.asked(cloud.size());
+    AskedVertices levelled = asked;
+    for (const float each : level_areas(levelled, divided.territories, divided.samples.size()))
+        EXPECT_NEAR(each, 0.88, 0.05);
+    EXPECT_EQ(levelled.area, asked.area);
 }
 
 TEST(TerritoryAreas, AreTheSameForAnyNumberOfThreads) {
@@ -130,8 +150,8 @@ TEST(TerritoryAreas, AreTheSameForAnyNumberOfThreads) {
     const std::vector<double> area = divided.areas(asked);
     for (const unsigned threads : {1U, 5U}) {
         Workers workers(threads);
-        const AskedVertices again = ask_vertices(cloud.graph, cloud.positions,
-                                                 Numbering::as_they_stand(cloud.size()), {}, 60, workers);
+        const AskedVertices again = ask_vertices(
+            cloud.graph, cloud.positions, Numbering::as_they_stand(cloud.size()), {}, 16 * 60, 1, workers);
         EXPECT_EQ(again.vertex, asked.vertex);
         EXPECT_EQ(again.area, asked.area);
         EXPECT_EQ(territory_areas(again, divided.territories, divided.samples.size(), workers), area);
@@ -139,11 +159,9 @@ TEST(TerritoryAreas, AreTheSameForAnyNumberOfThreads) {
 }
 
 TEST(TerritoryAreas, OfNoSamplesAreNone) {
-    const Cloud cloud = test::cloud_of(test::grid_positions(4, 4), 4);
     Machine machine;
-    const AskedVertices asked = ask_vertices(cloud.graph, cloud.positions,
-                                             Numbering::as_they_stand(cloud.size()), {}, 0, machine.workers);
-    EXPECT_TRUE(asked.vertex.empty());
+    AskedVertices asked;
+    EXPECT_TRUE(level_areas(asked, {}, 0).empty());
     EXPECT_TRUE(territory_areas(asked, {}, 0, machine.workers).empty());
 }
 

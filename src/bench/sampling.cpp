@@ -157,18 +157,25 @@ DeformationTask task_of(const DeformationTask& task, const std::vector<Index>& p
     return result;
 }
 
-// All points of the middle third along z, as if somebody had scanned that from near, and one of twenty of the
-// others, thrown at random.
-DeformationTask with_denser_middle(const DeformationTask& task) {
+// One of so many points of a task, thrown at random, and behind them all others of the middle third along z,
+// as if somebody had scanned that from near. The even ones count.
+Pair with_denser_middle(const DeformationTask& task) {
     constexpr std::uint64_t purpose = 2;
     const Bounds bounds = bounds_of(task.cloud);
-    std::vector<Index> kept;
+    std::vector<Index> points, others;
     for (Index i = 0; i < task.cloud.size(); ++i) {
         const double z =
             (task.cloud.file_position(i).z() - bounds.lowest.z()) / (bounds.highest.z() - bounds.lowest.z());
-        if ((z > 1.0 / 3 && z < 2.0 / 3) || Random(1, purpose, i).uniform() < 1.0 / denser) kept.push_back(i);
+        if (Random(1, purpose, i).uniform() < 1.0 / denser)
+            points.push_back(i);
+        else if (z > 1.0 / 3 && z < 2.0 / 3)
+            others.push_back(i);
     }
-    return task_of(task, kept);
+    Pair pair;
+    pair.counted = points.size();
+    points.insert(points.end(), others.begin(), others.end());
+    pair.task = task_of(task, points);
+    return pair;
 }
 
 std::vector<Pair> all_pairs(const DataFolders& survey, const DataFolders& scans, Workers& workers,
@@ -204,9 +211,10 @@ std::vector<Pair> all_pairs(const DataFolders& survey, const DataFolders& scans,
         pairs.push_back({"solid bar, bent 120°", words, task("made-solid-bar", options),
                          task("made-solid-bar", even()), made_points});
     for (const auto& [name, words] : shapes) {
-        DeformationTask uneven = with_denser_middle(task(name, even(1, denser * made_points)));
-        const std::size_t points = uneven.cloud.size();
-        pairs.push_back({words, "middle 20 times denser", std::move(uneven), task(name, even()), points});
+        pairs.push_back(with_denser_middle(task(name, even(1, denser * made_points))));
+        pairs.back().shape = words;
+        pairs.back().sampling = "middle 20 times denser";
+        pairs.back().twin = task(name, even());
     }
     add_dusty_dragon(scans, progress, pairs);
     return pairs;

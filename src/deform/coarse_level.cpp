@@ -74,8 +74,8 @@ SampleRest coarse_rest(const SampleRest& rest, const CoarseSamples& coarse, Work
         result.handle.push_back(rest.handle[s]);
     }
     result.graph = coarse.between.graph;
-    result.weight = isotropic_weights(result.graph, result.position, coarse.between.contact,
-                                      border_of_territories, {}, workers);
+    result.weight =
+        isotropic_weights(result.graph, result.position, coarse.between.contact, of_territories, {}, workers);
     result.turns_freely = rest.turns_freely;
     result.pulled = pulled_together(rest, coarse);
     result.cloud_size = rest.cloud_size;

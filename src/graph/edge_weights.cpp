@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace knead {
@@ -74,6 +75,21 @@ void balance(std::span<const Spoke> star, const Mat3d& along, double border, dou
             weight[k] *= std::clamp(1 - inside * counter.dot(star[k].edge), 0.5, 1.5);
     }
     finish_update(weight, sum);
+}
+
+// Pulls p = Σ w e that are left make vertices yield when the surface is stretched evenly, and it resists less
+// than by its area: by 2 |p|² / (Σ w · Σ w |e|²) where one yields alone, and by so many times as much where
+// all do.
+constexpr double yield_together = 4, most_yielded = 0.35;
+
+// Of a vertex that is to balance; none on a border.
+double yielded_alone(std::span<const Spoke> star, const Mat3d& along, double border,
+                     std::span<const double> weight) {
+    const Pull pull = pull_of(star, weight);
+    const double left = (along * pull.sum).norm();
+    const double resisted = area_of(star, weight) * std::accumulate(weight.begin(), weight.end(), 0.0);
+    if (left >= border * pull.effort || !(resisted > 0)) return 0;
+    return 2 * left * left / resisted;
 }
 
 // A vertex may be made so many times larger or smaller than the others are on average: where a territory
@@ -147,10 +163,28 @@ void multiply(std::span<double> weight, double times) {
     for (double& w : weight) w *= times;
 }
 
+// Makes each vertex resist by so much more as it and those around it yield on the mean.
+void make_up_for_yielding(const Graph& graph, const std::vector<Mat3d>& along, double border,
+                          TwoWays& weights) {
+    std::vector<double> yielded(graph.size(), 0);
+    weights.go_on_from_mean();
+    weights.for_stars([&](std::size_t v, std::span<Spoke> star, std::span<double> own) {
+        yielded[v] = yielded_alone(star, along[v], border, own);
+    });
+    weights.for_stars([&](std::size_t v, std::span<Spoke>, std::span<double> own) {
+        const auto row = graph.row(v);
+        double sum = yielded[v];
+        for (const Index u : row) sum += yielded[u];
+        const double mean = sum / static_cast<double>(row.size() + 1);
+        multiply(own, 1 / (1 - std::min(yield_together * mean, most_yielded)));
+    });
+    weights.average();
+}
+
 } // namespace
 
 std::vector<double> isotropic_weights(const Graph& graph, std::span<const Vec3d> position,
-                                      std::span<const float> contact, double border,
+                                      std::span<const float> contact, const WeightsOf& of,
                                       std::span<const double> area, Workers& workers) {
     require(contact.size() == graph.neighbor.size(), "a contact a link");
     require(area.empty() || area.size() == graph.size(), "an area a vertex");
@@ -173,11 +207,12 @@ std::vector<double> isotropic_weights(const Graph& graph, std::span<const Vec3d>
         weights.go_on_from_mean();
         weights.for_stars([&](std::size_t v, std::span<Spoke> star, std::span<double> own) {
             even_out(star, sum[v], own); // with the sum 6 c, whatever it was
-            balance(star, along[v], border, sum[v], own);
+            balance(star, along[v], of.border, sum[v], own);
             multiply(own, scales.of(v, area_of(star, own)));
         });
         weights.average();
     }
+    if (of.may_yield && !area.empty()) make_up_for_yielding(graph, along, of.border, weights);
     return weights.take();
 }
 

@@ -25,7 +25,7 @@ namespace knead {
 //
 // the smallest relative change that does it: then linear functions are harmonic, an even stretch is in
 // balance, and an irregular cloud answers a pull like a regular one. On a border the pulls cannot cancel: a
-// vertex is left as it is where |Σ w e| exceeds `border` times Σ w |e|, and begins to be at 0.2 less. Along
+// vertex is left as it is where |Σ w e| exceeds a bound times Σ w |e|, and begins to be at 0.2 less. Along
 // an evenly sampled straight border this is 2/π. Samples of territories lie inside the border, by half their
 // distance more or less, and need a low bound, 0.3; for points that go as far as the surface does 0.5 will
 // do.
@@ -38,16 +38,24 @@ namespace knead {
 // little more than the half that is there.) Uniform weights instead make a cloud stiff across the lines that
 // it was sampled along, and the survey's cylinder creases.
 //
-// Where vertices are samples that stand for many points, `area` says for how much of the surface each does
-// (territory_areas.h): their weights then have that sum which makes Σ_j w_ij |e_ij|² come to it. The lengths
-// of a sample's own links tell it only roughly where the surface is a thin limb or a rim, or denser here than
-// there, and few samples would be softer at one place and stiffer at another than many.
+// `area` says for how much of the surface each vertex stands, be it a point (vertex_areas.h) or a sample of
+// many (territory_areas.h): its weights then have that sum which makes Σ_j w_ij |e_ij|² come to it. The
+// lengths of its own links tell that only roughly where points lie at random, where the surface is a thin
+// limb or a rim, or denser here than there, and the cloud would be softer at one place and stiffer at
+// another. And where pulls are left that do not cancel, as they are the more the more at random points lie, a
+// point's sum is a little more: such vertices yield when all is stretched evenly, and the surface would
+// resist less than by its area. (Samples keep apart, and the few pulls that they leave are of limbs' ends and
+// rims, which nothing is to be added to.)
 //
 // `position` and `contact` > 0: one entry a vertex, and one for every entry of graph.neighbor, the same in
 // both directions; so is the result, > 0. `area`: one entry a vertex, 0 where it is not known; or empty.
-inline constexpr double border_of_points = 0.5, border_of_territories = 0.3;
+struct WeightsOf {
+    double border;  // the bound
+    bool may_yield; // and get more for it
+};
+inline constexpr WeightsOf of_points{0.5, true}, of_territories{0.3, false};
 std::vector<double> isotropic_weights(const Graph& graph, std::span<const Vec3d> position,
-                                      std::span<const float> contact, double border,
+                                      std::span<const float> contact, const WeightsOf& of,
                                       std::span<const double> area, Workers& workers);
 
 } // namespace knead

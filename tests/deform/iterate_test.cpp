@@ -231,7 +231,7 @@ TEST(Iterate, IsFiniteWhereSamplesCoincide) {
     for (std::size_t s = 300; s < 340; ++s) rest.position[s] = rest.position[320]; // as edits may leave them
     const SampleGraph graph = sample_graph_of_all(rest.graph);
     Workers workers(2);
-    rest.weight = isotropic_weights(rest.graph, rest.position, graph.contact, 0.5, {}, workers);
+    rest.weight = isotropic_weights(rest.graph, rest.position, graph.contact, of_points, {}, workers);
     SampleSystem system;
     ASSERT_TRUE(test::built(rest, system).solved);
     const SampleState state = deformed(system, {{}, bend()}, 5);

@@ -28,7 +28,7 @@ inline SampleRest rest_of(const Cloud& cloud, const std::function<Index(const Ve
     }
     rest.cloud_size = (highest - lowest).norm();
     Workers workers(2);
-    rest.weight = isotropic_weights(rest.graph, rest.position, samples.contact, 0.5, {}, workers);
+    rest.weight = isotropic_weights(rest.graph, rest.position, samples.contact, of_points, {}, workers);
     return rest;
 }
 

@@ -147,7 +147,7 @@ TEST(HandleKinds, AFreeAreaBendsAtItsBorderWithFewSamples) {
                   settle(1000));
         const std::vector<float> shape = desk.shape();
         if (with_all.empty()) with_all = shape;
-        EXPECT_LT(rms_between(shape, with_all) / desk.diagonal(), 1.2e-3) << samples;
+        EXPECT_LT(rms_between(shape, with_all) / desk.diagonal(), 1.5e-3) << samples;
     }
 }
 

@@ -1,6 +1,7 @@
 #include "graph/clouds.h"
 #include "graph/edge_weights.h"
 #include "graph/symmetric_graph.h"
+#include "graph/vertex_areas.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -23,7 +24,7 @@ std::vector<double> weights_for(const Graph& graph, const std::vector<Vec3d>& po
                                 unsigned threads = 2) {
     Machine machine(threads);
     const std::vector<float> contact(graph.neighbor.size(), 1.0F);
-    return isotropic_weights(graph, position, contact, 0.5, {}, machine.workers);
+    return isotropic_weights(graph, position, contact, of_points, {}, machine.workers);
 }
 
 void expect_symmetric_and_positive(const Graph& graph, const std::vector<double>& weight) {
@@ -138,10 +139,11 @@ std::vector<double> areas_of(const Cloud& cloud, const std::vector<double>& weig
     return area;
 }
 
-std::vector<double> weights_for_areas(const Cloud& cloud, const std::vector<double>& area) {
+std::vector<double> weights_for_areas(const Cloud& cloud, const std::vector<double>& area,
+                                      const WeightsOf& of = {0.5, false}) {
     Machine machine;
     const std::vector<float> contact(cloud.graph.neighbor.size(), 1.0F);
-    return isotropic_weights(cloud.graph, places(cloud), contact, 0.5, area, machine.workers);
+    return isotropic_weights(cloud.graph, places(cloud), contact, of, area, machine.workers);
 }
 
 TEST(IsotropicWeights, StandForTheAreasThatTheyAreTold) {
@@ -172,6 +174,56 @@ TEST(IsotropicWeights, GoByTheRatioOfAreasAndTakeTheMeanWhereNoneIsKnown) {
         ASSERT_NEAR(heavy[link], 10 * weight[link], 1e-9 * heavy[link]);
     const std::vector<double> area = areas_of(cloud, weight);
     for (std::size_t v = 0; v < known.size(); v += 3) EXPECT_NEAR(area[v], own[v], 0.5 * own[v]);
+}
+
+// What a sheet of these points resists when its rim is stretched along x and all else finds its place, over
+// what an even stretch of as large a surface takes.
+double resistance(const std::vector<float>& positions, double edge, bool with_areas) {
+    Machine machine;
+    const Cloud cloud = test::cloud_of(positions);
+    const AskedVertices asked =
+        ask_vertices(cloud.graph, cloud.positions, Numbering::as_they_stand(cloud.size()), {}, cloud.size(),
+                     1, machine.workers);
+    const std::vector<double> area(asked.area.begin(), asked.area.end());
+    const std::vector<double> weight =
+        with_areas ? weights_for_areas(cloud, area, of_points) : weights_for(cloud.graph, places(cloud));
+    std::vector<double> x(cloud.size());
+    for (std::size_t v = 0; v < cloud.size(); ++v) x[v] = cloud.at(v).x();
+    const auto is_held = [&](std::size_t v) {
+        return cloud.at(v).head<2>().minCoeff() < 2 || cloud.at(v).head<2>().maxCoeff() > edge - 2;
+    };
+    for (int sweep = 0; sweep < 200; ++sweep)
+        for (Index v = 0; v < cloud.size(); ++v) {
+            double pull = 0, sum = 0;
+            for (Index link = cloud.graph.first[v]; link < cloud.graph.first[v + 1]; ++link) {
+                pull += weight[link] * x[cloud.graph.neighbor[link]];
+                sum += weight[link];
+            }
+            if (!is_held(v)) x[v] = pull / sum;
+        }
+    double resists =
+        0; // of links within, each seen from both ends; Σ w |e|² is six times the area, half along x
+    for (Index v = 0; v < cloud.size(); ++v)
+        for (Index link = cloud.graph.first[v]; link < cloud.graph.first[v + 1]; ++link)
+            if (!is_held(v)) resists += weight[link] * std::pow(x[cloud.graph.neighbor[link]] - x[v], 2);
+    return resists / (3 * (edge - 4) * (edge - 4));
+}
+
+TEST(IsotropicWeights, MakeASheetResistByItsAreaHoweverItsPointsLie) {
+    constexpr double edge = 40;
+    std::mt19937 random(11);
+    std::vector<float> even, thrown;
+    for (int i = 0; i < 1600; ++i) {
+        Vec3d p = Vec3d(i % 40 + 0.5, i / 40 + 0.5, 0) + 0.2 * test::random_vector(random);
+        p.z() = 0;
+        test::append(even, p);
+        p = 0.5 * edge * (test::random_vector(random) + Vec3d::Ones());
+        p.z() = 0;
+        test::append(thrown, p);
+    }
+    EXPECT_NEAR(resistance(even, edge, true), 1, 0.04);
+    EXPECT_NEAR(resistance(thrown, edge, true), 1, 0.06);
+    EXPECT_LT(resistance(thrown, edge, false), 0.75); // by the sum 6 c
 }
 
 TEST(IsotropicWeights, DoNotDependOnTheUnit) {

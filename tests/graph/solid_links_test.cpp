@@ -72,7 +72,7 @@ double imbalance(const Cloud& cloud, const Graph& graph) {
     for (std::size_t v = 0; v < cloud.size(); ++v) position.push_back(cloud.at(v));
     const std::vector<float> contact(graph.neighbor.size(), 1.0F);
     const std::vector<double> weight =
-        isotropic_weights(graph, position, contact, border_of_points, {}, machine.workers);
+        isotropic_weights(graph, position, contact, of_points, {}, machine.workers);
     double sum = 0, count = 0;
     for (Index v = 0; v < graph.size(); ++v) {
         if (cloud.at(v).head<2>().cwiseAbs().maxCoeff() > 0.35) continue;

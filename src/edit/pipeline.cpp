@@ -26,7 +26,7 @@ namespace {
 
 constexpr int relaxing_rounds = 3;
 
-// Vertices that tell how large the cloud is: of ten times as many it is the same within a thousandth.
+// Vertices that tell how large the cloud is: of all it is the same within half a per cent.
 constexpr std::size_t asked_for_size = 1 << 13;
 
 } // namespace

@@ -15,6 +15,9 @@ using Eigen::Vector2d;
 // What is so many times as far as half of what is up to two links away is not looked at.
 constexpr double far_over_median = 3;
 
+// Of a vertex with more links than this, what they lead to is all that is looked at.
+constexpr std::size_t enough_around = 24;
+
 // And what is three links away counts where so much of the way's square lies along the plane: the other side
 // of a limb does not.
 constexpr double along_plane = 1.0 / 3;
@@ -46,9 +49,11 @@ void CellFinder::gather(Index vertex) {
     const auto add = [&](Index other) {
         around_.push_back({(point_at(positions_, point_[other]) - own).squaredNorm(), other});
     };
-    for (const Index near : points_.row(vertex)) {
+    const std::span<const Index> row = points_.row(vertex);
+    for (const Index near : row) {
         if (hangs(near)) continue;
         add(near);
+        if (row.size() > enough_around) continue;
         for (const Index far : points_.row(near))
             if (far != vertex && !hangs(far)) add(far);
     }

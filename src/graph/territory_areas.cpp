@@ -57,9 +57,10 @@ std::vector<float> level_areas(AskedVertices& asked, const ChangingTerritories& 
         return asked.area[k] >= 0 && asked.star[k] * all[s].vertices <= no_example * all[s].star;
     };
     const std::vector<Sums> sums = sums_around(asked, sample, territories.borders, base_samples, is_example);
-    for (std::size_t k = 0; asked.each > 1 && k < sample.size(); ++k)
-        if (sample[k] < base_samples)
-            asked.area[k] = asked.star[k] * ratio(sums[sample[k]].area, sums[sample[k]].star);
+    for (std::size_t k = 0; asked.each > 1 && k < sample.size(); ++k) {
+        const bool has_base = sample[k] < base_samples; // some parts have added samples alone
+        asked.area[k] = asked.star[k] * (has_base ? ratio(sums[sample[k]].area, sums[sample[k]].star) : 1);
+    }
     std::vector<float> of_links;
     of_links.reserve(base_samples);
     for (const Sums& each : sums) of_links.push_back(ratio(each.area, each.links));

@@ -68,7 +68,7 @@ public:
         const double sum = start_weights(star_, weight_);
         for (int update = 0; update < updates; ++update) even_out(star_, sum, weight_);
         told.star = area_of(star_, weight_);
-        if (!with_cell) return told;
+        if (!with_cell || !(square > 0)) return told; // all in one place
         const Cell cell = cells_.find(vertex);
         const double inside = is_inside.at(cell.reach / std::sqrt(square));
         const double area = inside < 1 ? std::lerp(share * cells_.mirrored(), cell.area, inside) : cell.area;

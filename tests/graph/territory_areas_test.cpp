@@ -143,6 +143,37 @@ TEST(TerritoryAreas, OfAllVerticesStayWhatTheyAre) {
     EXPECT_EQ(levelled.area, asked.area);
 }
 
+// A part of the cloud may have samples that were added alone.
+TEST(TerritoryAreas, WithoutABaseSampleAreWhatStarsSay) {
+    std::vector<float> positions = test::shape_positions(Shape::sphere, 3000);
+    const std::size_t base_part = positions.size();
+    for (std::size_t i = 0; i < base_part; ++i)
+        positions.push_back(positions[i] + (i % 3 == 0 ? 9.0F : 0.0F));
+    const Cloud cloud = test::cloud_of(positions);
+    Divided divided(cloud, 60);
+    Index beyond = 0;
+    while (cloud.at(beyond).x() < 5) ++beyond;
+    std::vector<Index> base;
+    for (const Index v : divided.samples)
+        if (cloud.at(v).x() < 5) base.push_back(v);
+    divided.samples = base;
+    divided.territories = territories_of_base(
+        flood(cloud.graph, cloud.lengths, base, divided.machine.workers, divided.machine.progress),
+        base.size(), cloud.graph, divided.machine.workers);
+    AskedVertices asked = ask_vertices(cloud.graph, cloud.positions, Numbering::as_they_stand(cloud.size()),
+                                       {}, 1000, 2, divided.machine.workers);
+    level_areas(asked, divided.territories, base.size());
+    for (std::size_t k = 0; k < asked.vertex.size(); ++k) {
+        EXPECT_GT(asked.area[k], 0);
+        if (cloud.at(asked.vertex[k]).x() > 5) {
+            EXPECT_EQ(asked.area[k], asked.star[k]);
+        }
+    }
+    divided.add({beyond});
+    const std::vector<double> area = divided.areas(asked);
+    EXPECT_NEAR(area.back(), std::accumulate(area.begin(), area.end() - 1, 0.0), 0.2 * area.back());
+}
+
 TEST(TerritoryAreas, AreTheSameForAnyNumberOfThreads) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 5000));
     Divided divided(cloud, 60);

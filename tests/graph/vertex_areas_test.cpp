@@ -133,6 +133,21 @@ TEST(VertexAreas, AreTheSameForAnyNumberOfThreads) {
     }
 }
 
+// As a commit may leave it.
+TEST(VertexAreas, OfWhatLiesInOnePlaceAreNothing) {
+    Cloud cloud = test::cloud_of(test::grid_positions(8, 8));
+    std::ranges::fill(cloud.positions, 1.0F);
+    for (const float area : ask(cloud, cloud.size()).area) EXPECT_EQ(area, 0);
+}
+
+// With very many neighbours what is one link away is enough.
+TEST(VertexAreas, HardlyDependOnTheNumberOfNeighbors) {
+    const std::vector<float> positions = test::shape_positions(Shape::sphere, 3000);
+    const double few = sum_of(ask(test::cloud_of(positions, 6), 3000).area);
+    for (const std::size_t k : {4U, 10U, 30U})
+        EXPECT_NEAR(sum_of(ask(test::cloud_of(positions, k), 3000).area), few, 0.03 * few) << k;
+}
+
 TEST(VertexAreas, OfNoneAreNone) {
     EXPECT_TRUE(ask(test::cloud_of(test::grid_positions(4, 4), 4), 0).vertex.empty());
 }

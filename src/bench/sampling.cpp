@@ -158,7 +158,7 @@ DeformationTask task_of(const DeformationTask& task, const std::vector<Index>& p
 }
 
 // One of so many points of a task, thrown at random, and behind them all others of the middle third along z,
-// as if somebody had scanned that from near. The even ones count.
+// as if somebody had scanned that from near. The former count: no part more than another.
 Pair with_denser_middle(const DeformationTask& task) {
     constexpr std::uint64_t purpose = 2;
     const Bounds bounds = bounds_of(task.cloud);

@@ -3,13 +3,13 @@
 #include "base/new_processors.h"
 #include "deform/stretch.h"
 #include "graph/balanced_weights.h"
+#include "graph/star_weights.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace knead {
@@ -205,8 +205,7 @@ void drop_nothing(Contribution& contribution) {
 // The links of a vertex to others that do not hang.
 struct Links {
     Mat3d spread = Mat3d::Zero(); // Σ e eᵀ
-    Vec3d pull = Vec3d::Zero();   // Σ e
-    double effort = 0;            // Σ |e|
+    Pull pull;                    // Σ e, Σ |e|
 };
 
 Links links_of(const PointsBetween& between, const Vec3d& position, std::span<const Index> row) {
@@ -214,8 +213,8 @@ Links links_of(const PointsBetween& between, const Vec3d& position, std::span<co
     for (const Index other : row) {
         const Vec3d edge = position_of(between, other) - position;
         links.spread += edge * edge.transpose();
-        links.pull += edge;
-        links.effort += edge.norm();
+        links.pull.sum += edge;
+        links.pull.effort += edge.norm();
     }
     return links;
 }
@@ -281,14 +280,14 @@ const Contribution& ContributionFinder::find(Index vertex) {
     if (row_.size() < 2) return found_;
     const Vec3d position = position_of(between_, vertex);
     const Links links = links_of(between_, position, row_);
-    if (!(links.effort > 0)) return found_;
+    if (!(links.pull.effort > 0)) return found_;
     const Surroundings surroundings = surroundings_of(links.spread);
     const Mat3d along = Mat3d::Identity() - surroundings.open;
     set_columns(along, found_.along);
     found_.dimension = std::max(1.0, along.trace());
     const double square_length = links.spread.trace() / static_cast<double>(row_.size());
-    const double share = 1 - std::numbers::pi / 4 * links.pull.norm() / links.effort;
-    found_.measure = 3 / found_.dimension * square_length * share * area_of_links(vertex);
+    found_.measure =
+        3 / found_.dimension * square_length * share_of_directions(links.pull) * area_of_links(vertex);
     const Mat3d slope = add_gradients(vertex, position, surroundings.inverse);
     for (const Index body : found_.body) place_[body] = no_index;
     drop_nothing(found_);

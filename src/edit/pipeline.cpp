@@ -177,7 +177,7 @@ void Pipeline::find_size() {
     std::vector<float> positions;
     positions.reserve(3 * asked.vertex.size());
     for (const Index v : asked.vertex) {
-        const std::span<const float> at = vertex_positions().subspan(3 * v, 3);
+        const std::span<const float> at = vertex_positions().subspan(std::size_t{3} * v, 3);
         positions.insert(positions.end(), at.begin(), at.end());
     }
     cloud_size_ = knead::cloud_size(positions, asked.area);
@@ -225,9 +225,9 @@ void Pipeline::prepare_areas() {
     const Stopwatch clock;
     const RestShape& rest = input_.rest ? *input_.rest : opened_;
     const std::size_t all = order_.vertices();
-    const Asking asking = every_point_ ? Asking{all, 1} : asking_for(base_samples_);
+    const Asking asking = every_point_ ? Asking{all, 1} : asking_for(base_samples_, all);
     asked_ = ask_vertices(every_point_ ? sample_graph_.graph : *graph_, rest.positions, order_.first_point,
-                          hanging_, asking.vertices, asking.vertices < all ? asking.of_cells : 1, workers_);
+                          hanging_, asking.vertices, asking.of_cells, workers_);
     area_of_links_.clear();
     if (!every_point_) area_of_links_ = level_areas(asked_, territories_, base_samples_);
     seconds_.sampling += clock.seconds();

@@ -42,6 +42,10 @@ Pull pull_of(std::span<const Spoke> star, std::span<const double> weight) {
     return pull;
 }
 
+double share_of_directions(const Pull& pull) {
+    return pull.effort > 0 ? 1 - std::numbers::pi / 4 * (pull.sum.norm() / pull.effort) : 1;
+}
+
 Symmetric spread_of(std::span<const Spoke> star, std::span<const double> weight) {
     Symmetric spread = Symmetric::Zero();
     for (std::size_t k = 0; k < star.size(); ++k) spread += weight[k] * star[k].square;
@@ -61,9 +65,7 @@ double start_weights(std::span<const Spoke> star, std::span<double> weight) {
     const double shortest = longest > 0 ? 1e-3 * longest : 1;
     for (std::size_t k = 0; k < star.size(); ++k)
         weight[k] = star[k].contact / std::max(star[k].length, shortest);
-    const Pull pull = pull_of(star, weight);
-    const double share = pull.effort > 0 ? pull.sum.norm() / pull.effort : 0;
-    const double sum = sum_inside * (1 - std::numbers::pi / 4 * share);
+    const double sum = sum_inside * share_of_directions(pull_of(star, weight));
     normalize(weight, sum);
     return sum;
 }

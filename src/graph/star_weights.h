@@ -27,6 +27,9 @@ struct Pull {
 };
 Pull pull_of(std::span<const Spoke> star, std::span<const double> weight);
 
+// c = 1 - π/4 · |Σ w e| / Σ w |e|: of all directions, those that the surface goes on in (edge_weights.h).
+double share_of_directions(const Pull& pull);
+
 // C = Σ w e eᵀ.
 Symmetric spread_of(std::span<const Spoke> star, std::span<const double> weight);
 

@@ -11,13 +11,16 @@
 
 namespace knead {
 
-// So many vertices are to be asked for so many samples, one of `of_cells` for its cell; more change little.
+// So many of `all` vertices are to be asked for so many samples, one of `of_cells` for its cell; more change
+// little.
 struct Asking {
     std::size_t vertices, of_cells;
 };
-constexpr Asking asking_for(std::size_t samples) {
+constexpr Asking asking_for(std::size_t samples, std::size_t all) {
     constexpr std::size_t a_sample = 16, fewest = 8192, few_samples = 2000;
-    return {std::max(a_sample * samples, fewest), samples <= few_samples ? 1U : 2U};
+    const std::size_t wanted = std::max(a_sample * samples, fewest);
+    if (wanted >= all) return {all, 1};
+    return {wanted, samples <= few_samples ? 1U : 2U};
 }
 
 // Where not all vertices were asked, makes the area of each what its star says, times what areas are of stars

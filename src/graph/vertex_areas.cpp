@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace knead {
 
@@ -27,7 +26,7 @@ struct Fade {
 // Noise of half a spacing makes a surface as thick as 0.1, of three quarters 0.18; in a solid it is 0.4 on
 // the mean, and rarely less than 0.2.
 constexpr Fade is_surface{0.2, 0.4};
-constexpr double thick = 0.3;
+constexpr double thick = 0.3; // (graph/solid_links.h tells of each vertex, and has to look at all for it)
 // The surroundings of one of a row of points have no width, those on a rim a quarter.
 constexpr Fade has_width{0.1, 0.04};
 // Over the links' root mean square: of points that were thrown at random one of twenty reaches as far as the
@@ -61,9 +60,8 @@ public:
             if (!hangs(other)) star_.push_back(spoke_along(point_at(positions_, point_[other]) - own, 1));
         if (star_.empty()) return told;
         weight_.assign(star_.size(), 1.0);
-        const Pull pull = pull_of(star_, weight_);
         const double square = area_of(star_, weight_) / static_cast<double>(star_.size());
-        const double share = pull.effort > 0 ? 1 - std::numbers::pi / 4 * pull.sum.norm() / pull.effort : 1;
+        const double share = share_of_directions(pull_of(star_, weight_));
         told.links = links_over_area * square * share;
         const double sum = start_weights(star_, weight_);
         for (int update = 0; update < updates; ++update) even_out(star_, sum, weight_);

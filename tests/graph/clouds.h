@@ -72,6 +72,15 @@ inline void append(std::vector<float>& positions, const Vec3d& p) {
     for (int axis = 0; axis < 3; ++axis) positions.push_back(static_cast<float>(p[axis]));
 }
 
+// One of so many, picked at random: however evenly these lie, those do not.
+inline std::vector<float> picked(const std::vector<float>& positions, std::size_t one_of) {
+    std::mt19937 random(5);
+    std::vector<float> result;
+    for (std::size_t i = 0; i < positions.size() / 3; ++i)
+        if (random() % one_of == 0) append(result, point_at(positions, i));
+    return result;
+}
+
 // Unit spacing: every vertex has neighbours at exactly equal distances.
 inline std::vector<float> grid_positions(int columns, int rows) {
     std::vector<float> positions;

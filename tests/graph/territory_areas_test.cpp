@@ -111,12 +111,7 @@ TEST(TerritoryAreas, GoToSamplesThatAreAddedAndBack) {
 // Some of very many points, picked at random: the cells of some tell little of the others', those of all
 // around much.
 TEST(TerritoryAreas, OfSomeVerticesAreLevelledToWhatIsAround) {
-    std::mt19937 random(5);
-    const std::vector<float> many = test::shape_positions(Shape::sphere, 200'000);
-    std::vector<float> picked;
-    for (std::size_t i = 0; i < many.size() / 3; ++i)
-        if (random() % 20 == 0) test::append(picked, point_at(many, i));
-    const Cloud cloud = test::cloud_of(picked);
+    const Cloud cloud = test::cloud_of(test::picked(test::shape_positions(Shape::sphere, 200'000), 20));
     Divided divided(cloud, 100);
     AskedVertices some = divided.asked(60);
     const std::vector<double> exact = divided.areas(divided.asked(cloud.size()));

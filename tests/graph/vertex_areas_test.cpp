@@ -19,8 +19,7 @@ double sum_of(const std::vector<float>& amounts) {
     return std::accumulate(amounts.begin(), amounts.end(), 0.0);
 }
 
-// So many points of a made shape, each moved by up to so much of the spacing across it and along; or some of
-// very many, picked at random.
+// Each by up to so much along each axis.
 std::vector<float> moved(std::vector<float> positions, double way) {
     std::mt19937 random(3);
     for (std::size_t i = 0; i < positions.size(); i += 3) {
@@ -31,20 +30,12 @@ std::vector<float> moved(std::vector<float> positions, double way) {
     return positions;
 }
 
-std::vector<float> picked(const std::vector<float>& positions, std::size_t one_of) {
-    std::mt19937 random(5);
-    std::vector<float> result;
-    for (std::size_t i = 0; i < positions.size() / 3; ++i)
-        if (random() % one_of == 0) test::append(result, point_at(positions, i));
-    return result;
-}
-
 // Area is area, whether points keep apart, lie at random or beside the surface. What links tell is not.
 TEST(VertexAreas, AreTheSurfaceHoweverPointsLieOnIt) {
     constexpr double sphere = 4 * std::numbers::pi;
     const double spacing = std::sqrt(sphere / 4000);
     const std::vector<float> even = test::shape_positions(Shape::sphere, 4000);
-    const std::vector<float> random = picked(test::shape_positions(Shape::sphere, 80'000), 20);
+    const std::vector<float> random = test::picked(test::shape_positions(Shape::sphere, 80'000), 20);
     for (const auto& positions : {even, moved(even, 0.5 * spacing), moved(even, spacing), random,
                                   test::shape_positions(Shape::sphere, 4000, 20)}) {
         const Cloud cloud = test::cloud_of(positions);

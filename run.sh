@@ -4,7 +4,7 @@
 #   ./run.sh            replays the demonstration session, and opens it in the editor
 #   ./run.sh SESSION    opens a recorded session in the editor
 #   ./run.sh FILE       opens a point cloud in the editor
-#   ./run.sh --build    only builds (test.sh does so)
+#   ./run.sh --build    only builds, and the tests too (test.sh does so)
 #
 # Without a display a session is replayed (the bent cloud goes to build/), and a cloud is described.
 set -euo pipefail
@@ -35,6 +35,7 @@ show_progress() {
     if [ -n "$announced" ] && [ -t 2 ]; then printf '\r\033[K' >&2; fi
 }
 
+# Builds the program alone, or with `all` the tests too, which take as long again.
 build() {
     "$root/third_party/install.sh"
     cd "$root"
@@ -46,7 +47,7 @@ build() {
             fail_with_log "Configuring" build/configure.log
         }
     fi
-    cmake --build --preset release 2>&1 | tee build/build.log | show_progress ||
+    cmake --build --preset release --target "$1" 2>&1 | tee build/build.log | show_progress ||
         fail_with_log "Building" build/build.log
 }
 
@@ -97,7 +98,7 @@ main() {
             return 0
             ;;
         --build)
-            build
+            build all
             return 0
             ;;
         -*)
@@ -112,7 +113,7 @@ main() {
         return 3
     fi
 
-    (build)
+    (build knead)
     if [ $# = 0 ]; then
         say "The demonstration: replaying ${file#"$root/"}"
         replay "$file"

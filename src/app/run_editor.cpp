@@ -52,7 +52,7 @@ struct Loop {
     bool press_is_hands = false; // and ended what a full hand was doing: no panel is to see it
     int frames_to_draw = 3;      // even if nothing happens: ImGui needs some to settle
     bool opening_before = false;
-    double calm_since = 0; // ImGui's time of the last event
+    Stopwatch calm; // since the last event; ImGui's time stands still while nothing is drawn
 
     // What the picture shows, to tell whether it moves.
     Camera shown_camera;
@@ -395,7 +395,7 @@ double patience(const Loop& loop, bool news) {
     if (loop.state.sliding.change || loop.scene.expects_more()) return 0.03;
     // Tooltips come a moment after the last motion; a typing cursor blinks; toasts fade.
     if (loop.state.playback.playing || loop.state.playback.wanted) return 0.03;
-    const bool restless = ImGui::GetTime() < loop.calm_since + 1 || ImGui::GetIO().WantTextInput;
+    const bool restless = loop.calm.seconds() < 1 || ImGui::GetIO().WantTextInput;
     if (restless || !loop.state.toasts.empty()) return 0.12;
     return 0.5;
 }
@@ -405,7 +405,7 @@ bool shows_motion(const Loop& loop) {
     return loop.frames_to_draw > 0 || loop.is_coarse || !loop.state.measured.complete ||
            !loop.state.toasts.empty() || loop.state.sliding.change || loop.scene.expects_more() ||
            loop.state.playback.playing || loop.state.playback.wanted || ImGui::GetIO().WantTextInput ||
-           ImGui::GetTime() < loop.calm_since + 1 || (loop.editor.live && !loop.editor.status.doing.empty());
+           loop.calm.seconds() < 1 || (loop.editor.live && !loop.editor.status.doing.empty());
 }
 
 void set_scale(Loop& loop) {
@@ -436,7 +436,7 @@ void run_editor(const EditorOptions& options) {
         news = take_news(loop);
         if (events) {
             loop.frames_to_draw = 3;
-            loop.calm_since = ImGui::GetTime();
+            loop.calm.lap();
         }
         if (!events && !news && !shows_motion(loop)) continue;
         draw(loop);

@@ -135,6 +135,11 @@ struct AfterSaving {
     std::optional<std::uint64_t> discarded = {}; // the state (DocumentView) that need not be saved
 };
 
+// Where an opened file's cloud was exported last.
+struct LastExport {
+    std::filesystem::path of, target;
+};
+
 struct UiState {
     Fonts fonts;
     float scale = 1;
@@ -142,6 +147,7 @@ struct UiState {
     Legend legend; // of the colours as they are
     Rectangle legend_place = {};
     FileBrowser browser;
+    LastExport last_export; // is proposed again
     Measured measured;
 
     std::deque<Toast> toasts;

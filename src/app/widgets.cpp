@@ -17,6 +17,16 @@ namespace {
 // How long the cursor has to rest before an explanation comes, in seconds.
 constexpr float patience = 0.4f;
 
+// Of what stands in a panel at the right side, beside that panel: at the cursor it would hide what comes
+// next.
+void place_explanation() {
+    const ImVec2 panel = ImGui::GetWindowPos(), item = ImGui::GetItemRectMin();
+    const ImVec2 all = ImGui::GetIO().DisplaySize;
+    if (panel.x < all.x / 2 || all.y <= 0) return;
+    // The lower it is, the more of it is above: none goes over the edge.
+    ImGui::SetNextWindowPos(ImVec2(panel.x - 6, item.y), ImGuiCond_Always, ImVec2(1, item.y / all.y));
+}
+
 } // namespace
 
 void explain(const char* words) {
@@ -25,6 +35,7 @@ void explain(const char* words) {
     if (context.HoveredId != 0 && context.HoveredIdTimer < patience) return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(11, 8));
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0f);
+    place_explanation();
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
     ImGui::TextUnformatted(words);
@@ -225,6 +236,7 @@ void faint_text(const std::string& words) {
 
 int segmented(const char* id, std::initializer_list<const char*> labels, int chosen) {
     ImGui::PushID(id);
+    ImGui::BeginGroup(); // what explains it explains each
     const auto count = static_cast<float>(labels.size());
     const float gap = 2;
     const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
@@ -235,6 +247,7 @@ int segmented(const char* id, std::initializer_list<const char*> labels, int cho
         if (on ? main_button(label, {width, 0}) : ImGui::Button(label, {width, 0})) clicked = number;
         ++number;
     }
+    ImGui::EndGroup();
     ImGui::PopID();
     return clicked;
 }

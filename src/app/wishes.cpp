@@ -106,6 +106,18 @@ std::filesystem::path folder_around(const std::filesystem::path& file) {
     return folder;
 }
 
+// Where the cloud that is open went last; the first time a name beside its own, of the same kind.
+void propose_export(Work& work) {
+    FileBrowser& browser = work.state.browser;
+    const std::filesystem::path& opened = work.editor.opened.file;
+    if (const LastExport& last = work.state.last_export; last.of == opened && !last.target.empty()) {
+        browser.folder = folder_around(last.target);
+        browser.typed = last.target.filename().string();
+    } else
+        browser.typed = opened.stem().string() + "-posed" +
+                        (has_cloud_extension(opened) ? opened.extension().string() : ".ply");
+}
+
 void fulfil(Work& work, const WishBrowse& wish) {
     FileBrowser& browser = work.state.browser;
     browser.purpose = wish.purpose;
@@ -126,17 +138,17 @@ void fulfil(Work& work, const WishBrowse& wish) {
         add_toast(work.state, {Notice::Kind::warning,
                                "This is an earlier step: the cloud is saved as it was then, without what was "
                                "done later."});
-    if (wish.purpose == BrowseFor::save_cloud)
-        browser.typed = opened.stem().string() + "-posed" +
-                        (has_cloud_extension(opened) ? opened.extension().string() : ".ply");
+    if (wish.purpose == BrowseFor::save_cloud) propose_export(work);
 }
 
 void save(Work& work, const WishSaveTo& wish) {
     if (wish.purpose == BrowseFor::save_session) {
         save_session(work.editor, wish.file, wish.anyway);
         remember_file(work.state.recent, wish.file);
-    } else
+    } else {
         save_cloud(work.editor, wish.file, wish.columns, wish.anyway);
+        work.state.last_export = {work.editor.opened.file, wish.file};
+    }
     if (work.state.after.waiting_for_save) work.state.after.save_was_posted = true;
 }
 

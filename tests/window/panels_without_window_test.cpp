@@ -18,7 +18,7 @@ namespace {
 
 const ImVec2 nowhere(-FLT_MAX, -FLT_MAX);
 
-// One ImGui window that fills the display, drawn frame by frame.
+// One ImGui window that fills the display, or what is right of `left_`, drawn frame by frame.
 class Panel : public ::testing::Test {
 protected:
     void SetUp() override {
@@ -40,8 +40,8 @@ protected:
     void frame() {
         ImGui::GetIO().DeltaTime = 1.0f / 60;
         ImGui::NewFrame();
-        ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
+        ImGui::SetNextWindowPos({left_, 0});
+        ImGui::SetNextWindowSize({ImGui::GetIO().DisplaySize.x - left_, ImGui::GetIO().DisplaySize.y});
         ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration);
         draw();
         ImGui::End();
@@ -71,6 +71,7 @@ protected:
 
     ImGuiContext* context_ = nullptr;
     Fonts fonts_;
+    float left_ = 0;
 };
 
 class NumberSlider : public Panel {
@@ -95,6 +96,27 @@ protected:
     float value_ = 0.5f;
     int changes_ = 0;
     ImVec2 middle_;
+};
+
+// A choice of three at the right side, near the lower edge.
+class ExplainedChoice : public Panel {
+protected:
+    void SetUp() override {
+        Panel::SetUp();
+        ImGui::GetIO().DisplaySize.x = 1000;
+        left_ = 700;
+    }
+    void draw() override {
+        ImGui::SetCursorPosY(600);
+        segmented("choice", {"one", "two", "three"}, 1);
+        choice_ = ImRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+        explain("First line\nsecond line\nthird line");
+    }
+
+    static const ImGuiWindow* explanation() { return ImGui::FindWindowByName("##Tooltip_00"); }
+    static bool is_explained() { return explanation() && explanation()->Active && !explanation()->Hidden; }
+
+    ImRect choice_;
 };
 
 // The panel of handles, of a document that was made by hand.
@@ -198,6 +220,30 @@ TEST_F(NumberSlider, ADragCountsAtOnce) {
     click({middle_.x + 60, middle_.y});
     EXPECT_GT(value_, 0.55f);
     EXPECT_GE(changes_, 1);
+}
+
+TEST_F(ExplainedChoice, IsExplainedWhicheverTheCursorRestsOn) {
+    frames(2);
+    for (const float part : {1.0f / 6, 0.5f, 5.0f / 6}) {
+        ImGui::GetIO().MousePos = nowhere;
+        frames(3);
+        EXPECT_FALSE(is_explained());
+        ImGui::GetIO().MousePos = {choice_.Min.x + part * choice_.GetWidth(), choice_.GetCenter().y};
+        frames(60);
+        EXPECT_TRUE(is_explained()) << part;
+    }
+}
+
+TEST_F(ExplainedChoice, IsExplainedBesideItsPanel) {
+    frames(2);
+    ImGui::GetIO().MousePos = choice_.GetCenter();
+    frames(60);
+    ASSERT_TRUE(is_explained());
+    const ImRect words = explanation()->Rect();
+    EXPECT_LE(words.Max.x, left_);
+    EXPECT_LE(words.Max.y, ImGui::GetIO().DisplaySize.y);
+    EXPECT_GT(words.Max.y, choice_.Min.y) << "at its height";
+    EXPECT_LT(words.Min.y, choice_.Max.y);
 }
 
 TEST_F(HandleList, ShowsAsMuchAsThereIsRoomFor) {

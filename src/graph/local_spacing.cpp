@@ -9,10 +9,11 @@ namespace knead {
 
 namespace {
 
-constexpr std::size_t nearest = 5;
 constexpr float most_over_neighbors = 2;
+// On a line of points the fifth is three steps away, on a surface hardly farther than the second.
+constexpr float most_over_second = 1.7F;
 constexpr double nearly_all = 0.95; // of the vertices
-constexpr float most_over_nearly_all = 2;
+constexpr float most_over_nearly_all = 2, most_over_half = 3;
 constexpr std::size_t most_looked_at = 64; // links of a vertex; nearly all have fewer
 
 // The median of a row's values, or of as many, evenly taken, as fit.
@@ -27,28 +28,40 @@ float median_of(std::span<const Index> row, ValueOf&& value_of) {
     return *middle;
 }
 
-void limit_to_nearly_all(std::vector<float>& spacings) {
+// What so much of the values, 0 … 1, do not exceed. Changes their order.
+float quantile_of(std::span<float> values, double share) {
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+void limit_by_others(std::vector<float>& spacings) {
     if (spacings.empty()) return;
-    std::vector<float> sorted = spacings;
-    const auto found =
-        sorted.begin() + static_cast<std::ptrdiff_t>(nearly_all * static_cast<double>(sorted.size() - 1));
-    std::nth_element(sorted.begin(), found, sorted.end());
-    for (float& spacing : spacings) spacing = std::min(spacing, most_over_nearly_all * *found);
+    std::vector<float> others = spacings;
+    const float most = std::min(most_over_nearly_all * quantile_of(others, nearly_all),
+                                most_over_half * quantile_of(others, 0.5));
+    for (float& spacing : spacings) spacing = std::min(spacing, most);
 }
 
 } // namespace
 
 std::vector<float> local_spacing(const Graph& graph, std::span<const float> positions, Workers& workers) {
-    std::vector<float> alone(graph.size()), result(graph.size());
+    std::vector<float> fifth(graph.size()), second(graph.size()), result(graph.size());
     workers.for_each(graph.size(), 4096, [&](std::size_t v) {
         const Nearest found = find_nearest(graph, positions, v);
-        alone[v] = found.count > 0 ? found.near[std::min(nearest, found.count) - 1].first : 0;
+        const auto distance = [&](std::size_t number) {
+            return found.count > 0 ? found.near[std::min(number, found.count) - 1].first : 0;
+        };
+        fifth[v] = distance(5);
+        second[v] = distance(2);
     });
     workers.for_each(graph.size(), 4096, [&](std::size_t v) {
-        const float around = median_of(graph.row(v), [&](Index u) { return alone[u]; });
-        result[v] = std::min(alone[v], most_over_neighbors * around);
+        const float around = median_of(graph.row(v), [&](Index u) { return fifth[u]; });
+        const float step = median_of(graph.row(v), [&](Index u) { return second[u]; });
+        result[v] = std::min({fifth[v], most_over_neighbors * around, most_over_second * step});
     });
-    limit_to_nearly_all(result);
+    limit_by_others(result);
     return result;
 }
 

@@ -26,11 +26,11 @@ std::vector<float> spacing_of(const std::vector<float>& positions) {
 TEST(LocalSpacing, FollowsTheDensity) {
     std::vector<float> positions;
     add_square(positions, 0, 1);
-    add_square(positions, 1000, 4);
+    add_square(positions, 1000, 2);
     const std::vector<float> spacing = spacing_of(positions);
     // Inside a square the fifth nearest is one of the diagonal ones.
     EXPECT_NEAR(spacing[10 * 20 + 10], std::sqrt(2.0), 1e-4);
-    EXPECT_NEAR(spacing[400 + 10 * 20 + 10], 4 * std::sqrt(2.0), 1e-3);
+    EXPECT_NEAR(spacing[400 + 10 * 20 + 10], 2 * std::sqrt(2.0), 1e-3);
 }
 
 TEST(LocalSpacing, OfAStrayPointIsNotThatOfASparseSurface) {
@@ -49,6 +49,32 @@ TEST(LocalSpacing, OfStraysAmongThemselvesIsLittleMoreThanElsewhere) {
         positions.insert(positions.end(), {1000 + 50 * static_cast<float>(i), 0, static_cast<float>(i * i)});
     const std::vector<float> spacing = spacing_of(positions);
     for (std::size_t v = 400; v < spacing.size(); ++v) EXPECT_LT(spacing[v], 4) << v;
+}
+
+// As a scanner draws them far away: the fifth nearest is three steps along the line.
+TEST(LocalSpacing, OfALineIsLittleMoreThanItsStep) {
+    std::vector<float> positions;
+    for (int line = 0; line < 8; ++line)
+        for (int i = 0; i < 50; ++i)
+            positions.insert(positions.end(), {static_cast<float>(i), 20.0f * static_cast<float>(line), 0});
+    const std::vector<float> spacing = spacing_of(positions);
+    for (std::size_t v = 0; v < spacing.size(); ++v) {
+        EXPECT_LT(spacing[v], 2) << v;
+        EXPECT_GE(spacing[v], 1) << v;
+    }
+}
+
+TEST(LocalSpacing, OfAFarEndIsAFewOfWhatIsUsual) {
+    std::vector<float> positions;
+    add_square(positions, 0, 1);
+    add_square(positions, 1000, 1);
+    add_square(positions, 2000, 10);
+    const std::vector<float> spacing = spacing_of(positions);
+    const float usual = spacing[10 * 20 + 10];
+    for (std::size_t v = 800; v < spacing.size(); ++v) {
+        EXPECT_LE(spacing[v], 3.001f * usual) << v;
+        EXPECT_GT(spacing[v], 2 * usual) << v;
+    }
 }
 
 TEST(LocalSpacing, IsNothingForAPointAlone) {

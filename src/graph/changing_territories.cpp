@@ -41,6 +41,7 @@ ChangingTerritories territories_of_base(const InfluenceRows& nearest, std::size_
     territories.nearest = territory_rows(nearest, workers);
     territories.added = no_starts(territories.nearest, static_cast<Index>(base));
     territories.borders = territory_borders(territories.nearest, points, workers);
+    territories.base_borders = territories.borders;
     return territories;
 }
 

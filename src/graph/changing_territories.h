@@ -14,9 +14,10 @@ namespace knead {
 // Samples are numbered through, so that the numbers of all change that come after one which comes or goes.
 // Here those that were added have numbers of the same order that they keep, with room between them.
 struct ChangingTerritories {
-    TerritoryRows nearest;                // of each vertex, with those that were added
-    AddedStarts<1> added;                 // that are in these, by their own numbers
-    std::vector<TerritoryBorder> borders; // of all, by the same
+    TerritoryRows nearest;                     // of each vertex, with those that were added
+    AddedStarts<1> added;                      // that are in these, by their own numbers
+    std::vector<TerritoryBorder> borders;      // of all, by the same
+    std::vector<TerritoryBorder> base_borders; // of base samples, as if none had been added
 };
 
 // Those of base samples alone; `nearest`: the flood from so many of them over the graph `points`.

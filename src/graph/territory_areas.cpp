@@ -35,7 +35,6 @@ std::vector<Sums> sums_around(const AskedVertices& asked, std::span<const Index>
             own[sample[k]].add({asked.area[k], asked.star[k], asked.links[k], 1});
     std::vector<Sums> sums = own;
     for (const TerritoryBorder& border : borders) {
-        if (border.a >= samples || border.b >= samples) continue; // of one that was added
         sums[border.a].add(own[border.b]);
         sums[border.b].add(own[border.a]);
     }
@@ -51,12 +50,13 @@ float ratio(double of, double to) {
 std::vector<float> level_areas(AskedVertices& asked, const ChangingTerritories& territories,
                                std::size_t base_samples) {
     const std::vector<Index> sample = nearest_of_base(territories, asked.vertex);
-    const std::vector<Sums> all = sums_around(asked, sample, territories.borders, base_samples,
+    const std::vector<Sums> all = sums_around(asked, sample, territories.base_borders, base_samples,
                                               [](std::size_t, Index) { return true; });
     const auto is_example = [&](std::size_t k, Index s) {
         return asked.area[k] >= 0 && asked.star[k] * all[s].vertices <= no_example * all[s].star;
     };
-    const std::vector<Sums> sums = sums_around(asked, sample, territories.borders, base_samples, is_example);
+    const std::vector<Sums> sums =
+        sums_around(asked, sample, territories.base_borders, base_samples, is_example);
     for (std::size_t k = 0; asked.each > 1 && k < sample.size(); ++k) {
         const bool has_base = sample[k] < base_samples; // some parts have added samples alone
         asked.area[k] = asked.star[k] * (has_base ? ratio(sums[sample[k]].area, sums[sample[k]].star) : 1);

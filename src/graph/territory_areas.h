@@ -25,8 +25,8 @@ constexpr Asking asking_for(std::size_t samples, std::size_t all) {
 
 // Where not all vertices were asked, makes the area of each what its star says, times what areas are of stars
 // over the territory of its base sample and those beside it: cells differ too much for some to tell what
-// others are. Areas are known of all then. Returns the same ratio of areas to what links say, one entry a
-// base sample; 1 where nothing was asked.
+// others are. Areas are known of all then. Samples that were added change nothing of it. Returns the same
+// ratio of areas to what links say, one entry a base sample; 1 where nothing was asked.
 std::vector<float> level_areas(AskedVertices& asked, const ChangingTerritories& territories,
                                std::size_t base_samples);
 

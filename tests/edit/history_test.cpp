@@ -67,6 +67,26 @@ TEST(History, AnUndoneCommitLeavesThePoseToGoOnFrom) {
                           shape_after(ends + twist)));
 }
 
+// Few samples ask the points between them, what these stand for, and which territories touch: on the rest
+// shape of the time, whatever was looked at before.
+TEST(History, NothingIsLeftOfAnotherRestShapeOrOfOtherSamples) {
+    for (const char* samples : {"60", "300"}) {
+        const std::string begin = set("\"samples\":" + std::string(samples)) + ends;
+        const std::string bent = begin + bend, rested = bent + commit;
+        EXPECT_TRUE(same_bits(shape_after(rested + twist + undo + undo + twist), shape_after(bent + twist)))
+            << samples;
+        EXPECT_TRUE(same_bits(shape_after(rested + twist + commit + bend + undo + undo + undo + twist),
+                              shape_after(rested + twist)))
+            << samples;
+        EXPECT_TRUE(same_bits(shape_after(rested + set(R"("neighbors":9)") + twist + undo + undo + twist),
+                              shape_after(rested + twist)))
+            << samples;
+        EXPECT_TRUE(same_bits(shape_after(rested + set(R"("samples":90)") + twist + undo + undo + twist),
+                              shape_after(rested + twist)))
+            << samples;
+    }
+}
+
 TEST(History, TakesBackHandlesSettingsAndNames) {
     Desk desk(bar());
     desk.play(ends + set(R"("samples":77)") + R"({"op":"rename","handle":"top","to":"hat"})" +

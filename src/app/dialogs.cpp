@@ -179,7 +179,7 @@ void deleting_question(const Ui& ui) {
     const std::string file = (work->session.empty() ? work->cloud : work->session).filename().string();
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(
-        (counted(work->acts, "recorded step") + " on " + file + " will be gone for good.").c_str());
+        (counted(work->steps, "recorded step") + " on " + file + " will be gone for good.").c_str());
     ImGui::PopTextWrapPos();
     ImGui::Dummy({0, ui.scaled(8)});
     const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;

@@ -7,11 +7,15 @@
 
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace knead {
 
 namespace {
+
+// Longer ones end in dots.
+constexpr float longest_name = 190;
 
 struct Name {
     std::size_t handle = 0;
@@ -37,9 +41,10 @@ std::optional<Name> name_of(const Ui& ui, std::size_t number) {
     const auto projected = project(ui.editor.camera, ui.editor.viewport, *middle);
     if (!projected) return std::nullopt;
     const ImVec2 at = in_window(ui, projected->pixel), size = ImGui::CalcTextSize(handle.name.c_str());
+    const float shown = std::min(std::ceil(size.x), ui.scaled(longest_name));
     Name name{number, {}};
     name.label.anchor = {static_cast<double>(at.x), static_cast<double>(at.y)};
-    name.label.size = {static_cast<double>(size.x + icon_size(ui) + ui.scaled(19)),
+    name.label.size = {static_cast<double>(shown + icon_size(ui) + ui.scaled(19)),
                        static_cast<double>(size.y + ui.scaled(6))};
     // The chosen one's stands above its gizmo.
     const std::optional<Gizmo> gizmo = chosen ? gizmo_of(ui.editor) : std::nullopt;
@@ -95,8 +100,9 @@ void draw_name(const Ui& ui, ImDrawList& list, const Name& name, const PlacedLab
     list.AddRectFilled(corner, opposite, palette::rgb(0x15171a, chosen ? 225 : 165), height / 2);
     if (chosen) list.AddRect(corner, opposite, palette::accent, height / 2, 0, ui.scaled(1.2f));
     draw_icon(list, icon_of(handle.role), {corner.x + across + icon / 2, corner.y + height / 2}, icon, color);
-    list.AddText({corner.x + across + icon + ui.scaled(5), corner.y + ui.scaled(3)}, palette::text,
-                 handle.name.c_str());
+    const float end = opposite.x - across;
+    ImGui::RenderTextEllipsis(&list, {corner.x + across + icon + ui.scaled(5), corner.y + ui.scaled(3)},
+                              {end, opposite.y}, end, end, handle.name.c_str(), nullptr, nullptr);
 }
 
 } // namespace

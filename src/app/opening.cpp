@@ -90,8 +90,8 @@ void draw_recovery(const Ui& ui) {
     ImGui::Indent(ui.scaled(30));
     ImGui::TextUnformatted("knead ended without saving");
     const bool is_saved = !work.session.empty();
-    faint_text((work.acts == 1 ? "There is " : "There are ") + counted(work.acts, "recorded step") + " on " +
-               (is_saved ? work.session : work.cloud).filename().string() +
+    faint_text((work.steps == 1 ? "There is " : "There are ") + counted(work.steps, "recorded step") +
+               " on " + (is_saved ? work.session : work.cloud).filename().string() +
                (is_saved ? " after it was saved last" : " that no session file has") +
                ". Restoring brings back everything up to the last finished one.");
     ImGui::Unindent(ui.scaled(30));

@@ -28,8 +28,6 @@ struct ColoredBy {
 struct Scene::State {
     PointRenderer renderer;
     // As handed to the renderer last.
-    std::vector<std::uint8_t> marks; // as drawn
-    bool tints = true;               // handles are tinted
     std::optional<ColoredBy> colored;
     bool parts_known = false;
     std::shared_ptr<const std::vector<float>> spacings;
@@ -50,7 +48,7 @@ struct Scene::State {
     void upload(const PosedFrame& frame);
     bool move_where_drawn(const PosedFrame& frame, UiState& state);
     bool can_draw_drags(const Editor& editor, const Display& display) const;
-    void take_marks(const Editor& editor, const Display& display);
+    void take_marks(const Editor& editor);
     void take_looks(const Editor& editor, const UiState& state);
     void take_spacings(const DocumentView& document);
     void take_colors(Editor& editor, UiState& state);
@@ -74,26 +72,32 @@ HandleLook::Pattern pattern_of(HandleRole role) {
     }
 }
 
+// Where the points' colours tell a value, a tint would tell another: handles are told by their patterns
+// alone.
+HandleLook without_tint(HandleLook look) {
+    look.share = 0;
+    if (look.pattern == HandleLook::Pattern::solid) look.pattern = HandleLook::Pattern::stripes_and_dots;
+    return look;
+}
+
 std::vector<HandleLook> looks_of(const Editor& editor, const UiState& state) {
+    const Coloring coloring = state.display.coloring;
+    const bool tells_value = tells_number(coloring) || coloring == Coloring::parts;
     std::vector<HandleLook> looks;
     for (const Handle& handle : editor.document->handles) {
         const ImVec4 color = as_vector(handle_color(state.handle_colors, handle));
-        looks.push_back({{color.x, color.y, color.z}, pattern_of(handle.role)});
+        const HandleLook look{{color.x, color.y, color.z}, pattern_of(handle.role)};
+        looks.push_back(tells_value ? without_tint(look) : look);
     }
     return looks;
-}
-
-bool same(const std::vector<HandleLook>& a, const std::vector<HandleLook>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const HandleLook& x, const HandleLook& y) {
-        return x.color == y.color && x.pattern == y.pattern;
-    });
 }
 
 } // namespace
 
 void Scene::State::begin_cloud(const Editor& editor, Display& display) {
-    if (display.coloring == Coloring::attribute) // of the cloud before
-        display.coloring = Coloring::file;
+    // What the colours told was of the cloud before.
+    display.coloring = Display().coloring;
+    display.automatic_range = true;
     drawn = std::make_unique<DrawnPoints>(); // the buffers become others
     drawn_is_newest = false;
     renderer.set_points(editor.marks.size(), editor.opened.spacing);
@@ -154,20 +158,13 @@ bool Scene::State::can_draw_drags(const Editor& editor, const Display& display) 
            !estimated.made_in_motion(editor, display.look.shading);
 }
 
-void Scene::State::take_marks(const Editor& editor, const Display& display) {
-    // Where colours tell a value, a handle's tint would tell another.
-    const bool tint = !tells_number(display.coloring) && display.coloring != Coloring::parts;
-    if (!editor.changes.cloud && !editor.changes.marks && tint == tints) return;
-    tints = tint;
-    marks = editor.marks;
-    if (!tints)
-        for (std::uint8_t& mark : marks) mark = static_cast<std::uint8_t>(mark & ~mark_handle);
-    renderer.set_marks(marks);
+void Scene::State::take_marks(const Editor& editor) {
+    if (editor.changes.cloud || editor.changes.marks) renderer.set_marks(editor.marks);
 }
 
 void Scene::State::take_looks(const Editor& editor, const UiState& state) {
     std::vector<HandleLook> now = looks_of(editor, state);
-    if (same(now, looks)) return;
+    if (now == looks) return;
     looks = std::move(now);
     renderer.set_handle_looks(looks);
 }
@@ -215,7 +212,7 @@ void Scene::take_in(Editor& editor, UiState& state) {
     State& own = *state_;
     if (editor.changes.cloud) own.begin_cloud(editor, state.display);
     if (editor.changes.cloud || editor.changes.positions) own.take_positions(editor, state);
-    own.take_marks(editor, state.display);
+    own.take_marks(editor);
     editor.changes = {false, false, false};
     own.take_looks(editor, state);
     own.take_spacings(*editor.document);

@@ -93,19 +93,19 @@ std::string words_about(const SampleChoice& choice) {
     return choice.samples ? counted(*choice.samples, "sample") : "Every point a sample";
 }
 
-// What decided an automatic number.
+// What decided an automatic number, in one line of the panel.
 const char* reason_for(const SampleChoice& choice) {
     switch (choice.reason) {
     case SampleReason::few_points:
-        return "There are no more points than that.";
+        return "There are no more points";
     case SampleReason::points:
-        return "They are a good part of the points.";
+        return "A good part of the points";
     case SampleReason::enough:
-        return "More would hardly show.";
+        return "More would hardly show";
     case SampleReason::handles:
-        return "The handles are small, many or close together.";
+        return "As many as the handles ask for";
     default:
-        return "That many this machine moves at 40 frames a second.";
+        return "What this machine moves live";
     }
 }
 
@@ -153,8 +153,7 @@ void samples_slider(const Ui& ui, const Settings& settings) {
     // One line whatever it says: nothing below it is to jump.
     const char* const when =
         ui.editor.document->posed ? " from the next commit on" : " from the next edit on";
-    faint_text(words_about(suited) + (waits ? when : ""));
-    explain(reason_for(suited));
+    faint_text(waits ? words_about(suited) + when : reason_for(suited));
 }
 
 void iterations_slider(const Ui& ui, const Settings& settings) {
@@ -218,18 +217,13 @@ void strays_choice(const Ui& ui, const Settings& settings) {
     ImGui::EndCombo();
 }
 
+// What is in parts, and what becomes of those that no handle holds.
 void what_there_is(const Ui& ui) {
     const DocumentView& document = *ui.editor.document;
     std::string words;
-    const auto& asked = document.settings.samples;
-    // sample_choice() has said the other.
-    const bool is_said = ui.editor.chooses_samples && document.samples == document.suited.samples;
-    if (document.samples > 0 && !is_said) words = counted(document.samples, "sample");
-    if (asked && document.samples > *asked)
-        words = counted(*asked, "sample") + " asked, " + grouped(document.samples) + " used";
     const std::size_t parts = document.components ? document.components->size.size() : 0;
-    if (parts > 1) words += (words.empty() ? "" : ", ") + grouped(parts) + " connected parts";
-    if (document.strays.parts > 0)
+    if (parts > 1) words = grouped(parts) + " connected parts";
+    if (document.strays.parts > 0 && !document.handles.empty())
         words += (words.empty() ? "" : "\n") + counted(document.strays.parts, "part") + " (" +
                  counted(document.strays.points, "point") + ") without a handle: " +
                  (document.strays.fate == Strays::freeze ? "at rest" : "carried along");

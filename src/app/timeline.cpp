@@ -166,6 +166,8 @@ void close_timeline(const Ui& ui) {
 
 void play_on(const Ui& ui) {
     Playback& playback = ui.state.playback;
+    // Who redoes a step while they look back goes on looking.
+    if (!playback.wanted && looks_back(ui.editor)) playback.position = playback_position(ui.editor);
     if (!can_play(ui.editor) || (playback.playing && was_left(ui))) {
         playback.playing = false;
         playback.wanted.reset();

@@ -311,6 +311,11 @@ void carry_out(Editor& editor, const ChooseSamples& command) {
 
 void carry_out(Editor& editor, const CommitPose& /*command*/) {
     if (!needs_document(editor) || editor.drag) return;
+    if (editor.status.playing)
+        return say(
+            editor, Notice::Kind::information,
+            "This is the middle of a step, and a commit takes its end. Play on to there first (Space, or "
+            "Right frame by frame).");
     if (!editor.document->posed)
         return say(editor, Notice::Kind::information, "Nothing is posed, so there is nothing to commit.");
     post_step(editor, {CommitLine{}});

@@ -103,9 +103,11 @@ void go_forward(Editor& editor, Redo&& redo) {
 
 } // namespace
 
+// Whoever looks back goes on looking, until they are where that began.
 void carry_out(Editor& editor, const RedoStep& command) {
     if (command.to_look && can_redo(editor)) begin_looking(editor);
-    go_forward(editor, [&](StepNumber step) { editor.live->redo(step, command.to_look); });
+    const bool to_look = command.to_look || looks_back(editor);
+    go_forward(editor, [&](StepNumber step) { editor.live->redo(step, to_look); });
     if (!command.to_look && !looks_back(editor)) editor.looks_from.reset();
 }
 

@@ -76,7 +76,7 @@ std::optional<LostWork> look_at(const std::filesystem::path& file) {
         }
         const Session session = parse_session(mended(text, file).text, file);
         const JournalFacts facts = read_journal_facts(file);
-        if (const std::size_t lost = lost_lines(session.lines, facts.saved_lines); lost > 0)
+        if (const std::size_t lost = lost_steps(session.lines, facts.saved_lines); lost > 0)
             return LostWork{file, session.resolve(session.cloud), facts.session, lost,
                             std::filesystem::last_write_time(file)};
         remove_journal(file);

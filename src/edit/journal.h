@@ -54,7 +54,7 @@ struct LostWork {
     std::filesystem::path journal;
     std::filesystem::path cloud;
     std::filesystem::path session; // as which it was saved last, or opened; empty: never
-    std::size_t acts = 0;          // that are not in that file
+    std::size_t steps = 0;         // that are not in that file, lost_steps() of edit/journal_facts.h
     std::filesystem::file_time_type when;
 };
 // Journals of `folder` that hold what is saved nowhere and that no running knead has open, newest first.

@@ -18,6 +18,38 @@ bool is_act(const SessionLine& line) {
            !std::holds_alternative<CheckLine>(line.action);
 }
 
+struct Act {
+    std::uint64_t number = 0; // from 1
+    bool settles = false;     // what a drag did, as a part of that
+};
+
+// What lines lead to.
+struct Acts {
+    std::vector<Act> done, undone;
+    std::uint64_t count = 0; // of all that there ever were
+};
+
+Acts acts_after(std::span<const SessionLine> lines, std::size_t count) {
+    Acts acts;
+    const auto move_last = [](std::vector<Act>& from, std::vector<Act>& to) {
+        if (from.empty()) return;
+        to.push_back(from.back());
+        from.pop_back();
+    };
+    for (const SessionLine& line : lines.first(std::min(count, lines.size()))) {
+        if (std::holds_alternative<UndoLine>(line.action)) move_last(acts.done, acts.undone);
+        if (std::holds_alternative<RedoLine>(line.action)) move_last(acts.undone, acts.done);
+        if (!is_act(line)) continue;
+        acts.done.push_back({++acts.count, std::holds_alternative<SettleLine>(line.action)});
+        acts.undone.clear();
+    }
+    return acts;
+}
+
+std::uint64_t last_of(const Acts& acts) {
+    return acts.done.empty() ? 0 : acts.done.back().number;
+}
+
 nlohmann::ordered_json json_of(const FileStamp& stamp) {
     return {stamp.device, stamp.inode, stamp.size, stamp.seconds, stamp.nanoseconds};
 }
@@ -69,28 +101,17 @@ JournalFacts read_journal_facts(const std::filesystem::path& journal) {
 }
 
 std::uint64_t state_after(std::span<const SessionLine> lines, std::size_t count) {
-    std::vector<std::uint64_t> done, undone;
-    std::uint64_t acts = 0;
-    const auto move_last = [](std::vector<std::uint64_t>& from, std::vector<std::uint64_t>& to) {
-        if (from.empty()) return;
-        to.push_back(from.back());
-        from.pop_back();
-    };
-    for (const SessionLine& line : lines.first(std::min(count, lines.size()))) {
-        if (std::holds_alternative<UndoLine>(line.action)) move_last(done, undone);
-        if (std::holds_alternative<RedoLine>(line.action)) move_last(undone, done);
-        if (!is_act(line)) continue;
-        done.push_back(++acts);
-        undone.clear();
-    }
-    return done.empty() ? 0 : done.back();
+    return last_of(acts_after(lines, count));
 }
 
-std::size_t lost_lines(std::span<const SessionLine> lines, std::size_t saved_lines) {
-    const std::span<const SessionLine> unsaved = lines.subspan(std::min(saved_lines, lines.size()));
-    const bool came_back = std::ranges::none_of(unsaved, is_act) &&
-                           state_after(lines, saved_lines) == state_after(lines, lines.size());
-    return came_back ? 0 : unsaved.size();
+std::size_t lost_steps(std::span<const SessionLine> lines, std::size_t saved_lines) {
+    saved_lines = std::min(saved_lines, lines.size());
+    const Acts saved = acts_after(lines, saved_lines), all = acts_after(lines, lines.size());
+    if (saved.count == all.count && last_of(saved) == last_of(all)) return 0;
+    const auto is_new_step = [&](const Act& act) { return act.number > saved.count && !act.settles; };
+    const auto steps =
+        std::ranges::count_if(all.done, is_new_step) + std::ranges::count_if(all.undone, is_new_step);
+    return std::max<std::size_t>(1, static_cast<std::size_t>(steps));
 }
 
 } // namespace knead

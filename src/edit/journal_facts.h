@@ -34,8 +34,9 @@ JournalFacts read_journal_facts(const std::filesystem::path& journal);
 // that is not undone, from 1; 0 at the beginning.
 std::uint64_t state_after(std::span<const SessionLine> lines, std::size_t count);
 
-// How many of the lines that are not saved are worth restoring: none, if they only led away from what was
-// saved and back to it.
-std::size_t lost_lines(std::span<const SessionLine> lines, std::size_t saved_lines);
+// How much of a recording that only grows is worth restoring beyond the lines that are saved, for the user:
+// acts that are not saved, done or to be redone, without what a drag settled; 1 where going back or forth is
+// all that is new. Nothing, if the lines only led away from what was saved and back to it.
+std::size_t lost_steps(std::span<const SessionLine> lines, std::size_t saved_lines);
 
 } // namespace knead

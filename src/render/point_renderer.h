@@ -38,9 +38,13 @@ struct PointLook {
 
 // How the points of a handle look: tinted, and told apart by more than colour.
 struct HandleLook {
-    enum class Pattern { solid, stripes, dots };
+    enum class Pattern { solid, stripes, dots, stripes_and_dots };
     glm::vec3 color{1.0f};
     Pattern pattern = Pattern::solid;
+    // Of the colour in the points' own. As it is, enough to tell handles apart, and little enough to see the
+    // file's colours through it; 0 leaves colours that tell a value what they are.
+    float share = 0.42f;
+    bool operator==(const HandleLook&) const = default;
 };
 
 // Lines and points over the cloud, hidden where the cloud is nearer. `rgba`: bytes r, g, b, a in memory.

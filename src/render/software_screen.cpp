@@ -122,7 +122,7 @@ KNEAD_INLINE void add_patterns(const Eight& at, const ScreenPass& pass, Colors& 
     const Floats sum = fraction((px + py) / 9.0f), difference = fraction((px - py) / 9.0f);
     const Floats stripe = sum < 0.5f ? splat_of(0.58f) : splat_of(1);
     const Floats away = (sum - 0.5f) * (sum - 0.5f) + (difference - 0.5f) * (difference - 0.5f);
-    const Floats dotted = away < 0.075f ? splat_of(1) : splat_of(0.55f);
+    const Floats dotted = away < 0.075f ? splat_of(0.55f) : splat_of(1);
     const Mask selected = (bits & 8U) != 0U;
     Floats lit = (bits & 2U) != 0U ? stripe : splat_of(1);
     lit = (bits & 4U) != 0U ? lit * dotted : lit;

@@ -9,9 +9,8 @@ namespace {
 
 constexpr std::size_t distinct_handles = mark_handle; // 0 is none
 
-// Of a handle's tint: enough to tell handles apart, and little enough to see the file's colours through it.
-// The selection may hide them: it does not stay.
-constexpr float handle_share = 0.42f, selection_share = 0.8f;
+// It may hide the file's colours: it does not stay.
+constexpr float selection_share = 0.8f;
 
 // A colour is mixed with another: its own share is (256 - share) / 256, and what it lends of its brightness.
 struct Tint {
@@ -36,15 +35,25 @@ std::uint32_t mixed(std::uint32_t rgb, const Tint& tint) {
     return r | g << 8U | b << 16U;
 }
 
+std::uint32_t bits_of(HandleLook::Pattern pattern) {
+    switch (pattern) {
+    case HandleLook::Pattern::solid:
+        return 0;
+    case HandleLook::Pattern::stripes:
+        return tint_stripes;
+    case HandleLook::Pattern::dots:
+        return tint_dots;
+    default:
+        return tint_stripes | tint_dots;
+    }
+}
+
 // One for every value of the lower six bits of a mark.
 std::array<Tint, 1 + distinct_handles> handle_tints(std::span<const HandleLook> looks) {
     std::array<Tint, 1 + distinct_handles> tints;
     for (std::size_t i = 0; i < distinct_handles && !looks.empty(); ++i) {
         const HandleLook& look = looks[i % looks.size()];
-        const std::uint32_t bits = look.pattern == HandleLook::Pattern::stripes ? tint_stripes
-                                   : look.pattern == HandleLook::Pattern::dots  ? tint_dots
-                                                                                : 0;
-        tints[1 + i] = tint_of(look.color, handle_share, bits);
+        tints[1 + i] = tint_of(look.color, look.share, bits_of(look.pattern));
     }
     return tints;
 }

@@ -62,13 +62,21 @@ TEST(JournalFacts, AStateIsTheSameAfterGoingBackAndForth) {
 }
 
 TEST(JournalFacts, WhatLedBackToWhatIsSavedIsNotLost) {
-    EXPECT_EQ(lost_lines(lines({act, act}), 2), 0U);
-    EXPECT_EQ(lost_lines(lines({act, act, undo, redo}), 2), 0U);
-    EXPECT_EQ(lost_lines(lines({act, act, undo}), 2), 1U);
-    EXPECT_EQ(lost_lines(lines({act, act, act, undo}), 2), 2U) << "it could be redone";
-    EXPECT_EQ(lost_lines(lines({act, undo}), 0), 2U) << "and so could this";
-    EXPECT_EQ(lost_lines(lines({act}), 5), 0U);
-    EXPECT_EQ(lost_lines({}, 0), 0U);
+    EXPECT_EQ(lost_steps(lines({act, act}), 2), 0U);
+    EXPECT_EQ(lost_steps(lines({act, act, undo, redo}), 2), 0U);
+    EXPECT_EQ(lost_steps(lines({act, act, CheckLine{}}), 2), 0U);
+    EXPECT_EQ(lost_steps(lines({act, act, undo}), 2), 1U) << "one that was taken back";
+    EXPECT_EQ(lost_steps(lines({act}), 5), 0U);
+    EXPECT_EQ(lost_steps({}, 0), 0U);
+}
+
+TEST(JournalFacts, LostStepsAreThoseThatAUserCounts) {
+    EXPECT_EQ(lost_steps(lines({act, act, act, undo}), 2), 1U) << "it could be redone";
+    EXPECT_EQ(lost_steps(lines({act, undo}), 0), 1U) << "and so could this";
+    EXPECT_EQ(lost_steps(lines({act, undo, act, undo, act}), 0), 1U) << "the last is all there is";
+    EXPECT_EQ(lost_steps(lines({act, undo, redo, undo, redo, undo, redo, act, act}), 1), 2U);
+    EXPECT_EQ(lost_steps(lines({act, DragLine{}, SettleLine{}, DragLine{}, SettleLine{}}), 1), 2U);
+    EXPECT_EQ(lost_steps(lines({act, SettleLine{}}), 1), 1U);
 }
 
 } // namespace knead::test

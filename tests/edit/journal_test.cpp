@@ -71,7 +71,7 @@ TEST(Journal, IsFoundOnceNobodyHasItOpen) {
     }
     const std::vector<LostWork> lost = find_lost_work(folder.path());
     ASSERT_EQ(lost.size(), 1U);
-    EXPECT_EQ(lost[0].acts, 1U);
+    EXPECT_EQ(lost[0].steps, 1U);
     EXPECT_EQ(lost[0].cloud, "/somewhere/cat.ply");
 }
 
@@ -97,14 +97,14 @@ TEST(Journal, ALineThatWasCutShortIsDropped) {
 
 TEST(Journal, ALastLineThatOnlyLacksItsEndIsKept) {
     const ScratchFolder folder;
-    const std::filesystem::path file = abandoned(folder, R"({"op":"settle","iterations":3})");
+    const std::filesystem::path file = abandoned(folder, R"({"op":"set","iterations":3})");
     const std::vector<LostWork> lost = find_lost_work(folder.path());
     ASSERT_EQ(lost.size(), 1U);
-    EXPECT_EQ(lost[0].acts, 2U);
+    EXPECT_EQ(lost[0].steps, 2U);
     Journal journal = Journal::take_over(file);
     journal.append(commit);
     EXPECT_EQ(read_text(file), std::string(header) + "\n" + commit + "\n" +
-                                   R"({"op":"settle","iterations":3})" + "\n" + commit + "\n");
+                                   R"({"op":"set","iterations":3})" + "\n" + commit + "\n");
 }
 
 TEST(Journal, IsMendedWhereverACrashCutIt) {

@@ -35,7 +35,7 @@ TEST_F(LiveBar, WhatACrashLeavesIsRestored) {
     }
     const std::vector<LostWork> lost = find_lost_work(state);
     ASSERT_EQ(lost.size(), 1U);
-    EXPECT_EQ(lost[0].acts, 4U); // two handles, the drag, its settling
+    EXPECT_EQ(lost[0].steps, 3U); // two handles, the drag with its settling
     EXPECT_EQ(lost[0].cloud, folder_ / "bar.ply");
 
     OpenRequest restore = request_for({});
@@ -116,7 +116,7 @@ TEST_F(LiveBar, OnlyWhatIsNotSavedIsOfferedForRestoring) {
     const std::vector<LostWork> lost = find_lost_work(state);
     ASSERT_EQ(lost.size(), 1U);
     EXPECT_EQ(read_session(lost[0].journal).lines.size(), 4U) << "it holds everything from the beginning";
-    EXPECT_EQ(lost[0].acts, 1U) << "of which the last is not in the session";
+    EXPECT_EQ(lost[0].steps, 1U) << "of which the last is not in the session";
     EXPECT_EQ(lost[0].session, folder_ / "c.knead");
 }
 
@@ -254,7 +254,7 @@ TEST_F(LiveBar, WorkIsNotRestoredOnACloudThatWasWrittenToSince) {
     const std::vector<LostWork> lost = find_lost_work(state);
     ASSERT_EQ(lost.size(), 1U);
     EXPECT_EQ(lost[0].cloud, copy);
-    EXPECT_EQ(lost[0].acts, 2U);
+    EXPECT_EQ(lost[0].steps, 2U);
     restore.restore = lost[0].journal;
     restore.cloud.reset();
     LiveDocument again(restore);

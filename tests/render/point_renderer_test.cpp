@@ -138,10 +138,20 @@ TEST_P(Drawing, handles_are_told_apart_without_colour) {
     flat.pixels = 60;
     using Pattern = HandleLook::Pattern;
     const glm::vec3 color(0.2f, 0.6f, 1.0f);
-    renderer->set_handle_looks(
-        std::vector<HandleLook>{{color, Pattern::solid}, {color, Pattern::stripes}, {color, Pattern::dots}});
+    renderer->set_handle_looks(std::vector<HandleLook>{{color, Pattern::solid},
+                                                       {color, Pattern::stripes},
+                                                       {color, Pattern::dots},
+                                                       {color, Pattern::stripes_and_dots}});
+    const auto brightness = [&](const std::vector<Pixel>& picture) {
+        const glm::ivec2 middle(project(camera, screen, {0, 0, 0})->pixel);
+        double sum = 0;
+        for (int y = -18; y <= 18; ++y)
+            for (int x = -18; x <= 18; ++x)
+                sum += at(picture, screen, glm::vec2(middle + glm::ivec2(x, y)))[2];
+        return sum;
+    };
     std::vector<std::vector<Pixel>> pictures;
-    for (std::size_t handle = 0; handle < 3; ++handle) {
+    for (std::size_t handle = 0; handle < 4; ++handle) {
         renderer->set_marks(std::vector{handle_mark(handle)});
         pictures.push_back(draw(camera, screen, flat));
         const Pixel middle = at(pictures.back(), screen, project(camera, screen, {0, 0, 0})->pixel);
@@ -150,8 +160,26 @@ TEST_P(Drawing, handles_are_told_apart_without_colour) {
     EXPECT_NE(pictures[0], pictures[1]);
     EXPECT_NE(pictures[1], pictures[2]);
     EXPECT_NE(pictures[0], pictures[2]);
+    for (std::size_t handle = 0; handle < 3; ++handle) EXPECT_NE(pictures[3], pictures[handle]);
+    // Half are stripes, a quarter dots.
+    const double solid = brightness(pictures[0]);
+    EXPECT_NEAR(brightness(pictures[1]), 0.79 * solid, 0.03 * solid);
+    EXPECT_NEAR(brightness(pictures[2]), 0.89 * solid, 0.03 * solid);
     renderer->set_marks(std::vector{handle_mark(63)}); // looks are used again
     EXPECT_EQ(draw(camera, screen, flat), pictures[0]);
+}
+
+TEST_P(Drawing, a_handle_without_a_tint_keeps_the_colours) {
+    const Camera camera = some_camera(false);
+    put(std::vector<float>{0, 0, 0}, std::vector{rgba(90, 120, 200)});
+    flat.pixels = 60;
+    const std::vector<Pixel> plain = draw(camera, screen, flat);
+    renderer->set_marks(std::vector{handle_mark(0)});
+    renderer->set_handle_looks(std::vector<HandleLook>{{glm::vec3(1, 0, 0), HandleLook::Pattern::solid, 0}});
+    EXPECT_EQ(draw(camera, screen, flat), plain);
+    renderer->set_handle_looks(
+        std::vector<HandleLook>{{glm::vec3(1, 0, 0), HandleLook::Pattern::stripes, 0}});
+    EXPECT_NE(draw(camera, screen, flat), plain);
 }
 
 TEST_P(Drawing, a_budget_is_kept_and_the_rest_follows) {

@@ -17,14 +17,17 @@ namespace {
 // How long the cursor has to rest before an explanation comes, in seconds.
 constexpr float patience = 0.4f;
 
-// Of what stands in a panel at the right side, beside that panel: at the cursor it would hide what comes
-// next.
+// Of what stands in a panel at the right side beside that panel, at the lower edge above it: at the cursor it
+// would hide what comes next. The farther right or down it is, the more of it is on the other side of there,
+// so that none goes over the edge.
 void place_explanation() {
-    const ImVec2 panel = ImGui::GetWindowPos(), item = ImGui::GetItemRectMin();
+    const ImVec2 panel = ImGui::GetWindowPos(), item = ImGui::GetItemRectMin(), cursor = ImGui::GetMousePos();
     const ImVec2 all = ImGui::GetIO().DisplaySize;
-    if (panel.x < all.x / 2 || all.y <= 0) return;
-    // The lower it is, the more of it is above: none goes over the edge.
-    ImGui::SetNextWindowPos(ImVec2(panel.x - 6, item.y), ImGuiCond_Always, ImVec2(1, item.y / all.y));
+    constexpr float gap = 6;
+    if (panel.x > all.x / 2)
+        ImGui::SetNextWindowPos({panel.x - gap, item.y}, ImGuiCond_Always, {1, item.y / all.y});
+    else if (panel.y > 0.8f * all.y)
+        ImGui::SetNextWindowPos({cursor.x, panel.y - gap}, ImGuiCond_Always, {cursor.x / all.x, 1});
 }
 
 } // namespace

@@ -46,10 +46,10 @@ void end_band(const Hand& hand) {
         select_region(hand, ScreenBox{tools.pressed, tools.cursor});
     else if (tools.moved && tools.select == SelectTool::lasso)
         select_region(hand, ScreenPolygon{tools.band});
-    else if (tools.moved && tools.select == SelectTool::brush)
-        select_region(hand, ScreenStroke{tools.band, tools.brush_radius});
     else if (!tools.moved && tools.clicks == 2)
         hand.tell(SetPivotUnder{tools.pressed});
+    else if (tools.select == SelectTool::brush) // a click is a dab
+        select_region(hand, ScreenStroke{tools.band, tools.brush_radius});
     else
         hand.tell(SelectPointUnder{tools.pressed, tools.band_mode});
     drop_band(tools);

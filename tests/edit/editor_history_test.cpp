@@ -180,6 +180,23 @@ TEST_F(BarEditor, WhoeverLooksBackLosesNothingByAnAct) {
     EXPECT_FALSE(can_redo(editor_)) << "who takes a step back means it";
 }
 
+TEST_F(BarEditor, WhoeverRedoesAStepWhileLookingBackGoesOnLooking) {
+    make_handles();
+    turn_chosen("40");
+    save_session(editor_, folder_ / "a.knead", false);
+    calm();
+    const std::size_t home = editor_.past.size();
+    for (int step = 0; step < 2; ++step) apply(editor_, UndoStep{.to_look = true});
+    apply(editor_, RedoStep{});
+    calm();
+    EXPECT_TRUE(looks_back(editor_));
+    EXPECT_EQ(editor_.looks_from, home) << "where looking ends";
+    apply(editor_, RedoStep{.to_look = true});
+    calm();
+    EXPECT_FALSE(looks_back(editor_));
+    EXPECT_FALSE(has_unsaved_session(editor_));
+}
+
 TEST_F(BarEditor, WhoeverIsBackFromLookingGoesOnThoughThereIsSomethingToRedo) {
     make_handles();
     turn_chosen("40");
@@ -240,6 +257,11 @@ TEST_F(BarEditor, PlayingAStepIsDoingItAgain) {
     }));
     EXPECT_EQ(editor_.status.playing->handle, "high");
     EXPECT_FALSE(can_redo(editor_));
+    const std::size_t steps = editor_.past.size();
+    apply(editor_, CommitPose{});
+    EXPECT_EQ(editor_.past.size(), steps) << "it would take another pose than is shown";
+    ASSERT_FALSE(editor_.notices.empty());
+    EXPECT_NE(editor_.notices.back().words.find("middle of a step"), std::string::npos);
     apply(editor_, PacePlaying{4, false});
     calm();
     EXPECT_EQ(editor_.frame.positions, turned);

@@ -7,8 +7,8 @@ namespace {
 
 using namespace test;
 
-TEST(SelectTools, AClickIsAClickWithEveryTool) {
-    for (const SelectTool tool : {SelectTool::click, SelectTool::box, SelectTool::lasso, SelectTool::brush}) {
+TEST(SelectTools, AClickIsAClickWithEveryToolThatDrawsAnOutline) {
+    for (const SelectTool tool : {SelectTool::click, SelectTool::box, SelectTool::lasso}) {
         Bench bench;
         bench.tools.select = tool;
         bench.drag({{100, 50}, {102, 52}, {101, 50}});
@@ -20,6 +20,24 @@ TEST(SelectTools, AClickIsAClickWithEveryTool) {
         EXPECT_EQ(bench.all<SelectPointUnder>()[1].mode, SelectMode::add);
         EXPECT_EQ(bench.all<SelectPointUnder>()[2].mode, SelectMode::remove);
     }
+}
+
+TEST(SelectTools, AClickOfTheBrushTakesWhatIsInItsCircle) {
+    Bench bench;
+    bench.hit('K');
+    bench.click({100, 50});
+    bench.click({9, 9}, shift);
+    bench.click({9, 9}, ctrl);
+    const std::vector<SelectRegion> dabs = bench.all<SelectRegion>();
+    ASSERT_EQ(dabs.size(), 3U);
+    const auto& stroke = std::get<ScreenStroke>(dabs[0].region);
+    EXPECT_EQ(stroke.radius, bench.tools.brush_radius);
+    EXPECT_EQ(stroke.path, std::vector{glm::dvec2(100, 50)});
+    EXPECT_TRUE(contains(stroke, {100 + 0.9 * stroke.radius, 50}));
+    EXPECT_FALSE(contains(stroke, {100 + 1.1 * stroke.radius, 50}));
+    EXPECT_EQ(dabs[0].mode, SelectMode::replace);
+    EXPECT_EQ(dabs[1].mode, SelectMode::add);
+    EXPECT_EQ(dabs[2].mode, SelectMode::remove);
 }
 
 TEST(SelectTools, ADoubleClickSetsThePivot) {

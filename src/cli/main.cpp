@@ -68,6 +68,18 @@ bool is_missing(const std::string& word) {
     return true;
 }
 
+// An option whose value is an empty word is a mistake, of a script most likely: none takes it for not given.
+void refuse_empty_values(CLI::App& app) {
+    const CLI::Validator not_empty(
+        [](const std::string& value) {
+            return value.empty() ? std::string("must not be empty") : std::string();
+        },
+        "");
+    for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        for (CLI::Option* option : command->get_options())
+            if (option->get_items_expected_max() > 0) option->check(not_empty);
+}
+
 // Has each thread of PoCL's stay on a core of its own, unless the user said otherwise: left alone, two that
 // are woken together often share one for a whole frame, which then takes twice as long. They would be
 // numbered from core 0, so all of these have to be ours. Before there is any other thread.
@@ -102,6 +114,8 @@ int main(int argc, char** argv) {
     knead::add_bench(app, job);
     knead::add_evaluate(app, job);
     knead::add_render(app, job);
+
+    refuse_empty_values(app);
 
     // `knead FILE`, `knead --size 800x600 FILE` and `knead` alone are `knead edit` with the same.
     std::vector<std::string> arguments(argv + std::min(1, argc), argv + argc);

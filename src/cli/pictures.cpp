@@ -50,7 +50,7 @@ struct PictureMaker::State {
         return look;
     }
 
-    void begin(const PictureShape& shape);
+    void begin(const PictureShape& shape, Progress& progress);
     void take_normals(const PictureShape& shape);
     void estimate_normals(const PictureShape& shape);
     void take_colors(const PictureShape& shape);
@@ -58,15 +58,15 @@ struct PictureMaker::State {
 
 // The camera, and what stays the same from picture to picture. Neighbours are those of the shape as opened,
 // so that what only touches when posed stays apart.
-void PictureMaker::State::begin(const PictureShape& shape) {
+void PictureMaker::State::begin(const PictureShape& shape, Progress& progress) {
     if (options.color == "rgb" && !has_colors(shape.cloud))
         throw Error(Trouble::usage, "",
                     "--color rgb: the cloud has no colours of its own; leave it out to see the shape alone");
     camera = camera_for(options, shape.positions, viewport);
     camera->distance *= room;
     color.up = camera->up;
-    SilentProgress quiet;
-    graph = neighbor_graph(vertex_positions(shape.order, shape.opened, workers), neighbors, workers, quiet);
+    graph =
+        neighbor_graph(vertex_positions(shape.order, shape.opened, workers), neighbors, workers, progress);
     renderer.set_points(shape.positions.size() / 3, usual_spacing(shape.opened));
     renderer.set_spacings(spacing_of_points(shape.order, graph, shape.opened, workers));
 }
@@ -113,13 +113,17 @@ PictureMaker::PictureMaker(const PictureOptions& options, Workers& workers, doub
 
 PictureMaker::~PictureMaker() = default;
 
-void PictureMaker::draw(const PictureShape& shape) {
+void PictureMaker::draw(const PictureShape& shape, Progress& progress) {
     State& s = *state_;
-    if (!s.camera) s.begin(shape);
+    if (!s.camera) s.begin(shape, progress);
     s.renderer.set_positions(shape.positions);
+    progress.stop_if_cancelled();
     s.take_normals(shape);
+    progress.stop_if_cancelled();
     s.take_colors(shape);
+    progress.step("drawing", 0);
     s.picture = draw_picture(s.renderer, *s.camera, s.viewport, s.look);
+    progress.stop_if_cancelled();
 }
 
 void PictureMaker::write(const std::filesystem::path& path) const {
@@ -143,7 +147,7 @@ PictureMaker::PictureMaker(const PictureOptions& /*options*/, Workers& /*workers
                 "this knead was built without OpenGL (KNEAD_EDITOR=OFF) and draws no pictures");
 }
 PictureMaker::~PictureMaker() = default;
-void PictureMaker::draw(const PictureShape& /*shape*/) {}
+void PictureMaker::draw(const PictureShape& /*shape*/, Progress& /*progress*/) {}
 void PictureMaker::write(const std::filesystem::path& /*path*/) const {}
 void PictureMaker::write(FileInTheMaking& /*file*/) const {}
 

@@ -56,8 +56,8 @@ public:
     PictureMaker(const PictureOptions& options, Workers& workers, double room = 1);
     ~PictureMaker();
 
-    // The camera is framed on the bulk of the first shape.
-    void draw(const PictureShape& shape);
+    // The camera is framed on the bulk of the first shape. Throws Cancelled.
+    void draw(const PictureShape& shape, Progress& progress);
     // Writes what was drawn last as PNG. Throws Error (output).
     void write(const std::filesystem::path& path) const;
     void write(FileInTheMaking& file) const; // that the caller commits

@@ -113,7 +113,7 @@ void tell(const ReplayReport& report, const Arguments& arguments, Terminal& term
         {"preparing the device", stages.device},
         {"an iteration (median)", report.solve},
         {"moving all points (median)", report.upsample},
-        {"writing", report.written.empty() ? 0 : report.write},
+        {"writing", report.write},
         {"in all", report.total},
     };
     for (const auto& [what, seconds] : lines) {
@@ -131,7 +131,7 @@ int run_replay(const Arguments& arguments, Terminal& terminal) {
     const Session session = read_session(arguments.session);
     std::optional<ReplayPictures> pictures;
     if (arguments.pictures.wanted() && !arguments.dry_run) {
-        pictures.emplace(arguments.pictures);
+        pictures.emplace(arguments.pictures, terminal);
         options.after_frame = pictures->after_frame();
         options.after_last = pictures->after_last();
         options.add_outputs = pictures->adding();
@@ -194,8 +194,9 @@ void add_replay(CLI::App& app, Job& job) {
     command->add_flag("--json", arguments->json, "Print what was measured as JSON");
     command->add_option("--picture", arguments->pictures.picture,
                         "A PNG file for a picture of the last shape");
-    command->add_option("--frames", arguments->pictures.frames,
-                        "A folder for a picture of every frame of the drags, and of every shape that settled");
+    command->add_option(
+        "--frames", arguments->pictures.frames,
+        "A folder for a picture of every frame of the drags, and of every shape that settled");
     declare_picture_options(*command, arguments->pictures.look);
     command->callback([arguments, &job] {
         job = [arguments](Terminal& terminal) { return run_replay(*arguments, terminal); };

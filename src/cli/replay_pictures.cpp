@@ -29,6 +29,9 @@ PictureShape seen(const Document& document, const RestShape& shape) {
 } // namespace
 
 struct ReplayPictures::State {
+    State(const ReplayPictureOptions& given, Progress& of_replay) : progress(of_replay), options(given) {}
+
+    Progress& progress;
     ReplayPictureOptions options;
     Workers workers;
     std::optional<PictureMaker> last, frame; // never both alive: each has a context of its own
@@ -36,9 +39,9 @@ struct ReplayPictures::State {
     std::size_t frames = 0;
 };
 
-ReplayPictures::ReplayPictures(const ReplayPictureOptions& options) : state_(std::make_unique<State>()) {
+ReplayPictures::ReplayPictures(const ReplayPictureOptions& options, Progress& progress)
+    : state_(std::make_unique<State>(options, progress)) {
     State& s = *state_;
-    s.options = options;
     if (!options.picture.empty()) refuse_bad_picture(options.picture);
     if (options.frames.empty()) {
         s.last.emplace(options.look, s.workers); // so that bad options are refused now
@@ -54,8 +57,9 @@ ShapeSeen ReplayPictures::after_frame() {
     if (!state_->frame) return {};
     return [this](const Document& document, const RestShape& shape) {
         State& s = *state_;
-        if (s.frames == 0) s.frame->draw(seen(document, document.pipeline().opened())); // chooses the camera
-        s.frame->draw(seen(document, shape));
+        if (s.frames == 0)
+            s.frame->draw(seen(document, document.pipeline().opened()), s.progress); // for the camera
+        s.frame->draw(seen(document, shape), s.progress);
         s.frame->write(s.made->path() / frame_name(++s.frames));
     };
 }
@@ -66,7 +70,7 @@ ShapeSeen ReplayPictures::after_last() {
         State& s = *state_;
         s.frame.reset();
         if (!s.last) s.last.emplace(s.options.look, s.workers);
-        s.last->draw(seen(document, shape));
+        s.last->draw(seen(document, shape), s.progress);
     };
 }
 

@@ -24,8 +24,9 @@ struct ReplayPictureOptions {
 // with everything else that the replay writes, so that one that fails leaves nothing behind.
 class ReplayPictures {
 public:
-    // Throws Error as PictureMaker does, and (output) for targets that cannot be written to.
-    explicit ReplayPictures(const ReplayPictureOptions& options);
+    // Throws Error as PictureMaker does, and (output) for targets that cannot be written to. Drawing is
+    // cancelled by `progress`, which must outlive it.
+    ReplayPictures(const ReplayPictureOptions& options, Progress& progress);
     ~ReplayPictures();
 
     // For ReplayOptions; they refer to this object.

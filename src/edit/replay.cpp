@@ -76,7 +76,8 @@ public:
         measure_extent(document);
         if (!options_.rehearse) write_results(document);
         take_device_warning(); // of shapes that were made again at the end
-        report_.write = clock.lap();
+        const bool writes = options_.out || options_.record_checks || options_.add_outputs;
+        if (writes && !options_.rehearse) report_.write = clock.lap();
         fill_report(document, device_seconds);
         return std::move(report_);
     }

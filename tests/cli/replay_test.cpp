@@ -140,7 +140,9 @@ TEST_F(Replay, StagesThatDidNotRunAreZero) {
     for (const char* key : {"order", "neighbors", "sampling", "geodesic", "factorize", "solve", "upsample"})
         EXPECT_EQ(all["seconds"][key], 0) << key;
     for (const char* key : {"samples", "frames", "iterations"}) EXPECT_EQ(all[key], 0) << key;
+    EXPECT_GT(all["seconds"]["write"].get<double>(), 0);
     EXPECT_EQ(read_text(folder / "out.ply"), read_text(folder / "bar.ply"));
+    EXPECT_EQ(json::parse(replay({"--json"}).out)["seconds"]["write"], 0);
 }
 
 TEST_F(Replay, TakesSamplesAndSettingsFromTheCommandLine) {
@@ -187,6 +189,8 @@ TEST_F(Replay, RefusesWrongArgumentsWithTwo) {
     expect_failure(2, "stiffness", {"--set", "stiffness=-1"});
     expect_failure(2, "", {"--threads", "0"});
     expect_failure(2, "", {"--no-such-option"});
+    for (const char* option : {"--out", "--cloud", "--samples", "--set", "--device", "--picture", "--frames"})
+        expect_failure(2, option, {option, ""}); // as a script has it whose variable is not set
     EXPECT_EQ(run_knead({"replay"}).code, 2);
     EXPECT_EQ(run_knead({}).code, 2);
     EXPECT_EQ(run_knead({"--help"}).code, 0);

@@ -2,7 +2,10 @@
 
 #include "edit/editor.h"
 
+#include <imgui.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace knead {
 
@@ -47,18 +50,29 @@ bool follows_pose(Coloring coloring) {
 
 namespace {
 
-std::vector<float> part_numbers(const Editor& editor) {
-    std::vector<float> numbers;
-    if (!editor.document->components) return numbers;
-    const Numbering& vertex = editor.opened.order->vertex;
-    numbers.resize(vertex.size());
-    for (std::size_t i = 0; i < vertex.size(); ++i) {
-        // Spread over the scale, so that parts next to each other in number differ in colour.
-        const auto number = static_cast<double>(editor.document->components->component[vertex[i]]);
-        const double spread = number * 0.6180339887;
-        numbers[i] = static_cast<float>(spread - static_cast<double>(static_cast<long>(spread)));
+// The largest part is plain. The others' hues go round by the golden angle: parts next to each other in
+// number, which lie near each other, differ.
+std::vector<std::uint32_t> colors_of_parts(const Components& parts) {
+    const glm::vec3 plain = ColorBy().plain;
+    std::vector<std::uint32_t> colors;
+    colors.reserve(parts.size.size());
+    for (std::size_t part = 0; part < parts.size.size(); ++part) {
+        const double turns = 0.6180339887 * static_cast<double>(part + 1);
+        colors.push_back(ImColor::HSV(static_cast<float>(turns - std::floor(turns)), 0.62f, 0.92f));
     }
-    return numbers;
+    if (const auto largest = std::ranges::max_element(parts.size); largest != parts.size.end())
+        colors[static_cast<std::size_t>(largest - parts.size.begin())] = ImColor(plain.r, plain.g, plain.b);
+    return colors;
+}
+
+// False while they are not known.
+bool color_parts(const Editor& editor, std::vector<std::uint32_t>& colors) {
+    if (!editor.document->components) return false;
+    const Components& parts = *editor.document->components;
+    const std::vector<std::uint32_t> of_part = colors_of_parts(parts);
+    const Numbering& vertex = editor.opened.order->vertex;
+    for (std::size_t i = 0; i < vertex.size(); ++i) colors[i] = of_part[parts.component[vertex[i]]];
+    return true;
 }
 
 ColorBy::Kind kind_of(Coloring coloring) {
@@ -95,18 +109,14 @@ Legend color_points(const Display& display, Editor& editor, std::vector<std::uin
     } else if (display.coloring == Coloring::stretch) {
         values = local_stretch(editor);
         by.title = "Local stretch";
-    } else if (display.coloring == Coloring::parts) {
-        values = part_numbers(editor);
-        by.range = ValueRange{0, 1};
     }
     const std::vector<Index>& file_index = editor.opened.order->file_index;
     if (values.size() == file_index.size()) by.kind = ColorBy::Kind::values;
     colors.resize(file_index.size());
+    if (display.coloring == Coloring::parts && color_parts(editor, colors)) return {};
     const PointsToColor points{editor.opened.cloud, file_index, editor.frame.positions, editor.frame.normals,
                                values};
-    Legend legend = color_points(by, points, colors, editor.workers);
-    if (display.coloring == Coloring::parts) legend = {};
-    return legend;
+    return color_points(by, points, colors, editor.workers);
 }
 
 } // namespace knead

@@ -180,7 +180,8 @@ std::vector<Index> resolve_points(const HandleLine& line, const PointCloud& clou
     if (const auto* ranges = std::get_if<std::vector<IndexRange>>(&line.points)) {
         points = points_of(*ranges, cloud, place);
         if (std::ranges::none_of(points, [&](Index i) { return is_finite(cloud, i); }))
-            throw Error(Trouble::input, place, named + " holds no point with finite coordinates");
+            throw Error(Trouble::input, place,
+                        named + " holds no point with finite coordinates that lies anywhere near the others");
     } else {
         points = points_in(std::get<Region>(line.points), cloud, file_position);
         if (points.empty())

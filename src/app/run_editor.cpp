@@ -7,6 +7,7 @@
 #include "app/recent_files.h"
 #include "app/remembered.h"
 #include "app/scene.h"
+#include "app/shown_names.h"
 #include "app/timeline.h"
 #include "app/window.h"
 #include "app/wishes.h"
@@ -18,6 +19,7 @@
 #include <imgui_internal.h>
 
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace knead {
@@ -46,6 +48,8 @@ struct Loop {
     std::vector<Command> commands;
     std::vector<Wish> wishes;
     Ui ui{editor, state, commands, wishes};
+
+    std::set<ImWchar> foreign_letters; // that the fonts were loaded with
 
     bool close_menus = false;    // in the next frame
     bool button_is_ours = false; // a press began over the cloud
@@ -408,18 +412,24 @@ bool shows_motion(const Loop& loop) {
            loop.calm.seconds() < 1 || (loop.editor.live && !loop.editor.status.doing.empty());
 }
 
-void set_scale(Loop& loop) {
-    const float scale = loop.window.content_scale();
-    if (scale == loop.state.scale && loop.state.fonts.text) return;
-    loop.state.scale = scale;
-    loop.state.fonts = apply_theme(scale);
+void set_theme(Loop& loop) {
+    loop.state.scale = loop.window.content_scale();
+    loop.state.fonts = apply_theme(loop.state.scale, loop.foreign_letters);
+    loop.window.renew_fonts();
+}
+
+// Names may come in any script; what letters they need is known once they are there.
+void take_in_letters(Loop& loop) {
+    const std::size_t before = loop.foreign_letters.size();
+    add_foreign_letters_of_names(loop.editor, loop.state, loop.foreign_letters);
+    if (loop.foreign_letters.size() != before) set_theme(loop);
 }
 
 } // namespace
 
 void run_editor(const EditorOptions& options) {
     Loop loop(options);
-    set_scale(loop);
+    set_theme(loop);
     loop.state.recent = read_recent_files();
     const Remembered remembered = read_remembered();
     loop.state.display.up = remembered.up;
@@ -439,6 +449,7 @@ void run_editor(const EditorOptions& options) {
             loop.calm.lap();
         }
         if (!events && !news && !shows_motion(loop)) continue;
+        take_in_letters(loop);
         draw(loop);
         if (options.observer)
             options.observer->shown(loop.editor,

@@ -1,10 +1,13 @@
 #include "app/theme.h"
 
+#include "app/letters.h"
+
 #include <imgui_freetype.h>
 
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace knead {
 
@@ -19,26 +22,45 @@ ImVec4 as_vector(ImU32 color) {
 
 namespace {
 
-// The letters of Europe, Greek for the names of settings, and the signs that knead's own words use.
-const ImWchar glyphs[] = {0x0020, 0x017f, 0x0370, 0x03ff, 0x0400, 0x052f, 0x2010, 0x2027,
-                          0x2030, 0x205e, 0x2070, 0x209f, 0x2190, 0x21ff, 0x2200, 0x22ff,
-                          0x2300, 0x23ff, 0x25a0, 0x25ff, 0x2713, 0x2717, 0};
-
 // The bold face stands beside the plain one.
 std::string bold_font() {
     const std::filesystem::path plain(KNEAD_FONT);
     return (plain.parent_path() / (plain.stem().string() + "-Bold" + plain.extension().string())).string();
 }
 
-ImFont* load_font(const std::string& file, float pixels) {
-    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+ImFontConfig config_of(float pixels) {
     ImFontConfig config;
     config.SizePixels = pixels;
     config.FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
+    return config;
+}
+
+// Letters of other fonts beside those of the font that was added last. `ranges` are to stay until the atlas
+// is built.
+void merge(const LettersOfFont& other, const ImVector<ImWchar>& ranges, float pixels) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(other.file, ignored)) return;
+    ImFontConfig config = config_of(pixels);
+    config.MergeMode = true;
+    config.FontNo = other.number;
+    ImGui::GetIO().Fonts->AddFontFromFileTTF(other.file.c_str(), pixels, &config, ranges.Data);
+}
+
+ImFont* load_own_font(const std::string& file, float pixels) {
+    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    const ImFontConfig config = config_of(pixels);
     std::error_code ignored;
     if (std::filesystem::is_regular_file(file, ignored))
-        if (ImFont* font = atlas.AddFontFromFileTTF(file.c_str(), pixels, &config, glyphs)) return font;
+        if (ImFont* font = atlas.AddFontFromFileTTF(file.c_str(), pixels, &config, own_letters)) return font;
     return atlas.AddFontDefault(&config);
+}
+
+ImVector<ImWchar> ranges_of(const LettersOfFont& font) {
+    ImFontGlyphRangesBuilder builder;
+    for (const ImWchar letter : font.letters) builder.AddChar(letter);
+    ImVector<ImWchar> ranges;
+    builder.BuildRanges(&ranges);
+    return ranges;
 }
 
 void set_colors(ImGuiStyle& style) {
@@ -118,14 +140,25 @@ void set_distances(ImGuiStyle& style, float scale) {
 
 } // namespace
 
-Fonts apply_theme(float scale) {
+Fonts apply_theme(float scale, const std::set<ImWchar>& foreign_letters) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    atlas.Clear();
     atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
+    const std::vector<LettersOfFont> others = fonts_with(foreign_letters);
+    std::vector<ImVector<ImWchar>> ranges;
+    for (const LettersOfFont& other : others) ranges.push_back(ranges_of(other));
+    const auto load = [&](const std::string& file, float size) {
+        const float pixels = std::round(size * scale);
+        ImFont* const font = load_own_font(file, pixels);
+        for (std::size_t i = 0; i < others.size(); ++i) merge(others[i], ranges[i], pixels);
+        return font;
+    };
     Fonts fonts;
-    fonts.text = load_font(KNEAD_FONT, std::round(16.0f * scale));
-    fonts.small = load_font(KNEAD_FONT, std::round(14.0f * scale));
-    fonts.title = load_font(KNEAD_FONT, std::round(25.0f * scale));
-    fonts.bold = load_font(bold_font(), std::round(15.0f * scale));
+    fonts.text = load(KNEAD_FONT, 16);
+    fonts.small = load(KNEAD_FONT, 14);
+    fonts.title = load(KNEAD_FONT, 25);
+    fonts.bold = load(bold_font(), 15);
+    atlas.Build();
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle{};
     set_colors(style);

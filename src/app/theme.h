@@ -5,6 +5,8 @@
 
 #include <imgui.h>
 
+#include <set>
+
 namespace knead {
 
 namespace palette {
@@ -38,8 +40,9 @@ struct Fonts {
     ImFont* title = nullptr;
 };
 
-// Loads the fonts for this scale (DejaVu Sans, or the one built into ImGui where it is missing) and sets
-// colours and distances. Call it before the first frame.
-Fonts apply_theme(float scale);
+// Loads the fonts for this scale (DejaVu Sans, or the one built into ImGui where it is missing), with these
+// letters of the system's other fonts beside its own (app/letters.h), and sets colours and distances. Call it
+// between frames; fonts of earlier calls are gone.
+Fonts apply_theme(float scale, const std::set<ImWchar>& foreign_letters = {});
 
 } // namespace knead

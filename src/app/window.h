@@ -43,6 +43,9 @@ public:
     void take_in(double seconds);
     std::vector<WindowEvent> take_events() { return std::exchange(events_, {}); }
 
+    // ImGui's fonts are others from the next frame on.
+    void renew_fonts();
+
     // Of ImGui. `mouse_is_taken`: its panels see neither the cursor nor the buttons.
     void begin_frame(bool mouse_is_taken);
     void end_frame(); // draws ImGui's part into the window
@@ -69,6 +72,7 @@ private:
     };
     std::vector<Tapped> tapped_;
     std::vector<int> shown_as_down_; // keys of the last frame that had been let go already
+    bool has_fonts_ = false;
 
     // Of the press before, to tell a double click.
     MouseButton last_button_ = MouseButton::left;

@@ -40,8 +40,9 @@ std::optional<Name> name_of(const Ui& ui, std::size_t number) {
     if (!middle) return std::nullopt;
     const auto projected = project(ui.editor.camera, ui.editor.viewport, *middle);
     if (!projected) return std::nullopt;
-    const ImVec2 at = in_window(ui, projected->pixel), size = ImGui::CalcTextSize(handle.name.c_str());
-    const float shown = std::min(std::ceil(size.x), ui.scaled(longest_name));
+    const ImVec2 at = in_window(ui, projected->pixel),
+                 size = ImGui::CalcTextSize(handle.name.data(), handle.name.data() + handle.name.size());
+    const float shown = std::min(size.x, ui.scaled(longest_name));
     Name name{number, {}};
     name.label.anchor = {static_cast<double>(at.x), static_cast<double>(at.y)};
     name.label.size = {static_cast<double>(shown + icon_size(ui) + ui.scaled(19)),
@@ -100,9 +101,15 @@ void draw_name(const Ui& ui, ImDrawList& list, const Name& name, const PlacedLab
     list.AddRectFilled(corner, opposite, palette::rgb(0x15171a, chosen ? 225 : 165), height / 2);
     if (chosen) list.AddRect(corner, opposite, palette::accent, height / 2, 0, ui.scaled(1.2f));
     draw_icon(list, icon_of(handle.role), {corner.x + across + icon / 2, corner.y + height / 2}, icon, color);
-    const float end = opposite.x - across;
-    ImGui::RenderTextEllipsis(&list, {corner.x + across + icon + ui.scaled(5), corner.y + ui.scaled(3)},
-                              {end, opposite.y}, end, end, handle.name.c_str(), nullptr, nullptr);
+    const ImVec2 text(corner.x + across + icon + ui.scaled(5), corner.y + ui.scaled(3));
+    const char* const begin = handle.name.data();
+    const char* const end = begin + handle.name.size(); // told, or ImGui ends it at "##"
+    if (ImGui::CalcTextSize(begin, end).x <= ui.scaled(longest_name))
+        return list.AddText(text, palette::text, begin, end);
+    const float edge = opposite.x - across;
+    ImGui::PushStyleColor(ImGuiCol_Text, palette::text);
+    ImGui::RenderTextEllipsis(&list, text, {edge, opposite.y}, edge, edge, begin, end, nullptr);
+    ImGui::PopStyleColor();
 }
 
 } // namespace

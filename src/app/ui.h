@@ -135,7 +135,7 @@ struct AfterSaving {
     std::optional<std::uint64_t> discarded = {}; // the state (DocumentView) that need not be saved
 };
 
-// Where an opened file's cloud was exported last.
+// Where an opened file's cloud was to be exported last, whatever came of it.
 struct LastExport {
     std::filesystem::path of, target;
 };

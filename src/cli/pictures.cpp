@@ -121,7 +121,7 @@ void PictureMaker::draw(const PictureShape& shape, Progress& progress) {
     s.take_normals(shape);
     progress.stop_if_cancelled();
     s.take_colors(shape);
-    progress.step("drawing", 0);
+    progress.stop_if_cancelled();
     s.picture = draw_picture(s.renderer, *s.camera, s.viewport, s.look);
     progress.stop_if_cancelled();
 }

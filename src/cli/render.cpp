@@ -36,6 +36,7 @@ int render(const Arguments& arguments, Terminal& terminal) {
         normals.resize(positions.size());
         gather(order, of_file, 3, normals, workers);
     }
+    terminal.step("drawing", 0);
     maker.draw({cloud, order, positions, positions, normals}, terminal);
     maker.write(arguments.out);
     return 0;

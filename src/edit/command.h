@@ -24,6 +24,8 @@ struct SelectRegion {
 struct SelectPointUnder { // a click
     glm::dvec2 pixel{0.0};
     SelectMode mode = SelectMode::replace;
+    double radius = 0;    // in pixels, of the brush: all in that circle instead of the point
+    bool through = false; // as of a region, then
 };
 enum class SelectionStep { all, none, invert, grow, shrink, connected };
 struct ChangeSelection {

@@ -217,7 +217,8 @@ void carry_out(Editor& editor, const SelectRegion& command) {
     change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });
 }
 
-// A click chooses the handle that it hits; elsewhere it selects the one point, or nothing.
+// A click chooses the handle that it hits; elsewhere it selects the one point, or nothing, or what is around
+// it.
 void carry_out(Editor& editor, const SelectPointUnder& command) {
     if (!editor.document) return;
     const Index hit = point_under(editor.camera, editor.viewport, editor.frame.positions,
@@ -230,6 +231,9 @@ void carry_out(Editor& editor, const SelectPointUnder& command) {
                 std::ranges::binary_search(*handles[h].points, point))
                 return carry_out(editor, ChooseHandle{handles[h].name});
     }
+    if (command.radius > 0)
+        return carry_out(editor, SelectRegion{ScreenStroke{{command.pixel}, command.radius}, command.mode,
+                                              command.through});
     std::vector<std::uint8_t> inside(editor.marks.size());
     if (hit != no_index) inside[hit] = 1;
     change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });
@@ -311,11 +315,6 @@ void carry_out(Editor& editor, const ChooseSamples& command) {
 
 void carry_out(Editor& editor, const CommitPose& /*command*/) {
     if (!needs_document(editor) || editor.drag) return;
-    if (editor.status.playing)
-        return say(
-            editor, Notice::Kind::information,
-            "This is the middle of a step, and a commit takes its end. Play on to there first (Space, or "
-            "Right frame by frame).");
     if (!editor.document->posed)
         return say(editor, Notice::Kind::information, "Nothing is posed, so there is nothing to commit.");
     post_step(editor, {CommitLine{}});
@@ -369,6 +368,12 @@ bool is_act(const Command& command) {
                      CommitPose>(command);
 }
 
+// Whether it takes the pose as it is for good, or may.
+bool may_commit(const Command& command) {
+    return is_one_of<MakeHandle, AssignPoints, ChangeRole, ChangeHold, DeleteHandle, MirrorHandle,
+                     ChangeSettings, CommitPose>(command);
+}
+
 void decline(Editor& editor, const char* words) {
     std::vector<Command> unheard;
     if (editor.tools.drag) cancel_drag(editor.tools, unheard);
@@ -397,6 +402,10 @@ bool may_act(Editor& editor) {
 void apply(Editor& editor, const Command& command) {
     try {
         if (is_act(command) && !may_act(editor)) return;
+        if (may_commit(command) && editor.status.playing)
+            return decline(
+                editor, "This is the middle of a step, and what you do here would go on from its end. Play "
+                        "on to there first (Space, or Right frame by frame).");
         std::visit([&](const auto& c) { carry_out(editor, c); }, command);
     } catch (const Error& error) {
         say(editor, Notice::Kind::error, words_in_window(error));

@@ -56,17 +56,10 @@ void LiveWork::choose_samples() {
     ahead_ = true;
 }
 
-// Sessions tell their number of samples, and not who chose it.
-bool LiveWork::has_chosen_samples() {
-    look_at_handles();
-    return knead::choose_samples(sample_needs()).samples == document_->settings().samples;
-}
-
 void LiveWork::look_at_handles() {
     const Pipeline& pipeline = document_->pipeline();
     spread_ = {};
-    const std::size_t samples = pipeline.samples().size();
-    if (document_->handles().empty() || samples == 0 || samples > most_looked_at) return;
+    if (document_->handles().empty() || pipeline.samples().size() > most_looked_at) return;
     spread_ =
         spread_of(pipeline.labels(), pipeline.graph(), pipeline.samples(), pipeline.sample_graph().graph);
 }

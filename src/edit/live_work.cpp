@@ -62,8 +62,6 @@ void LiveWork::open() {
     tell_what_is_open();
     document_->shape(progress_); // the order of the points
     replay_session(session, *document_, *recording_, progress_);
-    if (!is_plain_cloud && !request_.restore && request_.choose_samples && !request_.settings.samples)
-        choosing_ = has_chosen_samples();
     if (request_.restore && !session_file_.empty())
         saved_.session_state = state_after(session.lines, recording_->facts().saved_lines);
     // One that was opened with another cloud than it names is not saved before it names that.

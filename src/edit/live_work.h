@@ -85,8 +85,6 @@ private:
     void carry_out(task::ChooseSamples& task);
     SampleNeeds sample_needs() const;
     void choose_samples();
-    // Whether the number is the one that would be chosen.
-    bool has_chosen_samples();
     void look_at_handles();
     void measure_frame();
     void learn_cost(std::vector<double> solving, std::vector<double> upsampling);

@@ -8,12 +8,13 @@
 // is
 //   a middle button. All of it also works in the middle of a transform, which stays as it is meanwhile. 1/3/7
 //   front, right, top (Ctrl: the opposite), 5 orthographic, F frames the selection, Home all.
-// Choosing. A press and release without motion chooses the point under the cursor with every tool but the
-//   polygon's, whose clicks add corners (double click, Enter or right click closes, Backspace or Ctrl+Z takes
-//   the last back). Shift adds, Ctrl takes away. Esc or right click drops a band, and so does Ctrl+Z any but
-//   a polygon. One SelectRegion a gesture. A double click sets the camera's pivot. A all, Alt+A none (Esc
-//   too), Ctrl+I invert, Ctrl+plus/minus grow and shrink, L connected, V hides (Shift: the others, Alt: shows
-//   all). Tools: C click, B box, Q lasso, P polygon, K brush, [ ] its size, T through.
+// Choosing. A press and release without motion chooses the handle under the cursor, or the point, or what is
+//   in the brush's circle, with every tool but the polygon's, whose clicks add corners (double click, Enter
+//   or right click closes, Backspace or Ctrl+Z takes the last back). Shift adds, Ctrl takes away. Esc or
+//   right click drops a band, and so does Ctrl+Z any but a polygon. One SelectRegion a gesture. A double
+//   click sets the camera's pivot. A all, Alt+A none (Esc too), Ctrl+I invert, Ctrl+plus/minus grow and
+//   shrink, L connected, V hides (Shift: the others, Alt: shows all). Tools: C click, B box, Q lasso, P
+//   polygon, K brush, [ ] its size, T through.
 // Handles. H makes a moving one, Shift+H a fixed one, Ctrl+H the region of interest.
 // Moving. A press on the gizmo drags its part until the release; G, R, S follow the hand until a click or
 // Enter.

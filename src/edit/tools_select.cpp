@@ -48,8 +48,10 @@ void end_band(const Hand& hand) {
         select_region(hand, ScreenPolygon{tools.band});
     else if (!tools.moved && tools.clicks == 2)
         hand.tell(SetPivotUnder{tools.pressed});
-    else if (tools.select == SelectTool::brush) // a click is a dab
+    else if (tools.moved && tools.select == SelectTool::brush)
         select_region(hand, ScreenStroke{tools.band, tools.brush_radius});
+    else if (tools.select == SelectTool::brush)
+        hand.tell(SelectPointUnder{tools.pressed, tools.band_mode, tools.brush_radius, tools.through});
     else
         hand.tell(SelectPointUnder{tools.pressed, tools.band_mode});
     drop_band(tools);

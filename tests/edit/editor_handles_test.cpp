@@ -202,6 +202,25 @@ TEST_F(BarEditor, AnotherColorLeavesThePoseAndIsAStepToUndo) {
     EXPECT_FALSE(color().has_value());
 }
 
+TEST_F(BarEditor, ADabOfTheBrushTakesWhatIsInItsCircleOrChoosesTheHandleThatItHits) {
+    editor_.camera.orthographic = true;
+    apply(editor_, SelectPointUnder{pixel_of({0, 0, 0}), SelectMode::replace, 60});
+    const std::size_t in_circle = editor_.selected;
+    EXPECT_GT(in_circle, 10U);
+    apply(editor_, SelectPointUnder{pixel_of({0, 0, 0}), SelectMode::replace, 60, true});
+    EXPECT_GT(editor_.selected, in_circle) << "and what is behind it";
+    apply(editor_, SelectPointUnder{pixel_of({0, 0, 0}), SelectMode::remove, 60, true});
+    EXPECT_EQ(editor_.selected, 0U);
+    make_handles();
+    editor_.chosen.clear();
+    const std::size_t selected = editor_.selected;
+    apply(editor_, SelectPointUnder{pixel_of({0, 0, 2.3}), SelectMode::replace, 60});
+    EXPECT_EQ(editor_.chosen, "high");
+    EXPECT_EQ(editor_.selected, selected);
+    apply(editor_, SelectPointUnder{pixel_of({0, 0, 2.3}), SelectMode::add, 60});
+    EXPECT_GT(editor_.selected, selected) << "points of handles, too";
+}
+
 TEST_F(BarEditor, APointThatLeavesRotationFreeSaysWhyItDoesNotTurn) {
     editor_.camera.orthographic = true;
     apply(editor_, SelectPointUnder{pixel_of({0, 0, 1})});

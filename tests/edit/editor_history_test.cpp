@@ -258,8 +258,12 @@ TEST_F(BarEditor, PlayingAStepIsDoingItAgain) {
     EXPECT_EQ(editor_.status.playing->handle, "high");
     EXPECT_FALSE(can_redo(editor_));
     const std::size_t steps = editor_.past.size();
-    apply(editor_, CommitPose{});
-    EXPECT_EQ(editor_.past.size(), steps) << "it would take another pose than is shown";
+    SettingsChange samples;
+    samples.samples = 500;
+    for (const Command& takes_pose : {Command(CommitPose{}), Command(ChangeSettings{samples})}) {
+        apply(editor_, takes_pose);
+        EXPECT_EQ(editor_.past.size(), steps) << "it would take another pose than is shown";
+    }
     ASSERT_FALSE(editor_.notices.empty());
     EXPECT_NE(editor_.notices.back().words.find("middle of a step"), std::string::npos);
     apply(editor_, PacePlaying{4, false});

@@ -82,23 +82,6 @@ TEST_F(ChoosingBar, ASessionKeepsItsNumber) {
     EXPECT_EQ(settings().samples, by_hand);
 }
 
-TEST_F(ChoosingBar, ASessionWhoseNumberItWouldChooseGoesOnChoosing) {
-    open_bar(std::nullopt);
-    live_->post(++step_, {bar_handles()[0]});
-    live_->save_session(folder_ / "a.knead");
-    settle_down();
-    ASSERT_EQ(settings().samples, 1000U); // a fixed handle is no reason for others, and moves nothing
-    for (const bool wanted : {true, false}) {
-        OpenRequest request = request_for(folder_ / "a.knead");
-        request.choose_samples = wanted;
-        live_ = std::make_unique<LiveDocument>(request);
-        wait_until_open(*live_);
-        EXPECT_EQ(live_->view()->chooses_samples, wanted);
-        EXPECT_EQ(settings().samples, 1000U);
-        EXPECT_EQ(live_->saved().session_state, live_->view()->state);
-    }
-}
-
 TEST_F(ChoosingBar, WhatItChoosesBelongsToTheActThatLedToIt) {
     live_->choose_samples(true);
     live_->post(++step_, {bar_handles()[0]});

@@ -22,19 +22,19 @@ TEST(SelectTools, AClickIsAClickWithEveryToolThatDrawsAnOutline) {
     }
 }
 
-TEST(SelectTools, AClickOfTheBrushTakesWhatIsInItsCircle) {
+TEST(SelectTools, AClickOfTheBrushHasItsRadius) {
     Bench bench;
     bench.hit('K');
     bench.click({100, 50});
+    bench.hit('T');
     bench.click({9, 9}, shift);
     bench.click({9, 9}, ctrl);
-    const std::vector<SelectRegion> dabs = bench.all<SelectRegion>();
+    const std::vector<SelectPointUnder> dabs = bench.all<SelectPointUnder>();
     ASSERT_EQ(dabs.size(), 3U);
-    const auto& stroke = std::get<ScreenStroke>(dabs[0].region);
-    EXPECT_EQ(stroke.radius, bench.tools.brush_radius);
-    EXPECT_EQ(stroke.path, std::vector{glm::dvec2(100, 50)});
-    EXPECT_TRUE(contains(stroke, {100 + 0.9 * stroke.radius, 50}));
-    EXPECT_FALSE(contains(stroke, {100 + 1.1 * stroke.radius, 50}));
+    EXPECT_EQ(dabs[0].pixel, glm::dvec2(100, 50));
+    EXPECT_EQ(dabs[0].radius, bench.tools.brush_radius);
+    EXPECT_FALSE(dabs[0].through);
+    EXPECT_TRUE(dabs[1].through);
     EXPECT_EQ(dabs[0].mode, SelectMode::replace);
     EXPECT_EQ(dabs[1].mode, SelectMode::add);
     EXPECT_EQ(dabs[2].mode, SelectMode::remove);

@@ -146,6 +146,7 @@ Fonts apply_theme(float scale, const std::set<ImWchar>& foreign_letters) {
     atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
     const std::vector<LettersOfFont> others = fonts_with(foreign_letters);
     std::vector<ImVector<ImWchar>> ranges;
+    ranges.reserve(others.size());
     for (const LettersOfFont& other : others) ranges.push_back(ranges_of(other));
     const auto load = [&](const std::string& file, float size) {
         const float pixels = std::round(size * scale);

@@ -369,7 +369,7 @@ bool is_act(const Command& command) {
 }
 
 // Whether it takes the pose as it is for good, or may.
-bool may_commit(const Command& command) {
+bool takes_pose(const Command& command) {
     return is_one_of<MakeHandle, AssignPoints, ChangeRole, ChangeHold, DeleteHandle, MirrorHandle,
                      ChangeSettings, CommitPose>(command);
 }
@@ -399,13 +399,18 @@ bool may_act(Editor& editor) {
     return true;
 }
 
+bool may_take_pose(Editor& editor) {
+    if (editor.status.playing)
+        decline(editor,
+                "This is the middle of a step, and what you do here would go on from its end. Play on to "
+                "there first (Space, or Right frame by frame).");
+    return !editor.status.playing;
+}
+
 void apply(Editor& editor, const Command& command) {
     try {
         if (is_act(command) && !may_act(editor)) return;
-        if (may_commit(command) && editor.status.playing)
-            return decline(
-                editor, "This is the middle of a step, and what you do here would go on from its end. Play "
-                        "on to there first (Space, or Right frame by frame).");
+        if (takes_pose(command) && !may_take_pose(editor)) return;
         std::visit([&](const auto& c) { carry_out(editor, c); }, command);
     } catch (const Error& error) {
         say(editor, Notice::Kind::error, words_in_window(error));

@@ -126,7 +126,7 @@ std::vector<LabelColumn> label_columns(const PointCloud& cloud) {
 }
 
 void handles_from_labels(Editor& editor, const std::string& column, std::span<const LabelChoice> choices) {
-    if (!needs_document(editor) || !may_act(editor)) return;
+    if (!needs_document(editor) || !may_act(editor) || !may_take_pose(editor)) return;
     const PointCloud& cloud = *editor.opened.cloud;
     const auto number = find_attribute(cloud, column);
     if (!number || cloud.attributes[*number].is_list() || !may_hold_labels(cloud.attributes[*number].type))
@@ -155,7 +155,7 @@ void handles_from_labels(Editor& editor, const std::string& column, std::span<co
 }
 
 void handles_from_session(Editor& editor, const std::filesystem::path& session) {
-    if (!needs_document(editor) || !may_act(editor)) return;
+    if (!needs_document(editor) || !may_act(editor) || !may_take_pose(editor)) return;
     try {
         const Session read = read_session(session);
         const HandleLines handles = handles_at_end(read);

@@ -52,6 +52,10 @@ bool needs_document(Editor& editor);
 // earlier step is looked at. Tells the user why not.
 bool may_act(Editor& editor);
 
+// Whether the pose that is shown may be taken for good: not in the middle of a step that is played, whose end
+// it would be. Tells the user why not.
+bool may_take_pose(Editor& editor);
+
 void carry_out(Editor& editor, const UndoStep& command);
 void carry_out(Editor& editor, const RedoStep& command);
 void carry_out(Editor& editor, const PlayStep& command);

@@ -10,11 +10,9 @@ namespace {
 
 constexpr double bend_degrees = 60;
 constexpr unsigned settle_limit = 300;
-constexpr NamedScan scans[] = {{"bunny", "bunny.ply"},
-                               {"armadillo", "armadillo_172974.ply"},
-                               {"dragon", "dragon.ply"},
-                               {"lidar", "lidar_lone_star_519k.ply"},
-                               {"room", "open3d_fragment_196k.ply"}};
+constexpr NamedScan scans[] = {
+    {"bunny", "bunny.ply"},     {"armadillo", "armadillo_172974.ply"}, {"dragon", "dragon.ply"},
+    {"horse", "horse_48k.ply"}, {"lidar", "lidar_lone_star_519k.ply"}, {"room", "open3d_fragment_196k.ply"}};
 constexpr std::size_t of_the_paper = 3;
 constexpr std::uint64_t sample_counts[] = {10'000, 5000, 1000, 200, 100, 50};
 

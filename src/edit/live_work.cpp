@@ -212,7 +212,8 @@ void LiveWork::wait_for_next_frame() {
 }
 
 bool LiveWork::something_to_do() const {
-    return (!drag_ && !after_drag_.empty()) || ahead_ || (drag_ && !drag_->rests) || (!drag_ && converge_);
+    if (drag_) return !drag_->rests; // all else waits for its end
+    return !after_drag_.empty() || ahead_ || converge_;
 }
 
 void LiveWork::go_on() {

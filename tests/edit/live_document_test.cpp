@@ -351,4 +351,17 @@ TEST_F(LiveBar, WhereTheDeviceDrawsTheDragThePointsComeWhenTheHandRests) {
     EXPECT_EQ(frame_.positions, posed);
 }
 
+// What could be prepared meanwhile waits for the drag's end, and is no reason to be busy until then.
+TEST_F(LiveBar, AHandThatRestsInADragIsNoWork) {
+    SetLine fewer;
+    fewer.change.samples = std::optional<std::uint64_t>(300);
+    live_->post(++step_, {fewer});
+    live_->begin_drag(++step_, "high", {0, 0, 2}); // at once
+    live_->drag_to(turned(0.3));
+    wait_until_idle(*live_);
+    live_->end_drag();
+    settle_down();
+    EXPECT_GT(largest_displacement(), 0.1);
+}
+
 } // namespace knead::test

@@ -55,9 +55,8 @@ void add_evaluate(CLI::App& app, Job& job) {
         "--shape", arguments->shapes,
         "Only these: bar, cactus, cylinder, plane (the survey's), made-bar (and a long one twisted), "
         "made-solid-bar, made-knot, made-creature; elasticity, sampling, turns, stiffness, demands; "
-        "samples-bunny, samples-armadillo, samples-dragon, samples-horse, samples-lidar, samples-room; a "
-        "scan without .ply; "
-        "with --page, \"page\": nothing (default: all)");
+        "samples-bunny, samples-armadillo, samples-dragon, samples-horse, samples-lidar, samples-room; "
+        "a scan without .ply; with --page, \"page\": nothing (default: all)");
     command
         ->add_option("--survey", arguments->survey,
                      "The folder of the survey shapes (default: KNEAD_SURVEY, then ../shared/survey)")

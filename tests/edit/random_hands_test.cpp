@@ -245,18 +245,47 @@ protected:
             << read_text(folder_ / "saved.knead");
     }
 
+    // As a crash would leave it now.
+    void copy_journal() {
+        calm();
+        if (looks_back(editor_)) return; // the journal is ahead
+        std::filesystem::copy(folder_ / "state", folder_ / "crashed",
+                              std::filesystem::copy_options::recursive);
+        crashed_ = editor_.frame.positions;
+    }
+    void expect_restoring_makes_the_same() {
+        if (crashed_.empty()) return;
+        const std::vector<LostWork> lost = find_lost_work(folder_ / "crashed");
+        if (lost.empty()) { // nothing was done
+            EXPECT_TRUE(std::ranges::equal(crashed_, editor_.opened.opened->positions));
+            return;
+        }
+        OpenRequest request;
+        request.restore = lost.at(0).journal;
+        request.device = "reference";
+        Editor restored{1};
+        open(restored, request);
+        ASSERT_TRUE(wait_until([&] { return refresh(restored) && restored.document; }));
+        wait_until_idle(*restored.live);
+        refresh(restored);
+        EXPECT_TRUE(restored.frame.positions == crashed_) << read_text(lost.at(0).journal);
+    }
+
     LiveDocument& live() { return *editor_.live; }
 
     std::mt19937_64 chance_{GetParam()};
     ScratchFolder folder_;
     std::filesystem::path file_ = folder_ / "cloud.ply";
     Editor editor_{1};
+    std::vector<float> crashed_; // the points when the journal was copied
 };
 
-TEST_P(RandomHands, LeaveWhatReplaysAndGoesBackAndForthToTheBit) {
+TEST_P(RandomHands, LeaveWhatIsTheSameReplayedRestoredAndRedone) {
     make_handle(HandleRole::fixed);
     make_handle(HandleRole::moving);
-    for (unsigned step = 0; step < 50; ++step) do_anything();
+    for (unsigned step = 0; step < 30; ++step) do_anything();
+    copy_journal();
+    for (unsigned step = 0; step < 20; ++step) do_anything();
     calm();
     while (looks_back(editor_) && can_redo(editor_)) do_now(RedoStep{true}), calm();
     expect_replay_makes_the_same();
@@ -270,6 +299,7 @@ TEST_P(RandomHands, LeaveWhatReplaysAndGoesBackAndForthToTheBit) {
     for (std::size_t k = 0; k < steps; ++k) do_now(RedoStep{}), calm();
     EXPECT_TRUE(editor_.frame.positions == last);
     expect_replay_makes_the_same();
+    expect_restoring_makes_the_same();
 }
 
 unsigned hands() {

@@ -51,6 +51,7 @@ struct Loop {
 
     std::set<ImWchar> foreign_letters; // that the fonts were loaded with
 
+    glm::dvec2 cursor{0.0};      // of the window, wherever it is
     bool close_menus = false;    // in the next frame
     bool button_is_ours = false; // a press began over the cloud
     bool press_is_hands = false; // and ended what a full hand was doing: no panel is to see it
@@ -121,12 +122,19 @@ bool over_cloud(const Loop& loop, glm::dvec2 cursor) {
            !popup_is_open() && !panel_at(place);
 }
 
+// What begins by a key or a button begins where the hand is, be that over a panel.
+void bring_cursor(Loop& loop) {
+    Tools& tools = loop.editor.tools;
+    if (tools.doing == Tools::Doing::nothing) tools.cursor = in_view(loop, loop.cursor);
+}
+
 // While G, R or S goes on the whole window belongs to it.
 bool hand_is_full(const Loop& loop) {
     return loop.editor.tools.drag && loop.editor.tools.modal;
 }
 
 void take(Loop& loop, MouseMove event) {
+    loop.cursor = event.cursor;
     loop.state.cursor_in_view = over_cloud(loop, event.cursor);
     if (!loop.state.cursor_in_view && !loop.button_is_ours && !hand_is_full(loop)) return;
     event.cursor = in_view(loop, event.cursor);
@@ -163,6 +171,7 @@ void take(Loop& loop, const KeyPress& event) {
     if (event.key == Key::escape && loop.state.show_help) return; // closes that
     if (event.key == Key::escape && loop.state.playback.shown && !loop.editor.tools.drag)
         return close_timeline(loop.ui);
+    bring_cursor(loop);
     if (loop.editor.document && handle_input(loop.editor, event)) return;
     press_shortcut(loop.ui, event);
 }
@@ -249,6 +258,7 @@ bool take_news(Loop& loop) {
 
 void carry_out_wishes(Loop& loop) {
     for (const Command& command : std::exchange(loop.commands, {})) apply(loop.editor, command);
+    if (!loop.wishes.empty()) bring_cursor(loop);
     for (const Wish& wish : std::exchange(loop.wishes, {})) grant(loop.work, wish);
     go_on_after_saving(loop.work);
 }
@@ -256,7 +266,8 @@ void carry_out_wishes(Loop& loop) {
 void show_title(Loop& loop) {
     const Editor& editor = loop.editor;
     if (!editor.document) return loop.window.set_title("knead");
-    const std::string name = editor.opened.file.filename().string();
+    const std::filesystem::path& session = editor.document->session; // two may be of one cloud
+    const std::string name = (session.empty() ? editor.opened.file : session).filename().string();
     loop.window.set_title(name + (has_unsaved_session(editor) ? "*" : "") + " — knead");
 }
 

@@ -21,8 +21,8 @@ std::string milliseconds(double seconds) {
 const char* transform_hint(const TransformDrag& drag) {
     switch (drag.kind) {
     case TransformKind::translate:
-        return "X Y Z axis · Shift+X plane · type a length · Ctrl steps · Shift slow · Enter done · Esc as "
-               "it was";
+        return "X Y Z axis · Shift+X plane · type a length, Tab the next · Ctrl steps · Shift slow · Enter "
+               "done · Esc as it was";
     case TransformKind::rotate:
         return "X Y Z axis · type degrees · Ctrl steps · Shift slow · Enter done · Esc as it was";
     default:

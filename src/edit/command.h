@@ -94,8 +94,10 @@ struct CancelDrag {};    // the pose at BeginDrag again
 struct RefuseTransform { // a key asked for one that would change nothing; the user hears why
     TransformKind kind = TransformKind::rotate;
 };
-struct SetPivot { // of the gizmo; nothing: the handle's middle
+struct SetPivot { // of the chosen handle's gizmo; nothing: the handle's middle
     std::optional<glm::dvec3> pivot;
+    // The hand is still moving it; or has given up, and it is where it was.
+    enum class Stage { set, moving, given_up } stage = Stage::set;
 };
 
 // --- The document ---

@@ -61,7 +61,8 @@ void take_over(Editor& editor) {
     editor.drag.reset();
     editor.chosen.clear();
     editor.posted_names.clear();
-    editor.pivot.reset();
+    editor.pivots.clear();
+    editor.moved_pivot.reset();
     editor.tools.drag.reset();
     editor.tools.doing = Tools::Doing::nothing;
 
@@ -123,6 +124,7 @@ void forget_refused(Editor& editor) {
         if (found->chosen_before && found->chosen_after == editor.chosen)
             choose(editor, *found->chosen_before);
         if (found->choosing_before) choose_samples(editor, *found->choosing_before);
+        if (found->pivot) put_pivot(editor, found->pivot->handle, found->pivot->before);
         const auto at = static_cast<std::size_t>(found - editor.past.begin());
         editor.past.erase(found);
         if (editor.looks_from && at < *editor.looks_from) --*editor.looks_from;
@@ -364,8 +366,8 @@ bool is_one_of(const Command& command) {
 bool is_act(const Command& command) {
     return is_one_of<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
                      MakeHandle, RenameHandle, AssignPoints, ChangeRole, ChangeHold, ColorHandle,
-                     DeleteHandle, ResetPose, MirrorHandle, BeginDrag, ChangeSettings, ChooseSamples,
-                     CommitPose>(command);
+                     DeleteHandle, ResetPose, MirrorHandle, BeginDrag, SetPivot, ChangeSettings,
+                     ChooseSamples, CommitPose>(command);
 }
 
 // Whether it takes the pose as it is for good, or may.

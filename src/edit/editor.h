@@ -14,6 +14,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,7 +32,13 @@ struct EditorChanges {
 // The number of all steps of a session that was opened; those of the hand come after it.
 inline constexpr StepNumber step_of_opened_session = 1;
 
-// One step of undo: a change of selection and hiding, a step of the document, or both.
+// Where a handle's pivot was, and where it is; nothing: in the handle's middle.
+struct PivotMove {
+    std::string handle;
+    std::optional<glm::dvec3> before = {}, after = {};
+};
+
+// One step of undo: a change of selection and hiding, a step of the document, or both; or of a pivot.
 struct EditorStep {
     StepNumber document = 0; // 0: none
     std::shared_ptr<const KeptMarks> before =
@@ -44,6 +51,7 @@ struct EditorStep {
     std::optional<bool> choosing_before = {}, choosing_after = {};
     // The chosen handle before and after a step of the document; nothing: it stays as it is.
     std::optional<std::string> chosen_before = {}, chosen_after = {};
+    std::optional<PivotMove> pivot = {}; // that it moved, or that went with its handle
 };
 
 // The drag that goes on, or that ended and that the document has not answered yet.
@@ -84,9 +92,10 @@ struct Editor {
     std::vector<std::uint8_t> marks; // of each point
     std::size_t selected = 0;        // points
     std::size_t hidden = 0;
-    std::string chosen;              // the handle with the gizmo, once the document has it; empty: none
-    std::optional<glm::dvec3> pivot; // of the gizmo, where the user moved it
-    bool local_axes = false;         // the gizmo's
+    std::string chosen; // the handle with the gizmo, once the document has it; empty: none
+    std::map<std::string, glm::dvec3> pivots; // of the gizmo, by handle, where the user moved them
+    std::optional<PivotMove> moved_pivot;     // that the hand is moving
+    bool local_axes = false;                  // the gizmo's
 
     // --- Looking ---
     Camera camera;
@@ -139,6 +148,8 @@ const Handle* chosen_handle(const Editor& editor);          // null: none
 // The middle of a handle's points as they are now; nothing for one without a finite point.
 std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle);
 std::optional<Gizmo> gizmo_of(const Editor& editor); // of the chosen moving handle, where it is now
+// Where the user put a handle's pivot, as it is now; nothing: it is the handle's middle.
+std::optional<glm::dvec3> pivot_of(const Editor& editor, const std::string& handle);
 // How far the handle pulls what is around it, whatever its own falloff is; 0 for one that is large enough.
 double least_falloff(const Editor& editor, const Handle& handle);
 bool has_unsaved_session(const Editor& editor);               // an exported cloud is no saved session

@@ -116,11 +116,11 @@ void carry_out(Editor& editor, const MakeHandle& command) {
     const std::string name = line.name;
     const StepNumber step = post_step(editor, {std::move(line)}, std::move(before));
     editor.posted_names.emplace_back(step, name);
+    put_pivot_with(editor.past.back(), editor, name, std::nullopt); // one of that name may have had its own
     if (command.role == HandleRole::moving) choose_with_step(editor, name);
 }
 
 void carry_out(Editor& editor, const ChooseHandle& command) {
-    editor.pivot.reset();
     choose(editor, command.handle);
 }
 
@@ -137,6 +137,7 @@ void carry_out(Editor& editor, const RenameHandle& command) {
         return say(editor, Notice::Kind::error, "There is a handle \"" + command.to + "\" already.");
     const StepNumber step = post_step(editor, {RenameLine{command.handle, command.to}});
     editor.posted_names.emplace_back(step, command.to);
+    put_pivot_with(editor.past.back(), editor, command.to, pivot_of(editor, command.handle));
     if (editor.chosen == command.handle) choose_with_step(editor, command.to);
 }
 
@@ -263,6 +264,11 @@ void carry_out(Editor& editor, const ResetPose& command) {
     if (!editor.document->posed) return;
     editor.live->reset_pose(++editor.last_step, command.handle);
     add_step(editor, editor.last_step, nullptr);
+    if (const auto pivot = pivot_of(editor, command.handle)) {
+        const HandleMotion& motion = editor.document->motions[*number];
+        const Vec3d at_rest = motion.linear.inverse() * (to_eigen(*pivot) - motion.offset);
+        put_pivot_with(editor.past.back(), editor, command.handle, to_glm(at_rest));
+    }
 }
 
 void carry_out(Editor& editor, const MirrorHandle& command) {
@@ -331,7 +337,10 @@ void carry_out(Editor& editor, const EndDrag& /*command*/) {
     if (!editor.drag || editor.drag->ended) return;
     editor.drag->ended = true;
     editor.handle_middle = transformed(editor.drag->transform, editor.drag->middle);
-    if (editor.pivot) editor.pivot = editor.handle_middle;
+    // What the gizmo stands on went along, be it the pivot or the middle.
+    const bool has_step = !editor.past.empty() && editor.past.back().document == editor.drag->step;
+    if (has_step && pivot_of(editor, editor.chosen))
+        put_pivot_with(editor.past.back(), editor, editor.chosen, editor.handle_middle);
     editor.live->end_drag();
 }
 
@@ -352,10 +361,6 @@ void carry_out(Editor& editor, const RefuseTransform& command) {
             "\" about itself changes nothing: it is one point that leaves rotation free. Move it with G; or "
             "right-click it in the list and tick \"Holds rotation\", to " +
             (scales ? "scale" : "turn") + " what is around it.");
-}
-
-void carry_out(Editor& editor, const SetPivot& command) {
-    editor.pivot = command.pivot;
 }
 
 } // namespace knead

@@ -35,7 +35,6 @@ StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
 }
 
 void choose(Editor& editor, const std::string& handle) {
-    if (handle != editor.chosen) editor.pivot.reset();
     editor.chosen = handle;
     if (const Handle* there = chosen_handle(editor))
         editor.handle_middle = middle_of(editor, *there).value_or(glm::dvec3(0.0));
@@ -83,6 +82,7 @@ void carry_out(Editor& editor, const UndoStep& command) {
     if (step.document) editor.live->undo(step.document, command.to_look);
     if (step.choosing_before) choose_samples(editor, *step.choosing_before);
     if (step.chosen_before) choose(editor, *step.chosen_before);
+    if (step.pivot) put_pivot(editor, step.pivot->handle, step.pivot->before);
     editor.drag.reset();
     editor.future.push_back(std::move(step));
 }
@@ -98,6 +98,7 @@ void go_forward(Editor& editor, Redo&& redo) {
     if (step.choosing_after) choose_samples(editor, *step.choosing_after);
     if (step.after) restore_selection(editor, *step.after);
     if (step.chosen_after) choose(editor, *step.chosen_after);
+    if (step.pivot) put_pivot(editor, step.pivot->handle, step.pivot->after);
     editor.past.push_back(std::move(step));
 }
 

@@ -92,14 +92,15 @@ std::optional<Gizmo> gizmo_of(const Editor& editor) {
     gizmo.local = editor.local_axes;
     const auto number = static_cast<std::size_t>(handle - editor.document->handles.data());
     glm::dquat axes = to_glm(editor.document->motions[number].rotation);
-    gizmo.center = editor.pivot ? *editor.pivot : editor.handle_middle;
+    const auto pivot = pivot_of(editor, editor.chosen);
+    gizmo.center = pivot.value_or(editor.handle_middle);
     if (editor.drag) {
         const Transform& transform = editor.drag->transform;
         gizmo.center = transformed(transform, editor.drag->middle);
         axes = glm::angleAxis(transform.angle, transform.axis) * editor.drag->local_axes;
     }
     if (editor.local_axes) gizmo.axes = axes;
-    if (!editor.pivot) gizmo.rotate = gizmo.scale = !is_free_place(editor, *handle);
+    if (!pivot) gizmo.rotate = gizmo.scale = !is_free_place(editor, *handle);
     return gizmo;
 }
 

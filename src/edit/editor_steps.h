@@ -27,6 +27,12 @@ StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
 void choose(Editor& editor, const std::string& handle);
 void choose_with_step(Editor& editor, const std::string& handle);
 
+// A handle's pivot, and no step of it; nothing: its middle.
+void put_pivot(Editor& editor, const std::string& handle, const std::optional<glm::dvec3>& pivot);
+// The same, as part of a step that moves the handle or makes it.
+void put_pivot_with(EditorStep& step, Editor& editor, const std::string& handle,
+                    const std::optional<glm::dvec3>& pivot);
+
 // Whether the number of samples is chosen by itself from here on; no step of its own.
 void choose_samples(Editor& editor, bool by_itself);
 

@@ -27,7 +27,7 @@ void tell_transform(const Hand& hand) {
     if (do_the_same(transform, tools.sent)) return;
     tools.sent = transform;
     if (tools.drags_pivot)
-        hand.tell(SetPivot{transform.pivot + transform.shift});
+        hand.tell(SetPivot{transform.pivot + transform.shift, SetPivot::Stage::moving});
     else
         hand.tell(DragTo{transform});
 }
@@ -52,6 +52,7 @@ void begin_drag(const Hand& hand, const GizmoPart& part, bool modal) {
     tools.drag = begin_transform(part.kind, gizmo.center, own, tools.cursor, hand.context.camera,
                                  hand.context.viewport);
     tools.drag->constraint = part.constraint;
+    tools.drag->own_first = gizmo.local;
     tools.sent = transform_of(*tools.drag);
     if (modal)
         tools.hovered.reset();
@@ -68,20 +69,23 @@ void drag_to_cursor(const Hand& hand, glm::dvec2 cursor, Modifiers held) {
 }
 
 void end_drag(Tools& tools, std::vector<Command>& commands) {
-    if (!tools.drags_pivot) {
-        if (does_nothing(tools.sent))
-            commands.push_back(CancelDrag{});
-        else
-            commands.push_back(EndDrag{});
-    }
+    const bool gives_up = does_nothing(tools.sent);
+    if (tools.drags_pivot && !gives_up)
+        commands.push_back(SetPivot{tools.sent.pivot + tools.sent.shift});
+    else if (tools.drags_pivot)
+        commands.push_back(SetPivot{{}, SetPivot::Stage::given_up});
+    else if (gives_up)
+        commands.push_back(CancelDrag{});
+    else
+        commands.push_back(EndDrag{});
     finish(tools);
 }
 
 void cancel_drag(Tools& tools, std::vector<Command>& commands) {
-    if (!tools.drags_pivot)
+    if (tools.drags_pivot)
+        commands.push_back(SetPivot{{}, SetPivot::Stage::given_up});
+    else
         commands.push_back(CancelDrag{});
-    else if (!does_nothing(tools.sent))
-        commands.push_back(SetPivot{tools.sent.pivot});
     finish(tools);
 }
 
@@ -102,6 +106,7 @@ void go_on_as(const Hand& hand, TransformKind kind) {
     if (!has_effect(gizmo, kind)) return hand.tell(RefuseTransform{kind});
     drag = begin_transform(kind, drag.pivot, drag.local_axes, hand.tools.cursor, hand.context.camera,
                            hand.context.viewport);
+    drag.own_first = gizmo.local;
     tell_transform(hand);
 }
 
@@ -129,6 +134,7 @@ void drag_key(const Hand& hand, const KeyPress& press) {
     const bool takes_back = press.held.ctrl && press.key == key('Z'); // what is going on, that is
     if (press.key == Key::escape || takes_back) return cancel_drag(hand.tools, hand.commands);
     if (press.key == Key::enter) return end_drag(hand.tools, hand.commands);
+    if (press.key == Key::tab) return next_field(drag, press.held.shift);
     if (const auto kind = kind_of(press.key); kind && hand.tools.modal && press.held == Modifiers{})
         return hand.context.gizmo ? go_on_as(hand, *kind) : void();
     const int axis = static_cast<int>(press.key) - static_cast<int>('X');

@@ -177,28 +177,51 @@ bool turn_to(TransformDrag& drag, glm::dvec2 cursor, double share) {
     return true;
 }
 
+bool is_typed(const TransformDrag& drag) {
+    return std::ranges::any_of(drag.typed, [](const std::string& number) { return !number.empty(); });
+}
+
 // A number as far as it is typed: "-" and "." are none yet.
-std::optional<double> typed_number(const TransformDrag& drag) {
-    if (drag.typed.find_first_of("0123456789") == std::string::npos) return {};
-    return std::strtod(drag.typed.c_str(), nullptr);
+std::optional<double> typed_number(const TransformDrag& drag, std::size_t field = 0) {
+    const std::string& typed = drag.typed[field];
+    if (typed.find_first_of("0123456789") == std::string::npos) return {};
+    return std::strtod(typed.c_str(), nullptr);
 }
 
 double round_to(double value, double step) {
     return step > 0 ? step * std::round(value / step) : value;
 }
 
-// That a typed length goes along.
-int typed_axis(const TransformDrag& drag) {
-    if (drag.constraint.kind == Constraint::Kind::axis) return drag.constraint.axis;
-    return drag.constraint.kind == Constraint::Kind::plane && drag.constraint.axis == 0 ? 1 : 0;
+bool leaves(const Constraint& constraint, int axis) {
+    if (constraint.kind == Constraint::Kind::free) return true;
+    return (axis == constraint.axis) == (constraint.kind == Constraint::Kind::axis);
+}
+
+// So many numbers can be typed.
+int fields_of(const TransformDrag& drag) {
+    if (drag.kind != TransformKind::translate) return 1;
+    int count = 0;
+    for (int axis = 0; axis < 3; ++axis) count += leaves(drag.constraint, axis) ? 1 : 0;
+    return count;
+}
+
+// Which of them is typed at. The constraint may have become another one since.
+int field_of(const TransformDrag& drag) {
+    return std::min(drag.field, fields_of(drag) - 1);
+}
+
+// The numbers typed are lengths along the axes that are left, in their order.
+glm::dvec3 typed_shift(const TransformDrag& drag) {
+    glm::dvec3 lengths(0.0);
+    std::size_t field = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        if (leaves(drag.constraint, axis)) lengths[axis] = typed_number(drag, field++).value_or(0);
+    return lengths;
 }
 
 glm::dvec3 shift_of(const TransformDrag& drag) {
     const glm::dquat frame = frame_of(drag);
-    if (!drag.typed.empty()) {
-        const double length = typed_number(drag).value_or(0);
-        return length * (frame * unit(typed_axis(drag)));
-    }
+    if (is_typed(drag)) return frame * typed_shift(drag);
     const glm::dvec3 shift = shift_by_cursor(drag);
     if (!drag.snap) return shift;
     glm::dvec3 parts = glm::conjugate(frame) * shift;
@@ -207,12 +230,12 @@ glm::dvec3 shift_of(const TransformDrag& drag) {
 }
 
 double angle_of(const TransformDrag& drag) {
-    if (!drag.typed.empty()) return typed_number(drag).value_or(0) * pi / 180;
+    if (is_typed(drag)) return typed_number(drag).value_or(0) * pi / 180;
     return drag.snap ? round_to(drag.turned, snap_angle) : drag.turned;
 }
 
 double factor_of(const TransformDrag& drag) {
-    if (!drag.typed.empty()) return std::max(typed_number(drag).value_or(1), least_factor);
+    if (is_typed(drag)) return std::max(typed_number(drag).value_or(1), least_factor);
     const double factor = factor_by_cursor(drag);
     return std::max(drag.snap ? round_to(factor, snap_factor) : factor, least_factor);
 }
@@ -270,9 +293,9 @@ void press_axis(TransformDrag& drag, int axis, bool plane) {
     const Grip grip = grip_of(drag);
     const bool faced = dial_of(drag, grip).cosine >= 0;
     if (drag.constraint.kind != kind || drag.constraint.axis != axis)
-        drag.constraint = {kind, axis, false};
-    else if (!drag.constraint.local)
-        drag.constraint.local = true;
+        drag.constraint = {kind, axis, drag.own_first};
+    else if (drag.constraint.local == drag.own_first)
+        drag.constraint.local = !drag.own_first;
     else
         drag.constraint = {};
     // What was turned so far stays, and the way that it was seen to turn.
@@ -280,7 +303,8 @@ void press_axis(TransformDrag& drag, int axis, bool plane) {
 }
 
 bool type_character(TransformDrag& drag, char character) {
-    std::string& typed = drag.typed;
+    drag.field = field_of(drag);
+    std::string& typed = drag.typed[static_cast<std::size_t>(drag.field)];
     const bool digit = character >= '0' && character <= '9';
     const bool point = character == '.' || character == ',';
     if (character == '-') {
@@ -299,6 +323,11 @@ bool type_character(TransformDrag& drag, char character) {
     return true;
 }
 
+void next_field(TransformDrag& drag, bool back) {
+    const int count = fields_of(drag);
+    drag.field = (field_of(drag) + (back ? count - 1 : 1)) % count;
+}
+
 Transform transform_of(const TransformDrag& drag) {
     Transform transform;
     transform.pivot = drag.pivot;
@@ -312,11 +341,9 @@ Transform transform_of(const TransformDrag& drag) {
         break;
     case TransformKind::scale: {
         const double factor = factor_of(drag);
-        const bool plane = drag.constraint.kind == Constraint::Kind::plane;
         transform.scale = glm::dvec3(factor);
-        if (drag.constraint.kind != Constraint::Kind::free)
-            for (int i = 0; i < 3; ++i)
-                if ((i == drag.constraint.axis) == plane) transform.scale[i] = 1;
+        for (int axis = 0; axis < 3; ++axis)
+            if (!leaves(drag.constraint, axis)) transform.scale[axis] = 1;
         transform.axes = frame_of(drag);
         break;
     }
@@ -353,8 +380,8 @@ std::string constraint_words(const TransformDrag& drag, const char* axis_word) {
 }
 
 // What is being typed is seen to be a field.
-std::string typed_text(const TransformDrag& drag) {
-    return "[" + drag.typed + "]";
+std::string typed_text(const TransformDrag& drag, std::size_t field = 0) {
+    return "[" + drag.typed[field] + "]";
 }
 
 // With what a factor comes to that is too small to be taken.
@@ -363,19 +390,22 @@ std::string typed_factor_text(const TransformDrag& drag) {
     return typed_text(drag) + (is_less ? " is " + number(least_factor, 2) : "");
 }
 
-// Lengths are told to a hundredth of the grid, each with the letter of its axis.
+// Lengths are told to a hundredth of the grid, each with the letter of its axis. Which of them is typed at is
+// seen as soon as there is a choice.
 std::string lengths_text(const TransformDrag& drag) {
     const int decimals =
         drag.grid > 0 ? std::clamp(static_cast<int>(std::ceil(1.5 - std::log10(drag.grid))), 0, 9) : 3;
     const glm::dvec3 parts = glm::conjugate(frame_of(drag)) * shift_of(drag);
+    const bool begun = is_typed(drag) || field_of(drag) > 0;
     std::string text;
-    for (int i = 0; i < 3; ++i) {
-        const bool is_axis = i == drag.constraint.axis;
-        if (drag.constraint.kind == Constraint::Kind::axis && !is_axis) continue;
-        if (drag.constraint.kind == Constraint::Kind::plane && is_axis) continue;
-        const bool is_typed = !drag.typed.empty() && i == typed_axis(drag);
-        text +=
-            std::string("  ") + letter(i) + " " + (is_typed ? typed_text(drag) : number(parts[i], decimals));
+    int field = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!leaves(drag.constraint, axis)) continue;
+        const auto at = static_cast<std::size_t>(field);
+        const bool as_typed = !drag.typed[at].empty() || (begun && field == field_of(drag));
+        text += std::string("  ") + letter(axis) + " " +
+                (as_typed ? typed_text(drag, at) : number(parts[axis], decimals));
+        ++field;
     }
     return text;
 }
@@ -383,17 +413,17 @@ std::string lengths_text(const TransformDrag& drag) {
 } // namespace
 
 std::string amount_text(const TransformDrag& drag) {
-    const bool is_typed = !drag.typed.empty();
+    const bool typed = is_typed(drag);
     switch (drag.kind) {
     case TransformKind::translate:
         return "G" + lengths_text(drag) + constraint_words(drag, "along");
     case TransformKind::rotate:
-        return "R  " + (is_typed ? typed_text(drag) : number(angle_of(drag) * 180 / pi, 1)) + "°" +
+        return "R  " + (typed ? typed_text(drag) : number(angle_of(drag) * 180 / pi, 1)) + "°" +
                constraint_words(drag, "about");
     case TransformKind::scale:
         break;
     }
-    return "S  × " + (is_typed ? typed_factor_text(drag) : number(factor_of(drag), 2)) +
+    return "S  × " + (typed ? typed_factor_text(drag) : number(factor_of(drag), 2)) +
            constraint_words(drag, "along");
 }
 

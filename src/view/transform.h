@@ -53,9 +53,13 @@ struct TransformDrag {
     glm::dvec2 start{0.0};             // where the cursor was
     glm::dvec2 cursor{0.0};            // where it is now (with Shift's slowness taken out)
     double turned = 0;                 // radians followed so far about the axis, whole turns included
-    std::string typed;                 // "45", "-1.5", empty: the cursor drives
-    bool snap = false; // whole steps: 5° in rotation, a tenth in scale, `grid` in translation
-    double grid = 0;   // a round length that suits the view
+    // "45", "-1.5"; of a shift one number for each axis that the constraint leaves, else the first alone. All
+    // empty: the cursor drives.
+    std::array<std::string, 3> typed;
+    int field = 0;          // which of them is typed at
+    bool own_first = false; // X, Y, Z ask for the handle's own axis before the world's
+    bool snap = false;      // whole steps: 5° in rotation, a tenth in scale, `grid` in translation
+    double grid = 0;        // a round length that suits the view
 
     glm::dvec2 hand{0.0};                  // where the cursor is in truth
     glm::dvec3 screen_axis{0.0, 0.0, 1.0}; // towards the eye when the drag began: free rotation's axis
@@ -74,13 +78,15 @@ void follow_cursor(TransformDrag& drag, glm::dvec2 cursor, bool slow, const Came
 // The cursor went there for another reason, such as orbiting in mid-drag: the transform stays as it is, and
 // goes on from there under this camera.
 void hold_transform(TransformDrag& drag, glm::dvec2 cursor, const Camera& camera, Viewport viewport);
-// The key X, Y or Z (axis 0, 1, 2): first press the world's axis, second the handle's own, third free again;
-// with `plane` (Shift) the plane across it.
+// The key X, Y or Z (axis 0, 1, 2): first press the world's axis, second the handle's own (the other way
+// round where `own_first`), third free again; with `plane` (Shift) the plane across it.
 void press_axis(TransformDrag& drag, int axis, bool plane);
 // A character of a number: digits, '.' or ',', '-' (turns the sign round); '\b' takes the last back. Others
 // are not taken: returns false. Degrees in rotation, a factor in scale; in translation a length along the
-// axis, along x where it is free, along the first of a plane's two axes.
+// axis, and first along x where it is free, along the first of a plane's two axes.
 bool type_character(TransformDrag& drag, char character);
+// The key Tab: the next of these lengths, or the one before; what is typed at that becomes it.
+void next_field(TransformDrag& drag, bool back);
 // The transform as it stands. The camera is no longer asked: what the drag has followed decides, so that
 // nothing moves or flips with the camera.
 Transform transform_of(const TransformDrag& drag, const Camera& camera, Viewport viewport);

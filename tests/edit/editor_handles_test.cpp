@@ -248,6 +248,57 @@ TEST_F(BarEditor, APointThatLeavesRotationFreeSaysWhyItDoesNotTurn) {
     EXPECT_TRUE(editor_.tools.drag);
 }
 
+TEST_F(BarEditor, EveryHandleKeepsItsPivotAndTakesItAlong) {
+    make_handles();
+    select_heights(-0.5, 0.5);
+    apply(editor_, MakeHandle{HandleRole::moving, "middle"});
+    calm();
+    const auto at = [&](const char* handle) {
+        apply(editor_, ChooseHandle{handle});
+        return gizmo_of(editor_)->center;
+    };
+    const glm::dvec3 middle = at("high"), joint(0, 0, 2);
+    apply(editor_, SetPivot{glm::dvec3(1, 0, 2), SetPivot::Stage::moving});
+    apply(editor_, SetPivot{joint});
+    EXPECT_NE(at("middle"), joint);
+    apply(editor_, DropChoice{});
+    EXPECT_EQ(at("high"), joint) << "also after another was chosen, and none";
+
+    turn_chosen("90"); // about the view's axis, y
+    EXPECT_LT(glm::distance(at("high"), joint), 1e-9);
+    move({400, 100});
+    press('G');
+    press('Z');
+    type("1");
+    press(Key::enter);
+    calm();
+    EXPECT_LT(glm::distance(at("high"), joint + glm::dvec3(0, 0, 1)), 1e-9) << "it goes along";
+    apply(editor_, ResetPose{"high"});
+    calm();
+    EXPECT_LT(glm::distance(at("high"), joint), 1e-9);
+    apply(editor_, UndoStep{});
+    EXPECT_LT(glm::distance(at("high"), joint + glm::dvec3(0, 0, 1)), 1e-9);
+    apply(editor_, RenameHandle{"high", "top"});
+    calm();
+    EXPECT_LT(glm::distance(at("top"), joint + glm::dvec3(0, 0, 1)), 1e-9);
+    for (int step = 0; step < 3; ++step) apply(editor_, UndoStep{}); // the name, the shift, the turn
+    calm();
+    EXPECT_EQ(at("high"), joint);
+
+    const std::size_t steps = editor_.past.size();
+    apply(editor_, UndoStep{});
+    EXPECT_EQ(editor_.past.size(), steps - 1) << "one step, however often the hand moved";
+    EXPECT_EQ(at("high"), middle);
+    apply(editor_, RedoStep{});
+    EXPECT_EQ(at("high"), joint);
+    apply(editor_, SetPivot{glm::dvec3(3, 3, 3), SetPivot::Stage::moving});
+    apply(editor_, SetPivot{{}, SetPivot::Stage::given_up});
+    EXPECT_EQ(at("high"), joint);
+    EXPECT_EQ(editor_.past.size(), steps) << "nothing moved";
+    apply(editor_, SetPivot{});
+    EXPECT_EQ(at("high"), middle);
+}
+
 TEST_F(BarEditor, LargeHandlesNeedNoFalloff) {
     make_handles();
     for (const Handle& handle : editor_.document->handles) EXPECT_EQ(least_falloff(editor_, handle), 0);

@@ -83,7 +83,9 @@ protected:
             return one_of(
                 {HandleRole::fixed, HandleRole::moving, HandleRole::moving, HandleRole::region_of_interest});
         };
-        switch (below(12)) {
+        switch (below(13)) {
+        case 12:
+            return SetPivot{glm::dvec3(between(-1, 1), between(-1, 1), between(-1, 1))};
         case 0:
             return RenameHandle{any_handle(), "name " + std::to_string(below(30))};
         case 1:

@@ -238,12 +238,15 @@ TEST(MoveTools, TheArrowsCanMoveThePivot) {
     bench.move(middle + glm::dvec2(105, 2));
     ASSERT_TRUE(bench.only<SetPivot>().pivot);
     EXPECT_TRUE(near(*bench.only<SetPivot>().pivot, {20 * bench.pixel(), 0, 0}, 1e-9));
+    EXPECT_EQ(bench.only<SetPivot>().stage, SetPivot::Stage::moving);
     bench.release(middle + glm::dvec2(105, 2));
-    EXPECT_EQ(bench.commands.size(), 1U);
+    ASSERT_EQ(bench.commands.size(), 2U);
+    EXPECT_EQ(bench.all<SetPivot>().back().stage, SetPivot::Stage::set);
+    EXPECT_EQ(bench.all<SetPivot>().back().pivot, bench.all<SetPivot>().front().pivot);
     bench.press(middle + glm::dvec2(85, 2));
     bench.move(middle + glm::dvec2(185, 2));
     bench.hit(Key::escape);
-    EXPECT_EQ(*bench.all<SetPivot>().back().pivot, glm::dvec3(0.0));
+    EXPECT_EQ(bench.all<SetPivot>().back().stage, SetPivot::Stage::given_up);
     EXPECT_TRUE(bench.all<BeginDrag>().empty());
 }
 

@@ -286,12 +286,53 @@ TEST(TransformDrag, TypedNumbersOverrideTheCursor) {
     EXPECT_GT(size.now().scale.x, 0);
 }
 
+TEST(TransformDrag, TabGoesToTheNextLength) {
+    Scene scene(TransformKind::translate);
+    scene.type("1");
+    next_field(scene.drag, false);
+    EXPECT_EQ(amount_text(scene.drag), "G  X [1]  Y []  Z 0.000") << "where the next digit goes is seen";
+    scene.type("2");
+    next_field(scene.drag, false);
+    scene.type("-3");
+    EXPECT_EQ(scene.now().shift, glm::dvec3(1, 2, -3));
+    next_field(scene.drag, false);
+    scene.type("5");
+    EXPECT_EQ(scene.now().shift, glm::dvec3(15, 2, -3)) << "round again";
+    next_field(scene.drag, true);
+    scene.type("\b\b4");
+    EXPECT_EQ(scene.now().shift, glm::dvec3(15, 2, 4));
+    scene.constrain(1, true); // x and z are left
+    EXPECT_EQ(scene.now().shift, glm::dvec3(15, 0, 2)) << "in the order of what is left";
+    scene.constrain(2);
+    EXPECT_EQ(scene.now().shift, glm::dvec3(0, 0, 15));
+    next_field(scene.drag, false);
+    scene.type("0");
+    EXPECT_EQ(scene.now().shift, glm::dvec3(0, 0, 150)) << "there is no other";
+
+    Scene turn(TransformKind::rotate);
+    turn.type("9");
+    next_field(turn.drag, false);
+    turn.type("0");
+    EXPECT_NEAR(turn.now().angle, pi / 2, 1e-15) << "a turn has one number";
+}
+
+TEST(TransformDrag, OwnAxesComeFirstWhereTheyAreAskedFor) {
+    Scene scene(TransformKind::translate);
+    scene.drag.own_first = true;
+    press_axis(scene.drag, 1, false);
+    EXPECT_EQ(scene.drag.constraint, (Constraint{Constraint::Kind::axis, 1, true}));
+    press_axis(scene.drag, 1, false);
+    EXPECT_EQ(scene.drag.constraint, (Constraint{Constraint::Kind::axis, 1, false}));
+    press_axis(scene.drag, 1, false);
+    EXPECT_EQ(scene.drag.constraint, Constraint{});
+}
+
 TEST(TransformDrag, AnyLengthOfTypingIsANumber) {
     Scene scene(TransformKind::translate);
     for (int i = 0; i < 400; ++i) scene.type("9");
     EXPECT_TRUE(std::isfinite(scene.now().shift.x));
     for (int i = 0; i < 400; ++i) scene.type("\b");
-    EXPECT_TRUE(scene.drag.typed.empty());
+    EXPECT_TRUE(scene.drag.typed[0].empty());
     scene.type("1.2.3");
     EXPECT_EQ(scene.now().shift.x, 1.23) << "the second point is left out";
 }

@@ -1,0 +1,45 @@
+// The points that handles turn about and grow from, where the user moved them: each handle keeps its own,
+// which goes with it.
+
+#include "edit/editor_steps.h"
+
+namespace knead {
+
+std::optional<glm::dvec3> pivot_of(const Editor& editor, const std::string& handle) {
+    const auto found = editor.pivots.find(handle);
+    if (found == editor.pivots.end()) return std::nullopt;
+    return found->second;
+}
+
+void put_pivot(Editor& editor, const std::string& handle, const std::optional<glm::dvec3>& pivot) {
+    if (pivot)
+        editor.pivots[handle] = *pivot;
+    else
+        editor.pivots.erase(handle);
+}
+
+void put_pivot_with(EditorStep& step, Editor& editor, const std::string& handle,
+                    const std::optional<glm::dvec3>& pivot) {
+    const auto before = pivot_of(editor, handle);
+    if (before == pivot) return;
+    step.pivot = PivotMove{handle, before, pivot};
+    put_pivot(editor, handle, pivot);
+}
+
+void carry_out(Editor& editor, const SetPivot& command) {
+    if (editor.chosen.empty()) return;
+    if (!editor.moved_pivot) editor.moved_pivot = PivotMove{editor.chosen, pivot_of(editor, editor.chosen)};
+    PivotMove& move = *editor.moved_pivot;
+    move.after = command.stage == SetPivot::Stage::given_up ? move.before : command.pivot;
+    put_pivot(editor, move.handle, move.after);
+    if (command.stage == SetPivot::Stage::moving) return;
+    if (move.after != move.before) {
+        add_step(editor, 0, nullptr);
+        EditorStep& step = editor.past.back();
+        step.chosen_before = step.chosen_after = move.handle;
+        step.pivot = move;
+    }
+    editor.moved_pivot.reset();
+}
+
+} // namespace knead

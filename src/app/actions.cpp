@@ -128,11 +128,12 @@ template<int direction>
 void choose_next_handle(const Ui& ui) {
     const std::vector<Handle>& handles = ui.editor.document->handles;
     if (handles.empty()) return;
-    const int count = static_cast<int>(handles.size());
+    const std::vector<std::size_t> order = order_of_list(ui.state.handle_colors, handles);
+    const int count = static_cast<int>(order.size());
     int at = direction > 0 ? -1 : 0;
     for (int i = 0; i < count; ++i)
-        if (handles[static_cast<std::size_t>(i)].name == ui.editor.chosen) at = i;
-    ui.tell(ChooseHandle{handles[static_cast<std::size_t>((at + direction + count) % count)].name});
+        if (handles[order[static_cast<std::size_t>(i)]].name == ui.editor.chosen) at = i;
+    ui.tell(ChooseHandle{handles[order[static_cast<std::size_t>((at + direction + count) % count)]].name});
 }
 
 void rename_chosen(const Ui& ui) {
@@ -420,9 +421,11 @@ std::span<const Gesture> gestures() {
         Gesture{"Select", "[", "Smaller brush"},
         Gesture{"Select", "]", "Larger brush"},
         Gesture{"While moving, turning or scaling", "X",
-                "Along x; again: the handle's own; again: free (Y, Z alike)"},
+                "Along x, the world's or the handle's own as the gizmo has it; again: the other; again: free "
+                "(Y, Z alike)"},
         Gesture{"While moving, turning or scaling", "Shift+X", "In the plane across x (Y, Z alike)"},
         Gesture{"While moving, turning or scaling", "0…9", "Type the amount; − turns its sign round"},
+        Gesture{"While moving, turning or scaling", "Tab", "Type the length along the next axis"},
         Gesture{"While moving, turning or scaling", "Ctrl", "Whole steps"},
         Gesture{"While moving, turning or scaling", "Shift", "Ten times slower"},
         Gesture{"While moving, turning or scaling", "Enter", "Done (or click)"},

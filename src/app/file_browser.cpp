@@ -239,6 +239,20 @@ void entry_row(const Ui& ui, const FolderEntry& entry, int number) {
     caption(date_words(entry.changed).c_str());
 }
 
+// What is not in the folder.
+const char* nothing_words(BrowseFor purpose) {
+    switch (purpose) {
+    case BrowseFor::save_cloud:
+    case BrowseFor::cloud_of_session:
+        return "No clouds here, nor folders";
+    case BrowseFor::save_session:
+    case BrowseFor::take_handles:
+        return "No sessions here, nor folders";
+    default:
+        return "No clouds or sessions here, nor folders";
+    }
+}
+
 void entry_table(const Ui& ui) {
     FileBrowser& browser = ui.state.browser;
     ImGui::PushStyleColor(ImGuiCol_ChildBg, palette::rgb(0x000000, 46));
@@ -252,6 +266,11 @@ void entry_table(const Ui& ui) {
         ImGui::TableHeadersRow();
         for (std::size_t i = 0; i < browser.entries.size(); ++i)
             entry_row(ui, browser.entries[i], static_cast<int>(i));
+        if (browser.entries.empty()) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            faint_text(nothing_words(browser.purpose));
+        }
         ImGui::EndTable();
     }
     ImGui::PopStyleColor();

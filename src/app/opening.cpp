@@ -81,6 +81,7 @@ void draw_opening(const Ui& ui) {
 }
 
 void draw_recovery(const Ui& ui) {
+    ui.state.recovery_end = 0;
     if (ui.state.lost.empty() || ui.editor.opening) return;
     const LostWork work = ui.state.lost.front();
     begin_card(ui, "recovery", 480, 0.04f);
@@ -107,6 +108,7 @@ void draw_recovery(const Ui& ui) {
     explain("Asks again at the next start");
     ImGui::SameLine();
     if (ImGui::Button("Delete…", {width, 0})) ui.state.deleting = work;
+    ui.state.recovery_end = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;
     end_card();
 }
 

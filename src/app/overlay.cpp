@@ -1,10 +1,11 @@
-// Over the cloud, under the panels: the gizmo, the selection in the making, the amount beside the cursor and
-// the axes in the corner.
+// Over the cloud, under the panels: the gizmo, the selection in the making and the axes in the corner; and
+// over all of it the amount beside the cursor.
 
 #include "app/overlay.h"
 
 #include "app/icons.h"
 #include "app/widgets.h"
+#include "edit/selecting.h"
 
 #include <algorithm>
 #include <array>
@@ -99,16 +100,16 @@ void pill(const Ui& ui, ImDrawList& list, ImVec2 corner, const std::string& word
     list.AddText({corner.x + across, corner.y + down}, ink, words.c_str());
 }
 
-void draw_amount(const Ui& ui, ImDrawList& list) {
+// Over everything else: what is typed has to be read, be a message there or a panel.
+void draw_amount(const Ui& ui) {
     const Tools& tools = ui.editor.tools;
     if (!tools.drag) return;
     const std::string words = amount_text(*tools.drag, ui.editor.camera, ui.editor.viewport);
-    const ImVec2 cursor = in_window(ui, tools.cursor);
-    const Rectangle& view = ui.state.view;
+    const ImVec2 cursor = in_window(ui, tools.cursor), window = ImGui::GetIO().DisplaySize;
     const float width = ImGui::CalcTextSize(words.c_str()).x + ui.scaled(20);
-    const float x = std::min(cursor.x + ui.scaled(20), view.x + view.width - width);
-    const float y = std::min(cursor.y + ui.scaled(16), view.y + view.height - ui.scaled(30));
-    pill(ui, list, {x, y}, words, palette::text, palette::rgb(0x15171a, 225));
+    const float x = std::clamp(cursor.x + ui.scaled(20), 0.0f, std::max(0.0f, window.x - width));
+    const float y = std::clamp(cursor.y + ui.scaled(16), 0.0f, std::max(0.0f, window.y - ui.scaled(30)));
+    pill(ui, *ImGui::GetForegroundDrawList(), {x, y}, words, palette::text, palette::rgb(0x15171a, 225));
 }
 
 // --- The selection in the making ---
@@ -188,6 +189,24 @@ void draw_brush(const Ui& ui, ImDrawList& list) {
                    ui.scaled(1.4f));
 }
 
+// --- Few selected points ---
+
+// So few are hard to see between all the others, which cover them too.
+constexpr std::size_t few_points = 8;
+
+void draw_few_selected(const Ui& ui, ImDrawList& list) {
+    const Editor& editor = ui.editor;
+    if (editor.selected == 0 || editor.selected > few_points) return;
+    for (const Index i : first_selected(editor.marks, editor.selected)) {
+        const float* p = editor.frame.positions.data() + 3 * std::size_t{i};
+        const auto seen = project(editor.camera, editor.viewport, {p[0], p[1], p[2]});
+        if (!seen) continue;
+        const ImVec2 at = in_window(ui, seen->pixel);
+        list.AddCircle(at, ui.scaled(7), palette::rgb(0x101114, 150), 0, ui.scaled(3.6f));
+        list.AddCircle(at, ui.scaled(7), palette::accent, 0, ui.scaled(1.8f));
+    }
+}
+
 // --- The axes in the corner ---
 
 void draw_axes(const Ui& ui, ImDrawList& list) {
@@ -232,11 +251,12 @@ void draw_overlay(const Ui& ui) {
     draw_constraint(ui, list);
     draw_handle_names(ui, list);
     draw_gizmo(ui, list);
+    draw_few_selected(ui, list);
     draw_band(ui, list);
     draw_brush(ui, list);
     draw_axes(ui, list);
-    draw_amount(ui, list);
     list.PopClipRect();
+    draw_amount(ui);
 }
 
 } // namespace knead

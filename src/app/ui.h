@@ -151,6 +151,7 @@ struct UiState {
     Measured measured;
 
     std::deque<Toast> toasts;
+    float recovery_end = 0;     // the lower edge of the card that offers to restore; 0: there is none
     bool toasts_on_top = false; // in the upper corner of the view; else in the lower one
     float toasts_height = 0;    // of all in the last frame
     std::vector<std::filesystem::path> recent;

@@ -58,6 +58,18 @@ void recent_rows(const Ui& ui) {
     }
 }
 
+// In the middle of what the card above leaves; where that is too low for it, it scrolls.
+void place_card(const Ui& ui) {
+    const Rectangle& view = ui.state.view;
+    const float margin = ui.scaled(12);
+    const float top = std::max(view.y, ui.state.recovery_end), bottom = view.y + view.height;
+    const float width = std::min(ui.scaled(510), view.width * 0.95f);
+    ImGui::SetNextWindowPos({view.x + view.width / 2, (top + bottom) / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSizeConstraints({width, 0},
+                                        {width, std::max(ui.scaled(60), bottom - top - 2 * margin)});
+    ImGui::SetNextWindowSize({width, 0});
+}
+
 } // namespace
 
 void draw_welcome(const Ui& ui) {
@@ -69,15 +81,13 @@ void draw_welcome(const Ui& ui) {
     const ImU32 ground = ImGui::ColorConvertFloat4ToU32({bottom.r, bottom.g, bottom.b, 1});
     ImGui::GetBackgroundDrawList()->AddRectFilledMultiColor(
         {view.x, view.y}, {view.x + view.width, view.y + view.height}, sky, sky, ground, ground);
-    const float above = ui.state.lost.empty() ? 0.5f : 0.6f;
-    ImGui::SetNextWindowPos({view.x + view.width / 2, view.y + view.height * above}, ImGuiCond_Always,
-                            {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(ui.scaled(510), view.width * 0.95f), 0});
+    place_card(ui);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.scaled(32), ui.scaled(28)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.scaled(10));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::raised);
     ImGui::Begin("welcome", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::PushFont(ui.state.fonts.title);
     ImGui::TextUnformatted("Pose a point cloud");

@@ -19,16 +19,20 @@ constexpr float patience = 0.4f;
 
 // Of what stands in a panel at the right side beside that panel, at the lower edge above it: at the cursor it
 // would hide what comes next. The farther right or down it is, the more of it is on the other side of there,
-// so that none goes over the edge.
-void place_explanation() {
+// so that none goes over the edge. Returns how wide it may be.
+float place_explanation() {
     const ImVec2 panel = ImGui::GetWindowPos(), item = ImGui::GetItemRectMin(), cursor = ImGui::GetMousePos();
     const ImVec2 all = ImGui::GetIO().DisplaySize;
     constexpr float gap = 6;
-    if (panel.x > all.x / 2)
+    const bool beside = panel.x > all.x / 2;
+    if (beside)
         ImGui::SetNextWindowPos({panel.x - gap, item.y}, ImGuiCond_Always, {1, item.y / all.y});
     else if (panel.y > 0.8f * all.y)
         ImGui::SetNextWindowPos({cursor.x, panel.y - gap}, ImGuiCond_Always, {cursor.x / all.x, 1});
+    return (beside ? panel.x : all.x) - 2 * gap;
 }
+
+constexpr float explanation_padding = 11; // at its sides
 
 } // namespace
 
@@ -36,11 +40,11 @@ void explain(const char* words) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsAnyItemActive()) return;
     const ImGuiContext& context = *ImGui::GetCurrentContext();
     if (context.HoveredId != 0 && context.HoveredIdTimer < patience) return;
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(11, 8));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(explanation_padding, 8));
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0f);
-    place_explanation();
+    const float room = place_explanation() - 2 * explanation_padding;
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    ImGui::PushTextWrapPos(std::min(ImGui::GetFontSize() * 24, room));
     ImGui::TextUnformatted(words);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();

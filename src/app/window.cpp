@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <optional>
 
 namespace knead {
@@ -176,13 +177,29 @@ GLFWwindow* create_window(int width, int height) {
                     "); update the graphics driver, or set LIBGL_ALWAYS_SOFTWARE=1 to draw in software");
 }
 
+// A window is made as much larger as the display is scaled, and may come out larger than that.
+void fit_into_display(GLFWwindow* window, float scale) {
+    int width = 0, height = 0, x = 0, y = 0, most_wide = 0, most_high = 0;
+    glfwGetWindowSize(window, &width, &height);
+    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor())
+        glfwGetMonitorWorkarea(monitor, &x, &y, &most_wide, &most_high);
+    if (most_wide <= 0 || most_high <= 0) most_wide = width, most_high = height;
+    if (width > most_wide || height > most_high)
+        glfwSetWindowSize(window, std::min(width, most_wide), std::min(height, most_high));
+    const auto least = [&](float pixels, int most) {
+        return std::min(static_cast<int>(std::lround(pixels * scale)), most);
+    };
+    glfwSetWindowSizeLimits(window, least(640, most_wide), least(420, most_high), GLFW_DONT_CARE,
+                            GLFW_DONT_CARE);
+}
+
 } // namespace
 
 Window::Window(int width, int height) : window_(create_window(width, height)) {
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     glfwSetWindowUserPointer(window_, this);
-    glfwSetWindowSizeLimits(window_, 640, 420, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    fit_into_display(window_, content_scale());
     glfwGetCursorPos(window_, &cursor_.x, &cursor_.y);
     // Before ImGui's own, which pass everything on to these.
     glfwSetCursorPosCallback(window_, Callbacks::cursor);

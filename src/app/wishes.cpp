@@ -27,6 +27,7 @@ void begin_opening(Work& work, OpenRequest request) {
     request.threads = work.options.threads;
     request.settings = work.options.settings;
     request.choose_samples = work.state.choose_samples;
+    request.session_chooses_samples = chose_samples(request.file);
     work.state.opening_demonstration = false;
     open(work.editor, std::move(request));
 }
@@ -145,6 +146,7 @@ void save(Work& work, const WishSaveTo& wish) {
     if (wish.purpose == BrowseFor::save_session) {
         save_session(work.editor, wish.file, wish.anyway);
         remember_file(work.state.recent, wish.file);
+        remember_choosing(wish.file, work.editor.chooses_samples);
     } else {
         save_cloud(work.editor, wish.file, wish.columns, wish.anyway);
         work.state.last_export = {work.editor.opened.file, wish.file};

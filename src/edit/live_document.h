@@ -129,8 +129,10 @@ struct OpenRequest {
     SettingsChange settings;                               // of a cloud; of a session only where
     bool sets_session = false; // this says so: then they are a step of its own at its end
     // Whether the number of samples is chosen, and chosen anew after acts, as edit/sample_choice.h says: of a
-    // cloud; a session keeps its number, and so do `settings`.
+    // cloud, and not where `settings` have a number.
     bool choose_samples = false;
+    // The same of a session, which has its own number until the first of these acts.
+    bool session_chooses_samples = false;
     // Seconds. If solving a frame takes longer, few samples answer for all while the hand moves.
     double quick = 0.02;
 };

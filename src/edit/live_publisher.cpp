@@ -126,9 +126,8 @@ void LivePublisher::tell(Notice::About about, std::string words, std::string& to
 void LivePublisher::strays(const Pipeline::Strays& strays) {
     std::string words = words_about(strays);
     if (!words.empty() && strays.fate == Strays::freeze)
-        words +=
-            "; \"Strays\" in the shape panel lets them follow, or joins them to what they lie next to. That "
-            "makes the pose the new rest shape, so undo first (Ctrl+Z) what tore them off";
+        words += "; \"Strays\" in the shape panel lets them follow, or joins them to what they lie next to. "
+                 "Changing it makes the pose the new rest shape, so undo first (Ctrl+Z) what tore them off";
     tell(Notice::About::strays, std::move(words), told_of_strays_);
 }
 
@@ -143,9 +142,8 @@ void LivePublisher::swallowed(const Document& document, const std::string& handl
 void LivePublisher::loose(const Document& document, const std::string& handle) {
     std::string words = words_about_loose(document, handle);
     if (!words.empty() && document.settings().strays != Strays::bridge)
-        words +=
-            "; \"Strays: Join\" in the shape panel joins them. That makes the pose the new rest shape, so "
-            "undo it first (Ctrl+Z)";
+        words += "; \"Strays: Join\" in the shape panel joins them. Changing it makes the pose the new rest "
+                 "shape, so undo that first (Ctrl+Z)";
     tell(Notice::About::loose, std::move(words), told_of_loose_);
 }
 

@@ -51,8 +51,10 @@ void LiveWork::open() {
     UpsamplerChoice choice = request_.make_upsampler(request_.device, workers_, request_.threads);
     if (!choice.warning.empty()) say(Notice::Kind::warning, choice.warning);
     upsampler_ = std::move(choice.upsampler);
-    choosing_ = is_plain_cloud && !request_.restore && request_.choose_samples && !request_.settings.samples;
-    if (choosing_) session.settings.samples = knead::choose_samples({cloud.size(), {}, {}}).samples;
+    choosing_ = !request_.restore && !request_.settings.samples &&
+                (is_plain_cloud ? request_.choose_samples : request_.session_chooses_samples);
+    if (choosing_ && is_plain_cloud)
+        session.settings.samples = knead::choose_samples({cloud.size(), {}, {}}).samples;
     document_ = std::make_unique<Document>(std::move(cloud), session.settings, workers_, *upsampler_);
     recording_ = std::make_unique<LiveRecording>(session, request_.restore);
     if (request_.restore)

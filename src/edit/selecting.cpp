@@ -126,4 +126,18 @@ MarkCounts count_marks(std::span<const std::uint8_t> marks) {
     return counts;
 }
 
+std::vector<Index> first_selected(std::span<const std::uint8_t> marks, std::size_t most) {
+    std::vector<Index> found;
+    constexpr std::size_t at_once = 64;
+    for (std::size_t first = 0; first < marks.size() && found.size() < most; first += at_once) {
+        const auto part = marks.subspan(first, std::min(at_once, marks.size() - first));
+        std::uint8_t any = 0; // without a branch in it: the processor takes many at a time
+        for (const std::uint8_t mark : part) any |= mark;
+        if (!(any & mark_selected)) continue;
+        for (std::size_t k = 0; k < part.size() && found.size() < most; ++k)
+            if (part[k] & mark_selected) found.push_back(static_cast<Index>(first + k));
+    }
+    return found;
+}
+
 } // namespace knead

@@ -48,4 +48,8 @@ struct MarkCounts {
 };
 MarkCounts count_marks(std::span<const std::uint8_t> marks);
 
+// The selected points, so many of them at most, in the order of the marks. Hardly slower than reading the
+// marks up to there.
+std::vector<Index> first_selected(std::span<const std::uint8_t> marks, std::size_t most);
+
 } // namespace knead

@@ -80,6 +80,16 @@ TEST_F(ChoosingBar, ASessionKeepsItsNumber) {
     settle_down();
     EXPECT_FALSE(live_->view()->chooses_samples);
     EXPECT_EQ(settings().samples, by_hand);
+
+    request.session_chooses_samples = true;
+    live_ = std::make_unique<LiveDocument>(request);
+    wait_until_open(*live_);
+    settle_down();
+    EXPECT_TRUE(live_->view()->chooses_samples);
+    EXPECT_EQ(settings().samples, by_hand) << "until an act asks for another";
+    live_->post(++step_, {DeleteLine{"low"}});
+    settle_down();
+    EXPECT_TRUE(is_chosen(settings()));
 }
 
 TEST_F(ChoosingBar, WhatItChoosesBelongsToTheActThatLedToIt) {

@@ -263,7 +263,7 @@ TEST_F(WindowTest, ASessionWhoseCloudWasMovedAsksWhereItIs) {
     pause(1);
     desktop_->type(elsewhere.string());
     desktop_->keys({"Return"});
-    ASSERT_TRUE(desktop_->wait_for_title("elsewhere.ply")) << read_text(folder_ / "editor.log");
+    ASSERT_TRUE(desktop_->wait_for_title("work.knead")) << read_text(folder_ / "editor.log");
     desktop_->keys({"ctrl+s"});
     ASSERT_TRUE(
         wait_until([&] { return read_session(folder_ / "work.knead").cloud == "moved/elsewhere.ply"; }));

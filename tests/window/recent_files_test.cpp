@@ -1,0 +1,52 @@
+// What the window keeps of files from one run to the next.
+
+#include "app/recent_files.h"
+#include "support/scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace knead::test {
+namespace {
+
+class RecentFiles : public ::testing::Test {
+protected:
+    RecentFiles() {
+        if (const char* state = std::getenv("XDG_STATE_HOME")) before_ = state;
+        setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
+        for (const char* name : {"a.knead", "b.knead"}) write_text(folder_ / name, "");
+    }
+    ~RecentFiles() override {
+        if (before_.empty())
+            unsetenv("XDG_STATE_HOME");
+        else
+            setenv("XDG_STATE_HOME", before_.c_str(), 1);
+    }
+    RecentFiles(const RecentFiles&) = delete;
+    RecentFiles& operator=(const RecentFiles&) = delete;
+
+    ScratchFolder folder_;
+    std::string before_;
+};
+
+TEST_F(RecentFiles, ASessionThatChoosesItsSamplesIsKnownAgain) {
+    const std::filesystem::path a = folder_ / "a.knead", b = folder_ / "b.knead";
+    EXPECT_FALSE(chose_samples(a));
+    remember_choosing(a, true);
+    EXPECT_TRUE(chose_samples(a));
+    EXPECT_FALSE(chose_samples(b));
+    EXPECT_TRUE(chose_samples(folder_ / "." / "a.knead")) << "by another name";
+    remember_choosing(b, true);
+    remember_choosing(a, false); // by hand since
+    EXPECT_FALSE(chose_samples(a));
+    EXPECT_TRUE(chose_samples(b));
+    EXPECT_TRUE(read_recent_files().empty()) << "a list of its own";
+    std::vector<std::filesystem::path> recent;
+    forget_files(recent);
+    EXPECT_FALSE(chose_samples(b)) << "whoever wants no names kept means all of them";
+}
+
+} // namespace
+} // namespace knead::test

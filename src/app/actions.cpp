@@ -421,8 +421,7 @@ std::span<const Gesture> gestures() {
         Gesture{"Select", "[", "Smaller brush"},
         Gesture{"Select", "]", "Larger brush"},
         Gesture{"While moving, turning or scaling", "X",
-                "Along x, the world's or the handle's own as the gizmo has it; again: the other; again: free "
-                "(Y, Z alike)"},
+                "Along x, of the gizmo's axes; again: of the other ones; again: free (Y, Z alike)"},
         Gesture{"While moving, turning or scaling", "Shift+X", "In the plane across x (Y, Z alike)"},
         Gesture{"While moving, turning or scaling", "0…9", "Type the amount; − turns its sign round"},
         Gesture{"While moving, turning or scaling", "Tab", "Type the length along the next axis"},

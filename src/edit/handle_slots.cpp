@@ -53,14 +53,13 @@ void arrange(const std::vector<Handle>& list, HandleSlots& slots) {
     else
         slot = spread(list.size(), count);
 
-    slots.slot = std::move(slot);
-    slots.handles.assign(count, {});
-    slots.handle.assign(count, no_index);
+    HandleSlots next{std::vector<Handle>(count), std::move(slot), std::vector<Index>(count + 1, no_index)};
     for (Index h = 0; h < list.size(); ++h) {
-        slots.handles[slots.slot[h]] = list[h];
-        slots.handle[slots.slot[h]] = h;
+        next.handles[next.slot[h]] = list[h];
+        next.handle[next.slot[h]] = h;
     }
-    slots.handle.push_back(static_cast<Index>(list.size()));
+    next.handle.back() = static_cast<Index>(list.size());
+    slots = std::move(next);
 }
 
 } // namespace knead

@@ -18,7 +18,8 @@ struct HandleSlots {
 };
 
 // Makes them those of `list`. What the list begins and ends with as before keeps its places, and so does, as
-// far as there are as many, what is between; what is more finds free ones, or all are spread anew.
+// far as there are as many, what is between; what is more finds free ones, or all are spread anew. Where
+// memory runs out nothing has changed.
 void arrange(const std::vector<Handle>& list, HandleSlots& slots);
 
 } // namespace knead

@@ -34,7 +34,7 @@ constexpr std::size_t asked_for_size = 1 << 13;
 Pipeline::Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampler)
     : cloud_(cloud), workers_(workers), upsampler_(upsampler) {}
 
-void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
+void Pipeline::prepare(PipelineInput input, Progress& progress) {
     note_changes(input.settings);
     if (!hold_the_same(input.handles, input_.handles)) {
         arrange(input.handles, slots_);
@@ -45,7 +45,7 @@ void Pipeline::prepare(const PipelineInput& input, Progress& progress) {
         stale_.memory = true; // of systems: states that are kept lie between what was freed
         std::ranges::fill(changed_points_, std::uint8_t{1}); // other places, other weights
     }
-    input_ = input;
+    input_ = std::move(input); // which cannot fail: half of it would pass for what the stages are made of
 
     // Each stage makes those that use it stale, and is done once it returned.
     prepare_stages_without_handles(progress);
@@ -86,8 +86,10 @@ void Pipeline::note_changes(const Settings& settings) {
     if (settings.weights != before.weights && !energy_.first.empty()) stale_.energy = stale_.systems = true;
     stale_.systems |= settings.stiffness != before.stiffness;
     if (settings.poisson != before.poisson) {
+        const bool were_stale = std::exchange(stale_.systems, true); // if only one of them comes to have it
         set_poisson(system_, settings.poisson);
         set_poisson(coarse_.system, settings.poisson);
+        stale_.systems = were_stale;
     }
     input_.settings = settings;
 }

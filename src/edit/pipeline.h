@@ -81,7 +81,7 @@ public:
 
     // Runs the stages whose inputs changed since the last call. Throws Error (numeric) if a system cannot be
     // factorised, and Cancelled; then the next call starts the unfinished stages again.
-    void prepare(const PipelineInput& input, Progress& progress);
+    void prepare(PipelineInput input, Progress& progress);
 
     // Only the stages that need no handles: graph, samples, flood.
     void prepare_ahead(const Settings& settings, Progress& progress);
@@ -191,7 +191,12 @@ private:
     void label_vertices();
     void label_hanging();
     void count_strays();
-    bool note_mover_numbers(std::size_t first_handle);
+    struct MoverNumbers {
+        std::size_t first_handle = 0; // where every part holds one; 0: else, or there are no movers
+        std::vector<bool> turning;    // at each place, whether its handle leaves rotation free
+    };
+    MoverNumbers find_mover_numbers(std::size_t first_handle) const;
+    bool are_known(const MoverNumbers& numbers) const;
     void note_changed_points(std::size_t block);
     void prepare_influences();
     void prepare_carried(std::span<const Index> mover_of_label);
@@ -255,12 +260,8 @@ private:
     PointEnergy energy_;               // of the points between these samples, where they are few
     std::uint64_t samples_version_ = 0;
 
-    std::vector<Index> mover_of_point_; // as influence_of() reads it
-    std::vector<Index> mover_ends_;     // one past the largest of the points of each block of vertices
-    struct MoverNumbers {
-        std::size_t first_handle = 0; // where every part holds one; 0: else, or there are no movers
-        std::vector<bool> turning;    // at each place, whether its handle leaves rotation free
-    };
+    std::vector<Index> mover_of_point_;        // as influence_of() reads it
+    std::vector<Index> mover_ends_;            // one past the largest of the points of each block of vertices
     MoverNumbers mover_numbers_;               // that they were made with
     std::vector<Vec3d> sample_places_;         // at rest, while the upsampler sees them
     std::vector<std::uint8_t> changed_points_; // blocks of them, as UpsampleInput has it

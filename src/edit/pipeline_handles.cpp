@@ -206,16 +206,20 @@ Index Pipeline::followed_by(std::size_t point) const {
 }
 
 // Whether movers are what they were before, but for those of points whose labels changed: what no handle
-// holds has the same one for all handles, if every part holds one. `first_handle`: as a mover.
-bool Pipeline::note_mover_numbers(std::size_t first_handle) {
-    std::vector<bool> turning(slots_.handles.size()); // how what a handle holds follows it
-    for (Index label = 0; label < turning.size(); ++label) turning[label] = turns_freely(label);
-    const std::size_t both = std::min(turning.size(), mover_numbers_.turning.size());
-    const bool same = strays_.parts == 0 && mover_numbers_.first_handle == first_handle &&
-                      std::equal(turning.begin(), turning.begin() + static_cast<std::ptrdiff_t>(both),
-                                 mover_numbers_.turning.begin());
-    mover_numbers_ = {strays_.parts == 0 ? first_handle : 0, std::move(turning)};
-    return same;
+// holds has the same one for all handles, if every part holds one.
+bool Pipeline::are_known(const MoverNumbers& numbers) const {
+    const MoverNumbers& former = mover_numbers_;
+    const auto both = static_cast<std::ptrdiff_t>(std::min(numbers.turning.size(), former.turning.size()));
+    return numbers.first_handle != 0 && former.first_handle == numbers.first_handle &&
+           std::equal(numbers.turning.begin(), numbers.turning.begin() + both, former.turning.begin());
+}
+
+// `first_handle`: as a mover.
+Pipeline::MoverNumbers Pipeline::find_mover_numbers(std::size_t first_handle) const {
+    MoverNumbers numbers{strays_.parts == 0 ? first_handle : 0, std::vector<bool>(slots_.handles.size())};
+    for (Index label = 0; label < numbers.turning.size(); ++label)
+        numbers.turning[label] = turns_freely(label);
+    return numbers;
 }
 
 // What moves the points of a block of vertices is another.
@@ -244,7 +248,9 @@ void Pipeline::prepare_influences() {
         if (held_component_[component]) return vertex;
         return carried_.size() > 0 ? first_carried + contacts_.part[component] : mover_of_label[outside];
     };
-    const bool only_changed = note_mover_numbers(first_handle);
+    MoverNumbers numbers = find_mover_numbers(first_handle);
+    const bool only_changed = are_known(numbers);
+    mover_numbers_ = {}; // until all are made: what fails on the way begins anew
     mover_of_point_.resize(order_.points());
     mover_ends_.resize(labels_.changed.size());
     changed_points_.resize(blocks_of(order_.points()), 1);
@@ -261,6 +267,7 @@ void Pipeline::prepare_influences() {
         }
     });
     motions_.assign(first_handle_motion_ + outside + 1 + carried_.size(), Motion{});
+    mover_numbers_ = std::move(numbers);
     seconds_.geodesic += clock.lap();
 }
 

@@ -192,7 +192,7 @@ private:
     void refuse_while_posed(const std::string& what, const std::string& place) const;
     State next_state() const; // for an act to change
     void take(State next);    // makes it the present one, and the present one the last in history
-    void step_forward();
+    void arrive_at(const State& next);
     void change_handles(HandleChange change);
     // As they were in a state of the past, or are in the present one.
     std::vector<Handle> handles_of(std::size_t at) const;

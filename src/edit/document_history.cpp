@@ -7,6 +7,7 @@
 #include "edit/keeping.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 namespace knead {
@@ -36,7 +37,7 @@ void Document::undo(const std::string& place) {
 void Document::redo(const std::string& place) {
     require(!under_way_, "an act comes after the drag that goes on");
     if (at_ + 1 == history_.size()) throw Error(Trouble::input, place, "there is nothing to redo");
-    step_forward();
+    arrive_at(history_[at_ + 1]);
 }
 
 Document::State Document::next_state() const {
@@ -47,16 +48,18 @@ Document::State Document::next_state() const {
 
 void Document::take(State next) {
     require(!under_way_, "an act comes after the drag that goes on");
-    history_.resize(at_ + 1);
+    static_assert(std::is_nothrow_move_constructible_v<State> && std::is_nothrow_move_assignable_v<State>);
+    if (history_.capacity() < at_ + 2) history_.reserve(2 * (at_ + 1)); // what can fail comes first
+    arrive_at(next);
+    history_.erase(history_.begin() + static_cast<std::ptrdiff_t>(at_), history_.end());
     history_.push_back(std::move(next));
-    step_forward();
     const auto forgotten = [&](const auto& made) { return made->made_from + 1 >= at_; };
     std::erase_if(kept_shapes_, forgotten);
     std::erase_if(kept_samples_, forgotten);
 }
 
-void Document::step_forward() {
-    const State& next = history_[at_ + 1];
+// From the present one. Where memory runs out nothing has changed.
+void Document::arrive_at(const State& next) {
     motions_.reserve(handles_.size() + 1); // what can fail comes first
     if (next.change) apply(*next.change, handles_);
     if (!next.posed)

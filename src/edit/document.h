@@ -73,7 +73,8 @@ public:
     // --- A drag or a settling that is looked at while it goes on ---
     //
     // begin, any number of frames, end: the document is then exactly as after drag() or settle() of those
-    // frames. Until the end nothing of it is history, and no other act may come in between.
+    // frames. Until the end nothing of it is history, and no other act may come in between. An end that
+    // throws forgets what was begun, as abandon() does.
 
     void begin_drag(const std::string& handle, const Vec3d& pivot, const std::string& place,
                     Progress& progress);
@@ -217,8 +218,8 @@ private:
     void repeat(const Posed& posed, SampleState& samples, Progress& progress);
     const State& now() const { return history_[at_]; }
     void end(UnderWay act, std::variant<DragLine, SettleLine> line);
-    void keep(const std::shared_ptr<Committed>& committed);
-    void keep(const std::shared_ptr<Posed>& posed);
+    void keep(const std::shared_ptr<Committed>& committed) noexcept;
+    void keep(const std::shared_ptr<Posed>& posed) noexcept;
     std::vector<Index> resolve(const HandleLine& line, const std::string& place);
 
     Mode mode_;

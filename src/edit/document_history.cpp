@@ -7,6 +7,7 @@
 #include "edit/keeping.h"
 
 #include <algorithm>
+#include <new>
 #include <type_traits>
 #include <utility>
 
@@ -191,42 +192,60 @@ void Document::repeat(const Posed& posed, SampleState& samples, Progress& progre
 
 namespace {
 
-// Puts one among those that are kept, which are sorted by where in history they were made.
+// What is kept only spares time: an act that was carried out does not fail for want of memory to keep what it
+// made.
+
+// Puts one among those that are kept, which are sorted by where in history they were made. False if there is
+// no memory for that.
 template<typename Made>
-void put_in(std::vector<std::shared_ptr<Made>>& kept, const std::shared_ptr<Made>& made) {
-    const auto place = std::ranges::lower_bound(kept, made->made_from, {},
-                                                [](const auto& other) { return other->made_from; });
-    if (place == kept.end() || *place != made) kept.insert(place, made);
+bool put_in(std::vector<std::shared_ptr<Made>>& kept, const std::shared_ptr<Made>& made) noexcept {
+    try {
+        const auto place = std::ranges::lower_bound(kept, made->made_from, {},
+                                                    [](const auto& other) { return other->made_from; });
+        if (place == kept.end() || *place != made) kept.insert(place, made);
+        return true;
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
 }
 
-// Takes out the one that is missed least, but for the one that is needed.
+// Takes out the one that is missed least, but for the one that is needed. Null if there is no memory to find
+// it; the next call does.
 template<typename Made>
 std::shared_ptr<Made> take_out(std::vector<std::shared_ptr<Made>>& kept, const Made& needed,
-                               std::size_t now) {
-    std::vector<std::size_t> places;
-    places.reserve(kept.size());
-    for (const auto& made : kept) places.push_back(made->made_from + 1);
-    const auto least =
-        kept.begin() + static_cast<std::ptrdiff_t>(least_missed(places, needed.made_from + 1, now));
-    std::shared_ptr<Made> out = std::move(*least);
-    kept.erase(least);
-    return out;
+                               std::size_t now) noexcept {
+    try {
+        std::vector<std::size_t> places;
+        places.reserve(kept.size());
+        for (const auto& made : kept) places.push_back(made->made_from + 1);
+        const auto least =
+            kept.begin() + static_cast<std::ptrdiff_t>(least_missed(places, needed.made_from + 1, now));
+        std::shared_ptr<Made> out = std::move(*least);
+        kept.erase(least);
+        return out;
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
 }
 
 } // namespace
 
-void Document::keep(const std::shared_ptr<Committed>& committed) {
-    put_in(kept_shapes_, committed);
-    while (mode_ == Mode::real && kept_shapes_.size() > std::max<std::size_t>(memory_.shapes, 1))
-        take_out(kept_shapes_, *committed, at_)->shape.reset();
+void Document::keep(const std::shared_ptr<Committed>& committed) noexcept {
+    if (!put_in(kept_shapes_, committed)) return committed->shape.reset();
+    while (mode_ == Mode::real && kept_shapes_.size() > std::max<std::size_t>(memory_.shapes, 1)) {
+        const std::shared_ptr<Committed> out = take_out(kept_shapes_, *committed, at_);
+        if (!out) return;
+        out->shape.reset();
+    }
 }
 
-void Document::keep(const std::shared_ptr<Posed>& posed) {
-    put_in(kept_samples_, posed);
+void Document::keep(const std::shared_ptr<Posed>& posed) noexcept {
+    if (!put_in(kept_samples_, posed)) return posed->samples.reset();
     std::size_t bytes = 0;
     for (const auto& kept : kept_samples_) bytes += bytes_of(*kept->samples);
     while (kept_samples_.size() > std::max<std::size_t>(memory_.samples, 1) && bytes > memory_.sample_bytes) {
         const std::shared_ptr<Posed> out = take_out(kept_samples_, *posed, at_);
+        if (!out) return;
         bytes -= bytes_of(*out->samples);
         out->samples.reset();
     }

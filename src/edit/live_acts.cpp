@@ -35,8 +35,8 @@ Vec3d middle_at_rest(const Document& document, const std::string& name) {
 // the acts of the step so far.
 void LiveWork::carry_out_line(const SessionAction& line, bool joins, bool pose_is_seen, std::size_t& done) {
     if (document_->needs_commit(line)) {
-        carry_out_act(*document_, CommitLine{}, "", progress_);
-        add_act(CommitLine{}, done++ > 0 || joins);
+        carry_out_and_record(CommitLine{}, done > 0 || joins);
+        ++done;
         if (pose_is_seen)
             publisher_.say(
                 Notice::Kind::information,
@@ -44,20 +44,20 @@ void LiveWork::carry_out_line(const SessionAction& line, bool joins, bool pose_i
                 "from the next pose on. Ctrl+Z takes both back.",
                 Notice::About::committed);
     }
-    carry_out_act(*document_, line, "", progress_);
-    add_act(line, done++ > 0 || joins);
+    carry_out_and_record(line, done > 0 || joins);
+    ++done;
 }
 
 void LiveWork::carry_out(task::Lines& lines) {
     const bool is_seen = shared_.with([](const LiveShared& s) { return s.view->posed; });
-    finish_settling();
     std::size_t done = 0;
-    const bool joins = lines.joins_last && recording_->last_is_settings();
     try {
+        finish_settling();
+        const bool joins = lines.joins_last && recording_->last_is_settings();
         for (const SessionAction& line : lines.lines) carry_out_line(line, joins, is_seen, done);
     } catch (...) {
+        for (; done > 0; --done) take_back_act(false); // first: half a step must not stay
         refuse(lines.step);
-        for (; done > 0; --done) take_back_act(false);
         show_document();
         throw;
     }
@@ -76,9 +76,9 @@ void LiveWork::carry_out(task::EditHandle& task) {
 }
 
 void LiveWork::carry_out(task::ResetPose& task) {
-    finish_settling();
     DragLine back;
     try {
+        finish_settling();
         const std::vector<HandleMotion> way = document_->way_of(task.handle);
         back = way_back(task.handle, way, middle_at_rest(*document_, task.handle), document_->cloud().origin);
     } catch (...) {
@@ -115,6 +115,7 @@ void LiveWork::carry_out(task::Redo& task) {
 }
 
 void LiveWork::redo_act(bool to_look) {
+    recording_->make_room();
     document_->redo("");
     record([&] { recording_->step_forward(to_look); });
 }
@@ -209,11 +210,31 @@ std::vector<float> LiveWork::stretch_column() {
                          1);
 }
 
-void LiveWork::add_act(const SessionAction& action, bool joins) {
-    record([&] { recording_->add(action, joins); });
+void LiveWork::carry_out_and_record(const SessionAction& line, bool joins) {
+    auto coming = recording_->coming(line, joins);
+    carry_out_act(*document_, line, "", progress_);
+    record([&] { recording_->add(std::move(coming)); });
+}
+
+// Of the exception that is being handled. Where there is no memory to say it, the next line does.
+void LiveWork::tell_of_journal() noexcept {
+    if (told_of_journal_) return;
+    try {
+        try {
+            throw;
+        } catch (const Error& error) {
+            say(Notice::Kind::error, words_in_window(error));
+        } catch (const std::bad_alloc&) {
+            say(Notice::Kind::error, "There is not enough memory to write the recording now. It is made up "
+                                     "for with the next step.");
+        }
+        told_of_journal_ = true;
+    } catch (const std::exception&) {
+    }
 }
 
 void LiveWork::take_back_act(bool to_look) {
+    recording_->make_room();
     document_->undo("");
     record([&] { recording_->step_back(to_look); });
 }

@@ -33,19 +33,20 @@ constexpr double usual_iteration = 0.4e-6;
 } // namespace
 
 void LiveWork::carry_out(task::BeginDrag& task) {
-    finish_settling();
     try {
+        finish_settling();
         document_->begin_drag(task.handle, task.pivot, "", progress_);
+        const auto& handles = document_->handles();
+        const auto handle = std::ranges::find(handles, task.handle, &Handle::name) - handles.begin();
+        drag_.emplace(LiveDrag{task.step,
+                               {task.handle, task.pivot, {}},
+                               document_->motions()[static_cast<std::size_t>(handle)],
+                               document_->cloud().origin});
     } catch (...) {
+        document_->abandon(); // or it would refuse whatever comes after
         refuse(task.step);
         throw;
     }
-    const auto& handles = document_->handles();
-    const auto handle = std::ranges::find(handles, task.handle, &Handle::name) - handles.begin();
-    drag_.emplace(LiveDrag{task.step,
-                           {task.handle, task.pivot, {}},
-                           document_->motions()[static_cast<std::size_t>(handle)],
-                           document_->cloud().origin});
     publisher_.strays(document_->pipeline().strays());
     publisher_.swallowed(*document_, task.handle);
     publisher_.loose(*document_, task.handle);
@@ -66,21 +67,32 @@ void LiveWork::carry_out(task::EndDrag& task) {
     } catch (...) { // also what nobody foresaw: a drag that never ends would keep everything after it waiting
         trouble = std::current_exception();
     }
-    if (drag_->line.frames.empty()) {
+    if (drag_->line.frames.empty())
         drop_drag();
-    } else {
-        document_->end_drag();
-        record([&] { recording_->add(drag_->line, false); });
-        last_step_ = drag_->step;
-        finish_drag();
-    }
+    else
+        take_drag();
     if (trouble) std::rethrow_exception(trouble);
 }
 
+// What was followed becomes an act, or nothing of it stays: in either case the drag is over.
+void LiveWork::take_drag() {
+    try {
+        auto coming = recording_->coming(std::move(drag_->line), false);
+        document_->end_drag();
+        record([&] { recording_->add(std::move(coming)); });
+    } catch (...) {
+        drop_drag();
+        throw;
+    }
+    finish_drag();
+}
+
 void LiveWork::finish_drag() {
-    learn_cost(drag_->solving, drag_->upsampling);
+    LiveDrag drag = std::move(*drag_);
     drag_.reset();
+    last_step_ = drag.step;
     converge_ = true;
+    learn_cost(std::move(drag.solving), std::move(drag.upsampling));
     publish_view(); // first: it cannot fail
     if (publisher_.last_is_drawn()) publish_shape(document_->shape(progress_), false);
 }
@@ -90,9 +102,10 @@ void LiveWork::carry_out(task::CancelDrag& /*task*/) {
 }
 
 void LiveWork::drop_drag() {
+    const StepNumber step = drag_->step;
     document_->abandon();
-    refuse(drag_->step);
     drag_.reset();
+    refuse(step);
     show_document();
 }
 
@@ -196,8 +209,14 @@ void LiveWork::stop_settling() {
 void LiveWork::finish_settling() {
     converge_ = false;
     if (!std::exchange(settling_, false)) return;
-    const SettleLine line = document_->end_settling();
-    record([&] { recording_->add_to_last(line); });
+    try {
+        auto coming = recording_->coming_to_last(SettleLine{});
+        coming.line = document_->end_settling();
+        record([&] { recording_->add(std::move(coming)); });
+    } catch (...) {
+        stop_settling(); // the pose stands as it was released
+        throw;
+    }
     publisher_.demand(document_->demand(progress_));
     publish_view();
 }

@@ -79,9 +79,9 @@ void replay_session(const Session& session, Document& document, LiveRecording& r
         } else {
             carry_out_act(document, line.action, place, progress);
             if (std::holds_alternative<SettleLine>(line.action))
-                recording.add_to_last(line.action);
+                recording.add(recording.coming_to_last(line.action));
             else
-                recording.add(line.action, false);
+                recording.add(recording.coming(line.action, false));
         }
     }
 }

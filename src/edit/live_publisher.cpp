@@ -149,16 +149,16 @@ void LivePublisher::loose(const Document& document, const std::string& handle) {
 
 void LivePublisher::note_spacings(const Pipeline& pipeline) {
     if (!pipeline.shared_graph() || pipeline.shared_graph() == graph_seen_) return;
-    graph_seen_ = pipeline.shared_graph();
     spacings_ = std::make_shared<const std::vector<float>>(
-        spacing_of_points(pipeline.order(), *graph_seen_, pipeline.opened().positions, workers_));
+        spacing_of_points(pipeline.order(), *pipeline.shared_graph(), pipeline.opened().positions, workers_));
+    graph_seen_ = pipeline.shared_graph(); // last: where memory runs out, this is done again
 }
 
 void LivePublisher::note_samples(const Pipeline& pipeline) {
     if (pipeline.samples_version() == samples_seen_) return;
-    samples_seen_ = pipeline.samples_version();
     sample_vertices_ = std::make_shared<const std::vector<Index>>(pipeline.samples());
     sample_graph_ = std::make_shared<const Graph>(pipeline.sample_graph().graph);
+    samples_seen_ = pipeline.samples_version(); // last, too
 }
 
 } // namespace knead

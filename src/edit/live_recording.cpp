@@ -130,46 +130,65 @@ void LiveRecording::is_on(const std::optional<FileStamp>& cloud) {
     if (std::exchange(facts_.cloud, cloud) != cloud) write_facts();
 }
 
-void LiveRecording::add(const SessionAction& act, bool joins_step) {
-    const auto* drag = std::get_if<DragLine>(&act);
-    past_.push_back({joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), ++last_number_,
-                     words_about(act), drag ? drag->frames.size() : 0});
-    future_.clear();
-    write_down(act);
+void LiveRecording::make_room() {
+    const auto for_more = [](auto& list, std::size_t more) {
+        if (list.capacity() - list.size() < more) list.reserve(2 * list.size() + more);
+    };
+    for_more(past_, 1);
+    for_more(future_, 1);
+    for_more(lines_, looked_back_ + 1);
 }
 
-void LiveRecording::add_to_last(const SessionAction& act) {
+LiveRecording::Coming LiveRecording::coming(SessionAction act, bool joins_step) {
+    make_room();
+    const auto* drag = std::get_if<DragLine>(&act);
+    Act made{joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), 0, words_about(act),
+             drag ? drag->frames.size() : 0};
+    return {std::move(act), std::move(made)};
+}
+
+LiveRecording::Coming LiveRecording::coming_to_last(SessionAction act) {
+    make_room();
     // Another movement of a slider still joins what settled after it.
-    past_.push_back({!past_.empty(), last_is_settings(), ++last_number_, last_words()});
+    return {std::move(act), {!past_.empty(), last_is_settings(), 0, last_words()}};
+}
+
+void LiveRecording::add(Coming act) {
+    act.act.number = ++last_number_;
+    past_.push_back(std::move(act.act));
     future_.clear();
-    write_down(act);
+    looked_forward_ = 0;
+    write_down(std::move(act.line));
 }
 
 void LiveRecording::note(const SessionAction& line) {
+    make_room();
+    looked_forward_ = 0;
     write_down(line);
 }
 
 void LiveRecording::step_back(bool to_look) {
-    future_.push_back(past_.back());
+    make_room();
+    future_.push_back(std::move(past_.back()));
     past_.pop_back();
     const std::size_t forward = looked_forward_;
+    looked_forward_ = to_look && forward > 0 ? forward - 1 : 0;
     if (to_look && forward == 0)
         ++looked_back_;
     else
         write_down(UndoLine{});
-    looked_forward_ = to_look && forward > 0 ? forward - 1 : 0;
 }
 
 void LiveRecording::step_forward(bool to_look) {
-    past_.push_back(future_.back());
+    make_room();
+    past_.push_back(std::move(future_.back()));
     future_.pop_back();
     if (looked_back_ > 0) {
         --looked_back_;
         return;
     }
-    const std::size_t forward = looked_forward_;
+    looked_forward_ = to_look ? looked_forward_ + 1 : 0;
     write_down(RedoLine{});
-    looked_forward_ = to_look ? forward + 1 : 0;
 }
 
 bool LiveRecording::last_is_settings() const {
@@ -213,12 +232,11 @@ void LiveRecording::undo_what_was_looked_back() {
     for (; looked_back_ > 0; --looked_back_) lines_.emplace_back(UndoLine{});
 }
 
-// Lines that could not be written are made up for before the next one, so that none is ever missing in
-// between.
-void LiveRecording::write_down(const SessionAction& line) {
+// There is room for it, and all else is done: what can fail is the journal. Lines that could not be written
+// are made up for before the next one, so that none is ever missing in between.
+void LiveRecording::write_down(SessionAction line) {
     undo_what_was_looked_back();
-    looked_forward_ = 0;
-    lines_.push_back(line);
+    lines_.push_back(std::move(line));
     if (!journal_ && folder_.empty()) return;
     if (!journal_) {
         journal_ = begin_journal(folder_);

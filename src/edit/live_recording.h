@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace knead {
@@ -41,12 +42,21 @@ public:
     // The file that the cloud was read from, as it was before it was read.
     void is_on(const std::optional<FileStamp>& cloud);
 
-    // An act that the document has carried out: of the step before it, or the first of a new one. What could
-    // be redone is forgotten.
-    void add(const SessionAction& act, bool joins_step);
+    // Document and recording stay in step where memory runs out: what a line needs is made before the
+    // document carries it out. Where what records it afterwards throws, only the journal lacks it, until the
+    // next line is written.
+
+    // An act as it will stand here, of the step before it, or the first of a new one.
+    class Coming;
+    Coming coming(SessionAction act, bool joins_step);
     // One that follows from the step before it, and goes by its name: what settles, and what is chosen by
-    // itself.
-    void add_to_last(const SessionAction& act);
+    // itself. What it says of itself may still change (SettleLine, which takes no memory).
+    Coming coming_to_last(SessionAction act);
+    // Room for a step back or forward.
+    void make_room();
+
+    // An act that the document has carried out since it was coming. What could be redone is forgotten.
+    void add(Coming act);
     // A line that is no act of the document (`check`).
     void note(const SessionAction& line);
     // The last act was undone, the next one redone. What is undone only to look at it stays as done in the
@@ -86,7 +96,7 @@ public:
     void set_sha256(std::string digest) { header_.sha256 = std::move(digest); }
 
 private:
-    void write_down(const SessionAction& line);
+    void write_down(SessionAction line);
     void write_missing_lines();
     void write_facts();
     void undo_what_was_looked_back();
@@ -112,6 +122,16 @@ private:
     JournalFacts facts_;
     bool facts_are_written_ = false;
     std::size_t written_ = 0; // lines that the journal has; a restored one has more than were replayed so far
+};
+
+class LiveRecording::Coming {
+public:
+    SessionAction line;
+
+private:
+    friend class LiveRecording;
+    Coming(SessionAction coming, Act what) : line(std::move(coming)), act(std::move(what)) {}
+    Act act;
 };
 
 } // namespace knead

@@ -4,6 +4,7 @@
 #include "edit/median.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace knead {
 
@@ -51,8 +52,9 @@ void LiveWork::choose_samples() {
     if (samples == document_->settings().samples) return;
     SettingsChange change;
     change.samples = samples;
+    auto coming = recording_->coming_to_last(SetLine{change});
     document_->change_settings(change, "");
-    record([&] { recording_->add_to_last(SetLine{change}); });
+    record([&] { recording_->add(std::move(coming)); });
     ahead_ = true;
 }
 

@@ -12,6 +12,7 @@
 #include "edit/live_shared.h"
 #include "edit/open_files.h"
 
+#include <new>
 #include <set>
 #include <span>
 
@@ -56,7 +57,8 @@ private:
     void note_digest();
     template<typename Record>
     void record(Record&& write);
-    void add_act(const SessionAction& action, bool joins);
+    void tell_of_journal() noexcept;
+    void carry_out_and_record(const SessionAction& line, bool joins);
     void take_back_act(bool to_look);
     void take_back_step(bool to_look);
     void redo_act(bool to_look);
@@ -73,6 +75,7 @@ private:
     void take_wanted(WantedPose wanted);
     bool is_too_slow() const;
     void follow();
+    void take_drag();
     void finish_drag();
     void drop_drag();
     void settle();
@@ -153,8 +156,10 @@ void LiveWork::record(Record&& write) {
     try {
         std::forward<Record>(write)();
         told_of_journal_ = false;
-    } catch (const Error& error) {
-        if (!std::exchange(told_of_journal_, true)) say(Notice::Kind::error, words_in_window(error));
+    } catch (const Error&) {
+        tell_of_journal();
+    } catch (const std::bad_alloc&) {
+        tell_of_journal();
     }
 }
 

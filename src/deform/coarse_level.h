@@ -35,7 +35,7 @@ struct CoarseLevel {
 };
 
 // Builds the system of the coarse samples; again whenever that of all samples was, which comes first. Where
-// the outcome is bad there is no coarse level.
+// the outcome is bad there is no coarse level; but for want of memory, which the caller has to refuse.
 FactorOutcome build_coarse_level(const SampleSystem& fine, CoarseLevel& coarse, Workers& workers);
 
 // One iteration as iterate() does it, and what the coarse samples make of it. An iteration that goes farther

@@ -302,9 +302,15 @@ void Pipeline::prepare_systems() {
     if (stale_.energy) find_energy(rest);
     stale_.energy = false;
     rest.energy = energy_;
-    const FactorOutcome outcome = build_system(std::move(rest), system_, workers_);
-    has_coarse_ = outcome.solved && !coarse_.samples.sample.empty() &&
-                  build_coarse_level(system_, coarse_, workers_).solved;
+    has_coarse_ = false;
+    FactorOutcome outcome = build_system(std::move(rest), system_, workers_);
+    if (outcome.solved && !coarse_.samples.sample.empty()) {
+        FactorOutcome of_coarse = build_coarse_level(system_, coarse_, workers_);
+        has_coarse_ = of_coarse.solved;
+        // Frames without it come out otherwise: what decides that must be the system, not the memory of
+        // today.
+        if (of_coarse.lacks_memory) outcome = std::move(of_coarse);
+    }
     seconds_.factorize += clock.lap();
     if (!outcome.solved)
         throw Error(Trouble::numeric, "",

@@ -125,7 +125,9 @@ FactorOutcome SparseFactor::factorize(const SparseMatrix& matrix, std::span<cons
         factors.ldlt.factorize(upper);
         factors.permuted.reserve(columns_at_once * static_cast<std::size_t>(size));
     } catch (const std::bad_alloc&) {
-        return too_large(size);
+        FactorOutcome outcome = too_large(size);
+        outcome.lacks_memory = true;
+        return outcome;
     }
     // Where a pivot is exactly zero, Eigen stops there.
     factors.order.assign(order.begin(), order.end());

@@ -34,7 +34,8 @@ std::vector<int> minimum_degree_order(const SparseMatrix& pattern);
 // How a factorisation ended.
 struct FactorOutcome {
     bool solved = true;
-    std::string words; // what failed, for the user; empty if nothing did
+    std::string words;         // what failed, for the user; empty if nothing did
+    bool lacks_memory = false; // which is no matter of the system: another time it may be solved
 };
 
 // A factorised matrix.

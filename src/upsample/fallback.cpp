@@ -46,11 +46,14 @@ public:
     std::string take_warning() override { return std::exchange(warning_, {}); }
 
 private:
+    // Whole or not at all: where memory runs out, the next call meets the device that failed again.
     void replace(const DeviceFailure& failure) {
-        warning_ = current_->device() + " failed (" + failure.what() +
-                   "); the points are moved in plain C++ from here on, the same but for rounding";
-        current_ = make_reference_upsampler(workers_);
-        current_->prepare(input_, motions_);
+        std::string warning = current_->device() + " failed (" + failure.what() +
+                              "); the points are moved in plain C++ from here on, the same but for rounding";
+        std::unique_ptr<Upsampler> next = make_reference_upsampler(workers_);
+        next->prepare(input_, motions_);
+        current_ = std::move(next);
+        warning_ = std::move(warning);
     }
 
     Workers& workers_;

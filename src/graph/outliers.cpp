@@ -27,24 +27,27 @@ constexpr std::size_t smallest_share = 10; // mist is less than a tenth
 constexpr double flat = 0.02;
 constexpr std::size_t fewest_links = 4;
 
-float squared_distance(std::span<const float> positions, std::size_t v, std::size_t u) {
-    const float x = positions[3 * v] - positions[3 * u];
-    const float y = positions[3 * v + 1] - positions[3 * u + 1];
-    const float z = positions[3 * v + 2] - positions[3 * u + 2];
+// Squares are those of floats, of which a processor has many at once, where floats can hold them: from 1e-19
+// units to 1e19. Doubles hold those of every distance between floats.
+template<typename Number>
+Number squared_distance(std::span<const float> positions, std::size_t v, std::size_t u) {
+    const Number x = Number{positions[3 * v]} - Number{positions[3 * u]};
+    const Number y = Number{positions[3 * v + 1]} - Number{positions[3 * u + 1]};
+    const Number z = Number{positions[3 * v + 2]} - Number{positions[3 * u + 2]};
     return x * x + y * y + z * z;
 }
 
 // The third lowest of a row's values, or the highest of fewer; 0 of none. Without a branch: there is nothing
 // for a processor to guess.
-template<typename ValueOf>
-float third_of(std::span<const Index> row, ValueOf&& value_of) {
+template<typename Number, typename ValueOf>
+Number third_of(std::span<const Index> row, ValueOf&& value_of) {
     if (row.empty()) return 0;
-    constexpr float none = std::numeric_limits<float>::infinity();
-    std::array<float, 3> lowest{none, none, none};
+    constexpr Number none = std::numeric_limits<Number>::infinity();
+    std::array<Number, 3> lowest{none, none, none};
     for (const Index u : row) {
-        float next = value_of(u);
-        for (float& held : lowest) {
-            const float higher = std::max(held, next);
+        Number next = value_of(u);
+        for (Number& held : lowest) {
+            const Number higher = std::max(held, next);
             held = std::min(held, next);
             next = higher;
         }
@@ -52,16 +55,34 @@ float third_of(std::span<const Index> row, ValueOf&& value_of) {
     return lowest[std::min(row.size(), lowest.size()) - 1];
 }
 
+// How far away the third nearest neighbour of a vertex is.
+float third_distance(const Graph& graph, std::span<const float> positions, std::size_t v) {
+    const auto third_square = [&]<typename Number>(Number /*of them*/) {
+        return third_of<Number>(graph.row(v),
+                                [&](Index u) { return squared_distance<Number>(positions, v, u); });
+    };
+    const float square = third_square(0.0F);
+    return std::isnormal(square) ? std::sqrt(square) : static_cast<float>(std::sqrt(third_square(0.0)));
+}
+
+// Whether a link is no longer than short_way of the lower spacing of its ends.
+bool is_short_link(std::span<const float> positions, std::size_t v, std::size_t u, float spacing) {
+    constexpr auto limit = static_cast<float>(short_way * short_way);
+    const auto square = squared_distance<float>(positions, v, u);
+    const float longest = limit * spacing * spacing;
+    if (std::isnormal(square) && std::isnormal(longest)) return square <= longest;
+    return squared_distance<double>(positions, v, u) <= double{limit} * double{spacing} * double{spacing};
+}
+
 // The pieces that are left when long links are cut.
 Components cut_long_links(const Graph& graph, std::span<const float> positions,
                           std::span<const float> spacing, Workers& workers) {
     auto is_short = zeros_in_large_pages<std::uint8_t>(graph.neighbor.size(), workers);
-    constexpr auto limit = static_cast<float>(short_way * short_way);
     workers.for_each(graph.size(), grain, [&](std::size_t v) {
         for (Index link = graph.first[v]; link < graph.first[v + 1]; ++link) {
             const Index u = graph.neighbor[link];
             const float lower = std::min(spacing[v], spacing[u]);
-            is_short[link] = squared_distance(positions, v, u) <= limit * lower * lower ? 1 : 0;
+            is_short[link] = is_short_link(positions, v, u, lower) ? 1 : 0;
         }
     });
     return find_components(graph, is_short, workers);
@@ -128,12 +149,10 @@ Spacings find_spacings(const Graph& graph, std::span<const float> positions, Wor
     Spacings spacings;
     resize_in_large_pages(spacings.own, graph.size(), workers);
     resize_in_large_pages(spacings.around, graph.size(), workers);
+    workers.for_each(graph.size(), grain,
+                     [&](std::size_t v) { spacings.own[v] = third_distance(graph, positions, v); });
     workers.for_each(graph.size(), grain, [&](std::size_t v) {
-        spacings.own[v] =
-            std::sqrt(third_of(graph.row(v), [&](Index u) { return squared_distance(positions, v, u); }));
-    });
-    workers.for_each(graph.size(), grain, [&](std::size_t v) {
-        spacings.around[v] = third_of(graph.row(v), [&](Index u) { return spacings.own[u]; });
+        spacings.around[v] = third_of<float>(graph.row(v), [&](Index u) { return spacings.own[u]; });
     });
     return spacings;
 }

@@ -3,6 +3,9 @@
 #include "graph/bridges.h"
 
 #include "graph/clouds.h"
+#include "graph/outliers.h"
+
+#include <cmath>
 
 namespace knead {
 namespace {
@@ -177,6 +180,24 @@ TEST(Outliers, AreNoSparseStripWhereADenseSurfaceEnds) {
     // The row at the seam may hang; the others are of the surface.
     EXPECT_LE(bridged_of(cloud).outliers, columns);
     EXPECT_EQ(parts(bridged_of(cloud).graph), 1U);
+}
+
+// Units are powers of two, so that links, spacings and limits differ by them alone.
+TEST(Outliers, AreTheSameInUnitsOfWhichFloatsHoldNoSquares) {
+    Machine machine;
+    const Cloud cloud = cloud_of(dusty_knot(machine).positions);
+    const JoinedGraph expected = hung_of(cloud).value();
+    const Spacings spacings = find_spacings(cloud.graph, cloud.positions, machine.workers);
+    for (const int exponent : {-90, -70, 30, 65, 80}) {
+        std::vector<float> scaled = cloud.positions;
+        for (float& coordinate : scaled) coordinate = std::ldexp(coordinate, exponent);
+        const Spacings found = find_spacings(cloud.graph, scaled, machine.workers);
+        for (std::size_t v = 0; v < cloud.size(); ++v) // doubles round elsewhere
+            ASSERT_FLOAT_EQ(std::ldexp(found.own[v], -exponent), spacings.own[v]) << exponent;
+        const auto hanging = find_outliers(cloud.graph, scaled, found, machine.workers);
+        EXPECT_EQ(std::vector<std::uint8_t>(expected.hanging.begin(), expected.hanging.end()), hanging)
+            << exponent;
+    }
 }
 
 TEST(Outliers, AreNeverAll) {

@@ -437,8 +437,6 @@ void Document::upsample(const std::vector<HandleMotion>& motions, const SampleSt
     log_.upsample.push_back(clock.seconds());
 }
 
-// The posed shape, or the rest shape where nothing is posed. After an undo it is computed again from the
-// samples.
 // Nothing was ever moved, as far as is shown.
 bool Document::is_as_opened() const {
     return !now().rest && !is_posed() && !under_way_;
@@ -450,6 +448,8 @@ const RestShape& Document::shown(Progress& progress) {
     return pipeline_.posed();
 }
 
+// The posed shape, or the rest shape where nothing is posed. After an undo it is computed again from the
+// samples.
 const RestShape& Document::shape(Progress& progress) {
     if (!now().rest && !is_posed()) pipeline_.prepare_order(progress);
     if (!is_posed()) return now().rest ? *rest_of(now(), progress) : pipeline_.opened();

@@ -107,7 +107,6 @@ public:
     const std::vector<HandleMotion>& motions() const { return motions_; }
     // Every pose that a handle was given in this edit, the first one first.
     std::vector<HandleMotion> way_of(const std::string& handle) const;
-    std::size_t undoable() const { return at_; } // how many acts undo() can take back
 
     // --- What history costs ---
     //

@@ -3,6 +3,7 @@
 #include "edit/live_bar.h"
 
 #include <cmath>
+#include <future>
 #include <numbers>
 
 namespace knead::test {
@@ -275,8 +276,18 @@ TEST(LiveDocument, SaysWhyAFileCannotBeOpened) {
 
 TEST(LiveDocument, ClosesAtOnceWhileItOpens) {
     const ScratchFolder folder;
-    LiveDocument live(request_for(bar_file(folder, 100000)));
+    std::promise<void> cancelled; // opening does not go on before it is
+    OpenRequest request = request_for(bar_file(folder));
+    request.make_upsampler = [&](const std::string& device, Workers& workers, unsigned threads) {
+        cancelled.get_future().wait();
+        return make_upsampler(device, workers, threads);
+    };
+    LiveDocument live(std::move(request));
     live.cancel_opening();
+    cancelled.set_value();
+    wait_until_open(live);
+    EXPECT_EQ(live.status().stage, LiveDocument::Stage::failed);
+    EXPECT_TRUE(live.take_notices().empty()) << "the user knows";
 }
 
 // One that says it shares memory with OpenGL: a GPU in a window.

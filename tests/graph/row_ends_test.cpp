@@ -15,7 +15,8 @@ TEST(RowEnds, AreOnePastTheLargestNumbers) {
     for (NarrowRow& row : rows) {
         row.sample.fill(NarrowRow::none);
         row.distance.fill(NarrowRow::none);
-        for (std::size_t k = 0; k < random() % 9; ++k)
+        const std::size_t samples = random() % 9;
+        for (std::size_t k = 0; k < samples; ++k)
             row.sample.at(k) = static_cast<std::uint16_t>(random() % 65'535);
     }
     for (std::size_t v = 2 * rows_in_block; v < 3 * rows_in_block; ++v) rows[v].sample.fill(NarrowRow::none);

@@ -127,10 +127,27 @@ SparseMatrix laplacian(const SampleSystem& system, std::size_t rows, double Body
             matrix.row.push_back(at);
             matrix.value.push_back(value);
         }
+        require(matrix.row.size() <= std::numeric_limits<int>::max(), "a matrix is counted by int");
         matrix.first.push_back(static_cast<int>(matrix.row.size()));
     }
-    require(matrix.row.size() <= std::numeric_limits<int>::max(), "a matrix is counted by int");
     return matrix;
+}
+
+// Whether the largest of the matrices can be ordered. All links are counted only where that decides it: what
+// handles hold needs none.
+FactorOutcome all_can_be_ordered(const SampleSystem& system) {
+    const SampleRest& rest = system.rest;
+    const std::size_t rows = system.free_sample.size();
+    const FactorOutcome at_most =
+        can_be_ordered(rows, rows + rest.graph.neighbor.size() + rest.energy.pair.size());
+    if (at_most.solved) return at_most;
+    std::size_t entries = rows;
+    for (const Index i : system.free_sample) {
+        const auto is_unknown = [&](Index other) { return system.unknown[other] != no_index; };
+        entries += static_cast<std::size_t>(std::ranges::count_if(rest.graph.row(i), is_unknown));
+        if (!rest.energy.first.empty()) entries += rest.energy.first[i + 1] - rest.energy.first[i];
+    }
+    return can_be_ordered(rows, entries);
 }
 
 // Calls change(value, row) for every diagonal entry.
@@ -305,6 +322,7 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     system.rest = std::move(rest);
     system.left_out = find_left_out(system.rest, workers);
     number_unknowns(system);
+    if (FactorOutcome outcome = all_can_be_ordered(system); !outcome.solved) return outcome;
     const double square_length = mean_square_length(system);
     lighten_leaves(system.rest, square_length);
     system.mean_length = std::sqrt(square_length);

@@ -29,6 +29,17 @@ constexpr int relaxing_rounds = 3;
 // Vertices that tell how large the cloud is: of all it is the same within half a per cent.
 constexpr std::size_t asked_for_size = 1 << 13;
 
+// Links that with_solid_links() adds to a vertex, at most: 14, and as many back.
+constexpr double links_in_solid = 28;
+
+// Links are numbered by an Index.
+void refuse_too_many_links(double links, const std::string& what_for, const std::string& what_to_do) {
+    if (links >= double{no_index})
+        throw Error(Trouble::input, "",
+                    "the cloud has too many points " + what_for + ": knead takes 4294967295 links in all; " +
+                        what_to_do);
+}
+
 } // namespace
 
 Pipeline::Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampler)
@@ -140,11 +151,10 @@ std::span<const float> Pipeline::vertex_positions() const {
 
 void Pipeline::prepare_points(Progress& progress) {
     prepare_order(progress);
-    // Links are numbered by an Index, and about half of them have no link back.
-    if (1.5 * static_cast<double>(order_.vertices()) * input_.settings.neighbors >= double{no_index})
-        throw Error(Trouble::input, "",
-                    "the cloud has too many points for " + std::to_string(input_.settings.neighbors) +
-                        " neighbours each: knead takes 4294967295 links in all; cut the cloud into pieces");
+    // About half of the links have no link back.
+    refuse_too_many_links(1.5 * static_cast<double>(order_.vertices()) * input_.settings.neighbors,
+                          "for " + std::to_string(input_.settings.neighbors) + " neighbours each",
+                          "cut the cloud into pieces");
     const Stopwatch clock;
     neighbors_ = std::make_shared<const Graph>(
         neighbor_graph(vertex_positions(), input_.settings.neighbors, workers_, progress));
@@ -217,6 +227,9 @@ void Pipeline::prepare_samples(Progress& progress) {
         rows_of_base_ = rows_at(nearest_, samples_);
         territories_ = territories_of_base(nearest_, base_samples_, *graph_, workers_);
     } else {
+        refuse_too_many_links(static_cast<double>(graph_->neighbor.size()) +
+                                  links_in_solid * static_cast<double>(vertices),
+                              "for all of them to be samples", "set a number of samples");
         sample_graph_ = sample_graph_of_all(with_solid_links(*graph_, vertex_positions(), workers_));
     }
     seconds_.geodesic += clock.lap();

@@ -62,7 +62,7 @@ FactorOutcome singular_at(int row, int size) {
                        std::to_string(row)};
 }
 
-FactorOutcome too_large(int size) {
+FactorOutcome too_large(std::size_t size) {
     return {false,
             "there is not enough memory to factorise the system of " + std::to_string(size) + " samples"};
 }
@@ -92,9 +92,17 @@ struct SparseFactor::Factors {
     std::vector<double> permuted;      // work space of solve(): right-hand sides in order
 };
 
+FactorOutcome can_be_ordered(std::size_t rows, std::size_t entries) {
+    constexpr std::size_t most = std::numeric_limits<int>::max();
+    const bool fits = rows <= most && entries <= most && entries + entries / 5 + 2 * rows <= most;
+    return fits ? FactorOutcome{} : too_large(rows);
+}
+
 std::vector<int> minimum_degree_order(const SparseMatrix& pattern) {
     const int size = pattern.size();
     if (size == 0) return {};
+    require(can_be_ordered(pattern.first.size() - 1, pattern.row.size()).solved,
+            "entries are counted by int");
     const Eigen::Map<const Matrix> map(size, size, static_cast<Eigen::Index>(pattern.row.size()),
                                        pattern.first.data(), pattern.row.data(), pattern.value.data());
     Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
@@ -121,11 +129,11 @@ FactorOutcome SparseFactor::factorize(const SparseMatrix& matrix, std::span<cons
     try {
         const Matrix upper = reordered_upper(matrix, order);
         factors.ldlt.analyzePattern(upper);
-        if (factors.ldlt.entries() > std::numeric_limits<int>::max()) return too_large(size);
+        if (factors.ldlt.entries() > std::numeric_limits<int>::max()) return too_large(order.size());
         factors.ldlt.factorize(upper);
         factors.permuted.reserve(columns_at_once * static_cast<std::size_t>(size));
     } catch (const std::bad_alloc&) {
-        FactorOutcome outcome = too_large(size);
+        FactorOutcome outcome = too_large(order.size());
         outcome.lacks_memory = true;
         return outcome;
     }

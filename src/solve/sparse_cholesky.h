@@ -27,16 +27,20 @@ struct SparseMatrix {
     int size() const { return first.empty() ? 0 : static_cast<int>(first.size()) - 1; }
 };
 
-// A fill-reducing ordering: order[i] is the row that comes i-th. It depends on the pattern alone, so one
-// ordering serves all matrices of that pattern.
-std::vector<int> minimum_degree_order(const SparseMatrix& pattern);
-
-// How a factorisation ended.
+// How a factorisation ended, or that it cannot begin.
 struct FactorOutcome {
     bool solved = true;
     std::string words;         // what failed, for the user; empty if nothing did
     bool lacks_memory = false; // which is no matter of the system: another time it may be solved
 };
+
+// Whether a matrix of so many rows, with so many entries, can be ordered: Eigen counts entries by int, and
+// needs room for a fifth more of them and two a row.
+FactorOutcome can_be_ordered(std::size_t rows, std::size_t entries);
+
+// A fill-reducing ordering: order[i] is the row that comes i-th. It depends on the pattern alone, so one
+// ordering serves all matrices of that pattern. Only where can_be_ordered().
+std::vector<int> minimum_degree_order(const SparseMatrix& pattern);
 
 // A factorised matrix.
 class SparseFactor {

@@ -263,6 +263,21 @@ TEST(MinimumDegreeOrder, DependsOnThePatternAlone) {
     EXPECT_EQ(minimum_degree_order(matrix), order);
 }
 
+TEST(CanBeOrdered, TellsWhatEigenCannotCount) {
+    EXPECT_TRUE(can_be_ordered(0, 0).solved);
+    EXPECT_TRUE(can_be_ordered(100'000'000, 1'600'000'000).solved);
+    constexpr std::pair<std::size_t, std::size_t> too_many[] = {{100'000'000, 1'700'000'000},
+                                                                {200'000'000, 1'500'000'000},
+                                                                {1'100'000'000, 1'100'000'000},
+                                                                {10, 5'000'000'000},
+                                                                {5'000'000'000, 10}};
+    for (const auto& [rows, entries] : too_many) {
+        const FactorOutcome outcome = can_be_ordered(rows, entries);
+        EXPECT_FALSE(outcome.solved) << rows << " rows, " << entries << " entries";
+        EXPECT_NE(outcome.words.find(std::to_string(rows)), std::string::npos) << outcome.words;
+    }
+}
+
 std::size_t fill_of(const SparseMatrix& matrix, const std::vector<int>& order) {
     SparseFactor factor;
     EXPECT_TRUE(factor.factorize(matrix, order).solved);

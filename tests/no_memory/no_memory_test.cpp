@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <new>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -203,6 +204,10 @@ std::size_t large_allocations_of(std::size_t act) {
 struct Tried {
     std::size_t act, every;
 };
+// The name of the test.
+void PrintTo(const Tried& tried, std::ostream* out) {
+    *out << "act " << tried.act;
+}
 
 class NoMemoryIn : public testing::TestWithParam<Tried> {};
 

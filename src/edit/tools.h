@@ -19,8 +19,8 @@
 // Moving. A press on the gizmo drags its part until the release; G, R, S follow the hand until a click or
 // Enter.
 //   X, Y, Z constrain (press_axis() in view/transform.h), Ctrl snaps, Shift slows, digits and . - arrive as
-//   Characters, Tab goes to the next length. Esc, Ctrl+Z or right click cancels; another of G, R, S goes on as
-//   that. R and S of what they would not change are refused. No other key is taken. A drag is BeginDrag,
+//   Characters, Tab goes to the next length. Esc, Ctrl+Z or right click cancels; another of G, R, S goes on
+//   as that. R and S of what they would not change are refused. No other key is taken. A drag is BeginDrag,
 //   DragTo whenever the transform changed, and EndDrag; or CancelDrag, also where it ends with nothing moved.
 // Enter commits the pose; Ctrl+Z undoes, Ctrl+Shift+Z and Ctrl+Y redo.
 

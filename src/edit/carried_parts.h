@@ -4,11 +4,10 @@
 // Each part moves as a whole by ONE rigid motion: that of the surface next to it. The vertices of the part
 // that are nearest to parts with a handle, a tenth of it, but at least eight, are its contacts, spread evenly
 // over these where they are more than 256; each leans on the vertex nearest to it there, as the shape was
-// opened. A frame takes the mean
-// of the motions of those (one weighted sum over a few samples, made ready beforehand), the rotation nearest
-// to it, and moves the part so that the middle of what it leans on stays under it, as far as the samples' own
-// motions tell (between samples of a bent surface points follow arcs, upsample/upsample.h). Where nothing
-// moves there, the part keeps every bit.
+// opened. A frame takes the mean of the motions of those (one weighted sum over a few samples, made ready
+// beforehand), the rotation nearest to it, and moves the part so that the middle of what it leans on stays
+// under it, as far as the samples' own motions tell (between samples of a bent surface points follow arcs,
+// upsample/upsample.h). Where nothing moves there, the part keeps every bit.
 
 #include "graph/influences.h"
 #include "graph/neighbors.h"

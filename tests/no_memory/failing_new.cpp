@@ -10,6 +10,7 @@ namespace {
 thread_local bool is_counting = false;
 thread_local std::size_t fails_after = 0, least_size = 0, count = 0;
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 void* allocate(std::size_t size, std::size_t alignment) {
     if (is_counting && size >= least_size && count++ == fails_after) throw std::bad_alloc();
     const std::size_t whole = (std::max<std::size_t>(size, 1) + alignment - 1) / alignment * alignment;
@@ -17,9 +18,11 @@ void* allocate(std::size_t size, std::size_t alignment) {
     if (!memory) throw std::bad_alloc();
     return memory;
 }
+#endif
 
 } // namespace
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 // The compiler takes what new[] and the forms that do not throw are made of from these.
 void* operator new(std::size_t size) {
     return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
@@ -39,6 +42,7 @@ void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept {
 void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
     std::free(memory);
 }
+#endif
 
 namespace knead::test {
 

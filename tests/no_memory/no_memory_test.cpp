@@ -13,12 +13,6 @@
 namespace knead::test {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool has_own_new = false;
-#else
-constexpr bool has_own_new = true;
-#endif
-
 constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
 
 // Large ones are few, and what stages are made of.

@@ -304,6 +304,7 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
                 "\" is where it was at rest, so there is no pose to mirror.");
     }
     editor.posted_names.emplace_back(post_step(editor, std::move(lines)), name);
+    if (!there) put_pivot_with(editor.past.back(), editor, name, std::nullopt);
     choose_with_step(editor, name);
 }
 

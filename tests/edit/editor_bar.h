@@ -60,7 +60,16 @@ protected:
         calm();
     }
 
-    // The chosen handle by so many degrees about the view's axis, and confirmed.
+    // The chosen handle by a typed amount, along or about an axis, and confirmed: 'R', 'X', "90".
+    void transform_chosen(char kind, char axis, std::string_view amount) {
+        move({400, 100});
+        press(kind);
+        press(axis);
+        type(amount);
+        press(Key::enter);
+        calm();
+    }
+    // By so many degrees about the view's axis.
     void turn_chosen(std::string_view degrees) {
         move({400, 100});
         press('R');

@@ -36,12 +36,7 @@ TEST_F(BarEditor, ASelectionBecomesAHandleAndBackInOneStep) {
 
 TEST_F(BarEditor, MirroringTakesThePointsAndThePoseAcross) {
     make_handles();
-    move({400, 100});
-    press('R');
-    press('X');
-    type("40");
-    press(Key::enter);
-    calm();
+    transform_chosen('R', 'X', "40");
     const Eigen::AngleAxisd first(editor_.document->motions[1].rotation);
     apply(editor_, MirrorHandle{"high", 2});
     calm();
@@ -142,12 +137,7 @@ TEST_F(BarEditor, MirrorsAPoseInTheShapeThatWasCommitted) {
     apply(editor_, ChangeSelection{SelectionStep::all});
     apply(editor_, MakeHandle{HandleRole::moving, "whole"});
     calm();
-    move({400, 100});
-    press('G');
-    press('Z');
-    type("3");
-    press(Key::enter);
-    calm();
+    transform_chosen('G', 'Z', "3");
     press(Key::enter); // committed
     calm();
     apply(editor_, DeleteHandle{"whole"});
@@ -266,12 +256,7 @@ TEST_F(BarEditor, EveryHandleKeepsItsPivotAndTakesItAlong) {
 
     turn_chosen("90"); // about the view's axis, y
     EXPECT_LT(glm::distance(at("high"), joint), 1e-9);
-    move({400, 100});
-    press('G');
-    press('Z');
-    type("1");
-    press(Key::enter);
-    calm();
+    transform_chosen('G', 'Z', "1");
     EXPECT_LT(glm::distance(at("high"), joint + glm::dvec3(0, 0, 1)), 1e-9) << "it goes along";
     apply(editor_, ResetPose{"high"});
     calm();

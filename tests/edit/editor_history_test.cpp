@@ -72,12 +72,7 @@ TEST_F(BarEditor, MirroringAfterACommitSaysThatThereIsNoPose) {
 TEST_F(BarEditor, ResettingAPoseOfAWholeTurnUnwindsIt) {
     make_handles();
     const std::vector<float> rest = editor_.frame.positions;
-    move({400, 100});
-    press('R');
-    press('Z');
-    type("360");
-    press(Key::enter);
-    calm();
+    transform_chosen('R', 'Z', "360");
     apply(editor_, ResetPose{"high"});
     calm();
     ASSERT_EQ(editor_.frame.positions.size(), rest.size());
@@ -238,12 +233,7 @@ TEST_F(BarEditor, ALaterStepIsNoEarlierOne) {
 
 TEST_F(BarEditor, PlayingAStepIsDoingItAgain) {
     make_handles();
-    move({400, 100});
-    press('R');
-    press('Z');
-    type("90");
-    press(Key::enter);
-    calm();
+    transform_chosen('R', 'Z', "90");
     const std::vector<float> turned = editor_.frame.positions;
     apply(editor_, UndoStep{});
     calm();

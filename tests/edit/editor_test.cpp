@@ -72,12 +72,7 @@ TEST_F(BarEditor, GrowingAndShrinkingGoAlongTheSurface) {
 
 TEST_F(BarEditor, RXNinetyEnterTurnsTheHandleByNinetyDegrees) {
     make_handles();
-    move({400, 100});
-    press('R');
-    press('X');
-    type("90");
-    press(Key::enter);
-    calm();
+    transform_chosen('R', 'X', "90");
     ASSERT_TRUE(editor_.document->posed);
     const Eigen::AngleAxisd turn(editor_.document->motions[1].rotation);
     EXPECT_NEAR(turn.angle(), pi / 2, 1e-12);
@@ -320,12 +315,7 @@ TEST_F(BarEditor, DisplacementAndStretchAreThoseOfTheShape) {
     make_handles();
     EXPECT_EQ(std::ranges::max(displacements(editor_)), 0.0F);
     for (const float stretch : local_stretch(editor_)) EXPECT_EQ(stretch, 1.0F);
-    move({400, 100});
-    press('G');
-    press('Z');
-    type("1");
-    press(Key::enter);
-    calm();
+    transform_chosen('G', 'Z', "1");
     EXPECT_NEAR(static_cast<double>(std::ranges::max(displacements(editor_))), 1, 0.05);
     const std::vector<float> stretch = local_stretch(editor_);
     double sum = 0;

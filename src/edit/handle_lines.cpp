@@ -53,7 +53,9 @@ std::vector<Index> assigned(const HandleEdit::Points& edit, const Handle& handle
 Handle with_points(Handle handle, std::span<const Handle> later, const HandleEdit::Points& edit) {
     const std::vector<Index> own = own_points(handle, later);
     std::vector<Index> points = assigned(edit, handle, own);
-    if (!points.empty() && points != own && points != *handle.points)
+    // What it declares and a later one has, it is given back only by being declared anew.
+    const bool takes_back = edit.mode != SelectMode::remove;
+    if (!points.empty() && points != own && (takes_back || points != *handle.points))
         handle.points = std::make_shared<const std::vector<Index>>(std::move(points));
     return handle;
 }

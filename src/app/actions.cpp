@@ -128,7 +128,7 @@ template<int direction>
 void choose_next_handle(const Ui& ui) {
     const std::vector<Handle>& handles = ui.editor.document->handles;
     if (handles.empty()) return;
-    const std::vector<std::size_t> order = order_of_list(ui.state.handle_colors, handles);
+    const std::vector<std::size_t> order = order_of_list(handles);
     const int count = static_cast<int>(order.size());
     int at = direction > 0 ? -1 : 0;
     for (int i = 0; i < count; ++i)

@@ -57,21 +57,19 @@ std::size_t free_number(const HandleColors& colors, std::span<const Handle> hand
 } // namespace
 
 void place_colors(HandleColors& colors, std::span<const Handle> handles) {
-    for (const Handle& handle : handles) {
+    for (const std::size_t number : order_of_list(handles)) {
+        const Handle& handle = handles[number];
         if (!colors.places.contains(handle.name)) take_over_place(colors, handle);
         if (!colors.places.contains(handle.name))
-            colors.places[handle.name] = {free_number(colors, handles, handle), colors.given++, {}};
+            colors.places[handle.name] = {free_number(colors, handles, handle), {}};
         colors.places[handle.name].points = handle.points;
     }
 }
 
-std::vector<std::size_t> order_of_list(const HandleColors& colors, std::span<const Handle> handles) {
+std::vector<std::size_t> order_of_list(std::span<const Handle> handles) {
     std::vector<std::size_t> order(handles.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t handle) {
-        const auto place = colors.places.find(handles[handle].name);
-        return place == colors.places.end() ? colors.given : place->second.since;
-    });
+    std::ranges::stable_sort(order, {}, [&](std::size_t handle) { return handles[handle].came; });
     return order;
 }
 

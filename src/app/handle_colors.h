@@ -23,11 +23,9 @@ struct HandleColors {
     std::optional<Tried> tried; // in the picker, whose hand has not let go of it yet
     struct Place {
         std::size_t number = 0; // in the row of usual colours of its role
-        std::size_t since = 0;  // counts the places given, for a list that keeps its order
         std::weak_ptr<const std::vector<Index>> points;
     };
     std::map<std::string, Place> places; // of handles that are there or were
-    std::size_t given = 0;               // places so far
 };
 
 // Gives the new ones of these handles places, and those that were renamed what they had. "handle 3" gets the
@@ -36,7 +34,7 @@ struct HandleColors {
 void place_colors(HandleColors& colors, std::span<const Handle> handles);
 
 // The handles in the order in which they came: one that is changed, and so declared anew, stays where it is.
-std::vector<std::size_t> order_of_list(const HandleColors& colors, std::span<const Handle> handles);
+std::vector<std::size_t> order_of_list(std::span<const Handle> handles);
 
 // The handle's colour: the one tried, the one chosen, or one by its role and place.
 ImU32 handle_color(const HandleColors& colors, const Handle& handle);

@@ -284,7 +284,7 @@ void handle_list(const Ui& ui, const std::vector<Handle>& handles) {
         // A handle is chosen before the document has it, and what was added in this frame can be scrolled to
         // in the next one.
         const bool is_measured = ImGui::GetScrollMaxY() + height > whole - 1;
-        for (const std::size_t i : order_of_list(state.handle_colors, handles)) {
+        for (const std::size_t i : order_of_list(handles)) {
             handle_row(ui, handles[i], i);
             if (handles[i].name != ui.editor.chosen || state.listed_chosen == handles[i].name) continue;
             if (whole > height) ImGui::SetScrollHereY();

@@ -6,7 +6,6 @@
 #include "cloud/splats.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace knead {
@@ -75,8 +74,11 @@ void Document::declare(const HandleLine& line, const std::string& place) {
     HandleChange change;
     const auto old = std::ranges::find(handles_, line.name, &Handle::name);
     if (old != handles_.end()) change.gone = {static_cast<Index>(old - handles_.begin()), *old};
+    Index came = 0;
+    for (const Handle& handle : handles_) came = std::max(came, handle.came + 1);
     change.come = {static_cast<Index>(handles_.size() - (change.gone ? 1 : 0)),
-                   {line.name, line.role, std::move(points), line.free_rotation, line.falloff, line.color}};
+                   {line.name, line.role, std::move(points), line.free_rotation, line.falloff, line.color,
+                    change.gone ? change.gone->handle.came : came}};
     change_handles(std::move(change));
 }
 

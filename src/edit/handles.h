@@ -22,6 +22,8 @@ struct Handle {
     bool free_rotation = false; // gives its points their positions only; how they turn is up to the cloud
     double falloff = 0;         // how far along the surface it pulls what is around it, the less the farther
     std::optional<std::uint32_t> color = {}; // 0xrrggbb, where the user chose one
+    Index came = 0; // numbers handles as they came; one that is declared anew keeps its own, for lists that
+                    // keep their order
 };
 
 // Whether it takes a handle's points away from where they were at rest. One that was reset does not, though

@@ -53,6 +53,21 @@ TEST(Document, ANameGivenAgainReplacesTheHandleAndDeclaresItLast) {
     EXPECT_GT(farthest(desk, is_top, lifted), 1e-3);
 }
 
+TEST(Document, AHandleThatIsDeclaredAgainOrRenamedKeepsTheNumberByWhichItCame) {
+    const auto numbers = [](Desk& desk) {
+        std::map<std::string, Index> came;
+        for (const Handle& handle : desk.document().handles()) came[handle.name] = handle.came;
+        return came;
+    };
+    Desk desk(bar());
+    desk.play(ends + cap_that_stays + foot + R"({"op":"rename","handle":"top","to":"lid"})" + "\n");
+    EXPECT_EQ(numbers(desk), (std::map<std::string, Index>{{"foot", 0}, {"lid", 1}, {"cap", 2}}));
+    desk.play(R"({"op":"delete","handle":"lid"})" + std::string("\n") + top);
+    EXPECT_EQ(numbers(desk), (std::map<std::string, Index>{{"foot", 0}, {"cap", 2}, {"top", 3}}));
+    desk.play(R"({"op":"undo"})" + std::string("\n") + R"({"op":"undo"})" + "\n");
+    EXPECT_EQ(numbers(desk), (std::map<std::string, Index>{{"foot", 0}, {"lid", 1}, {"cap", 2}}));
+}
+
 TEST(Document, AnotherColorAloneKeepsThePlaceOfAHandleAndItsPose) {
     const std::string bottom = R"({"op":"handle","name":"bottom","role":"fixed","points":[[0,9]])";
     Desk desk(bar());

@@ -23,7 +23,7 @@ double sum_of(const std::vector<double>& amount) {
 
 // What each point stands for, none more than so many times the mean of what is left then: the mean falls
 // from round to round, and ends where no more is cut off.
-std::vector<double> limited(std::span<const float> area) {
+std::vector<double> limited(std::span<const double> area) {
     constexpr int most_rounds = 100;
     constexpr double nothing_more = 1e-9;
     std::vector<double> amount(area.begin(), area.end());
@@ -72,7 +72,7 @@ void keep_nearest(std::span<const float> positions, std::vector<double>& amount)
 
 } // namespace
 
-double cloud_size(std::span<const float> positions, std::span<const float> area) {
+double cloud_size(std::span<const float> positions, std::span<const double> area) {
     require(positions.size() == 3 * area.size(), "each point stands for something");
     if (area.empty()) return 1;
     std::vector<double> amount = limited(area);

@@ -12,6 +12,6 @@ namespace knead {
 // that is the same for all (where all are 0, each as much as another). A point counts for at most 16 times
 // the mean: a few that are far from everything make no body. In the unit of the positions; at least a tiny
 // positive number, and 1 of nothing.
-double cloud_size(std::span<const float> positions, std::span<const float> area);
+double cloud_size(std::span<const float> positions, std::span<const double> area);
 
 } // namespace knead

@@ -284,9 +284,8 @@ void Pipeline::find_energy(const SampleRest& rest) {
 }
 
 void Pipeline::find_link_weights(const SampleRest& rest) {
-    const std::vector<double> areas = every_point_
-                                          ? std::vector<double>(asked_.area.begin(), asked_.area.end())
-                                          : territory_areas(asked_, territories_, samples_.size(), workers_);
+    const std::vector<double> areas =
+        every_point_ ? asked_.area : territory_areas(asked_, territories_, samples_.size(), workers_);
     link_weights_ = isotropic_weights(rest.graph, rest.position, sample_graph_.contact,
                                       every_point_ ? of_points : of_territories, areas, workers_);
 }

@@ -21,7 +21,6 @@
 #include "graph/csr.h"
 #include "graph/influences.h"
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <variant>

@@ -4,7 +4,6 @@
 #include "graph/flood.h"
 
 #include <span>
-#include <variant>
 #include <vector>
 
 namespace knead {

@@ -59,7 +59,9 @@ std::vector<float> level_areas(AskedVertices& asked, const ChangingTerritories& 
         sums_around(asked, sample, territories.base_borders, base_samples, is_example);
     for (std::size_t k = 0; asked.each > 1 && k < sample.size(); ++k) {
         const bool has_base = sample[k] < base_samples; // some parts have added samples alone
-        asked.area[k] = asked.star[k] * (has_base ? ratio(sums[sample[k]].area, sums[sample[k]].star) : 1);
+        asked.area[k] =
+            asked.star[k] *
+            (has_base ? static_cast<double>(ratio(sums[sample[k]].area, sums[sample[k]].star)) : 1);
     }
     std::vector<float> of_links;
     of_links.reserve(base_samples);
@@ -74,7 +76,7 @@ std::vector<double> territory_areas(const AskedVertices& asked, const ChangingTe
     for (std::size_t k = 0; k < sample.size(); ++k) {
         if (sample[k] == no_index) continue;
         require(sample[k] < samples, "territories are those of the samples");
-        area[sample[k]] += asked.each * static_cast<double>(asked.area[k]);
+        area[sample[k]] += asked.each * asked.area[k];
     }
     return area;
 }

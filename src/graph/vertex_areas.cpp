@@ -89,24 +89,23 @@ private:
     std::vector<double> weight_;
 };
 
-std::vector<float> areas_of(std::span<const Told> told) {
-    std::vector<float> areas;
+std::vector<double> areas_of(std::span<const Told> told) {
+    std::vector<double> areas;
     for (const Told& each : told)
-        areas.push_back(each.asked ? static_cast<float>(std::lerp(each.star, each.cell, each.is_cell)) : -1);
+        areas.push_back(each.asked ? std::lerp(each.star, each.cell, each.is_cell) : -1);
     return areas;
 }
 
-std::vector<float> volumes_of(std::span<const Told> told) {
+std::vector<double> volumes_of(std::span<const Told> told) {
     std::vector<double> ways;
     for (const Told& each : told)
         if (each.square_way > 0) ways.push_back(each.square_way);
     if (ways.empty()) return areas_of(told);
     const auto middle = ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2);
     std::ranges::nth_element(ways, middle);
-    std::vector<float> volumes;
+    std::vector<double> volumes;
     for (const Told& each : told)
-        volumes.push_back(each.asked ? static_cast<float>(each.star * std::sqrt(each.square_way / *middle))
-                                     : -1);
+        volumes.push_back(each.asked ? each.star * std::sqrt(each.square_way / *middle) : -1);
     return volumes;
 }
 
@@ -130,8 +129,8 @@ AskedVertices ask_vertices(const Graph& points, std::span<const float> positions
         }
     });
     for (const Told& each : told) {
-        asked.star.push_back(static_cast<float>(each.star));
-        asked.links.push_back(static_cast<float>(each.links));
+        asked.star.push_back(each.star);
+        asked.links.push_back(each.links);
     }
     const auto of_solid = static_cast<std::size_t>(std::ranges::count_if(told, &Told::thick));
     asked.fill_solid = 2 * of_solid * of_cells > count;

@@ -17,9 +17,9 @@ namespace knead {
 // the surface. 0 for an outlier that hangs.
 struct AskedVertices {
     std::vector<Index> vertex; // ascending
-    std::vector<float> area;   // of each: six times its cell (cell_area.h); below 0: was not asked for it
-    std::vector<float> star;   // what the weights of its links would come to by themselves
-    std::vector<float> links;  // six times the mean of the links' squares, times the share c of directions
+    std::vector<double> area;  // of each: six times its cell (cell_area.h); below 0: was not asked for it
+    std::vector<double> star;  // what the weights of its links would come to by themselves
+    std::vector<double> links; // six times the mean of the links' squares, times the share c of directions
     double each = 1;           // they stand for so many vertices each
     bool fill_solid = false;   // most lie throughout a volume, and areas are volumes
 };

@@ -28,7 +28,7 @@ std::vector<float> box(const Eigen::Quaterniond& turn = Eigen::Quaterniond::Iden
 }
 
 double size_of(const std::vector<float>& positions) {
-    return cloud_size(positions, std::vector<float>(positions.size() / 3, 1));
+    return cloud_size(positions, std::vector<double>(positions.size() / 3, 1));
 }
 
 TEST(CloudSize, IsNearlyTheDiagonalOfABoxThatIsFilledEvenly) {
@@ -48,29 +48,29 @@ TEST(CloudSize, DoesNotTurnWithTheAxesNorGrowWithStrays) {
 // As if the second had been scanned at ten times the density.
 TEST(CloudSize, CountsWhatPointsStandFor) {
     std::vector<float> positions = box();
-    std::vector<float> area(8000, 1);
+    std::vector<double> area(8000, 1);
     for (std::size_t i = 0; i < 8000; ++i) {
         const Vec3d p = point_at(positions, i);
         if (p.z() < 2) continue;
-        area[i] = 0.1F;
+        area[i] = 0.1;
         for (int copy = 1; copy < 10; ++copy) {
             append(positions, p);
-            area.push_back(0.1F);
+            area.push_back(0.1);
         }
     }
     const double size = size_of(box());
     EXPECT_NEAR(cloud_size(positions, area), size, 1e-4 * size);
     EXPECT_LT(size_of(positions), 0.9 * size);
-    for (float& each : area) each *= 1e-9F; // in another unit
+    for (double& each : area) each *= 1e-9; // in another unit
     EXPECT_NEAR(cloud_size(positions, area), size, 1e-4 * size);
 }
 
 TEST(CloudSize, IsNotThatOfAFewPointsThatSayTheyStandForAll) {
     std::vector<float> positions = box();
-    std::vector<float> area(8000, 1);
+    std::vector<double> area(8000, 1);
     for (int i = 0; i < 5; ++i) {
         append(positions, Vec3d(1000, 1000 + i, 0));
-        area.push_back(1e6F);
+        area.push_back(1e6);
     }
     const double size = size_of(box());
     EXPECT_NEAR(cloud_size(positions, area), size, 0.02 * size);
@@ -87,7 +87,7 @@ TEST(CloudSize, IsPositive) {
     EXPECT_EQ(size_of({}), 1);
     EXPECT_GT(size_of({1, 2, 3, 1, 2, 3}), 0);
     const std::vector<float> positions = box();
-    EXPECT_EQ(cloud_size(positions, std::vector<float>(8000, 0)), size_of(positions)); // no areas are known
+    EXPECT_EQ(cloud_size(positions, std::vector<double>(8000, 0)), size_of(positions)); // no areas are known
 }
 
 } // namespace

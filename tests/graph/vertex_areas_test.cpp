@@ -15,7 +15,7 @@ AskedVertices ask(const Cloud& cloud, std::size_t count, unsigned threads = 2,
                         1, machine.workers);
 }
 
-double sum_of(const std::vector<float>& amounts) {
+double sum_of(const std::vector<double>& amounts) {
     return std::accumulate(amounts.begin(), amounts.end(), 0.0);
 }
 
@@ -124,11 +124,26 @@ TEST(VertexAreas, AreTheSameForAnyNumberOfThreads) {
     }
 }
 
+// Squares of such lengths leave the range of floats.
+TEST(VertexAreas, AreThoseOfAnySize) {
+    const Cloud cloud = test::cloud_of(test::shape_positions(Shape::creature, 2000));
+    const AskedVertices asked = ask(cloud, cloud.size());
+    for (const int exponent : {-90, 90}) {
+        Cloud scaled = cloud;
+        for (float& each : scaled.positions) each = std::ldexp(each, exponent);
+        const AskedVertices of_scaled = ask(scaled, cloud.size());
+        for (std::size_t k = 0; k < asked.vertex.size(); ++k) {
+            EXPECT_NEAR(std::ldexp(of_scaled.area[k], -2 * exponent), asked.area[k], 1e-9 * asked.area[k]);
+            EXPECT_NEAR(std::ldexp(of_scaled.star[k], -2 * exponent), asked.star[k], 1e-9 * asked.star[k]);
+        }
+    }
+}
+
 // As a commit may leave it.
 TEST(VertexAreas, OfWhatLiesInOnePlaceAreNothing) {
     Cloud cloud = test::cloud_of(test::grid_positions(8, 8));
     std::ranges::fill(cloud.positions, 1.0F);
-    for (const float area : ask(cloud, cloud.size()).area) EXPECT_EQ(area, 0);
+    for (const double area : ask(cloud, cloud.size()).area) EXPECT_EQ(area, 0);
 }
 
 // With very many neighbours what is one link away is enough.

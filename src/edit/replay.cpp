@@ -167,7 +167,7 @@ private:
     void act(Document& document, const SettleLine& line, std::size_t /*number*/,
              const std::string& /*place*/) {
         document.settle(line, progress_);
-        checked_ = false;
+        if (document.is_posed()) checked_ = false;
         if (options_.after_frame && !options_.rehearse)
             options_.after_frame(document, document.shape(progress_)); // nothing need be posed
     }
@@ -189,12 +189,14 @@ private:
         document.rename(line, place);
     }
     void act(Document& document, const UndoLine& /*line*/, std::size_t /*number*/, const std::string& place) {
+        const bool was_posed = document.is_posed();
         document.undo(place);
-        checked_ = false;
+        if (was_posed || document.is_posed()) checked_ = false;
     }
     void act(Document& document, const RedoLine& /*line*/, std::size_t /*number*/, const std::string& place) {
+        const bool was_posed = document.is_posed();
         document.redo(place);
-        checked_ = false;
+        if (was_posed || document.is_posed()) checked_ = false;
     }
 
     void check(Document& document, const CheckLine& line, std::size_t number) {

@@ -275,6 +275,13 @@ TEST_F(Replay, RecordsChecksThatHoldAndRecordingAgainChangesNothing) {
     EXPECT_EQ(files(), (std::set<std::string>{"bar.ply", "s-check-1.ply", "s-check-2.ply", "s.knead"}));
 }
 
+TEST_F(Replay, RecordsNoCheckWhereNothingMoved) {
+    session(foot + top + settle + "{\"op\":\"undo\"}\n{\"op\":\"undo\"}\n{\"op\":\"redo\"}\n" + settle);
+    const std::string before = read_text(folder / "s.knead");
+    ASSERT_EQ(replay({"--record-checks"}).code, 0);
+    EXPECT_EQ(read_text(folder / "s.knead"), before);
+}
+
 TEST_F(Replay, RecordsAgainWithTheToleranceThatACheckHas) {
     session(edit);
     ASSERT_EQ(replay({"--record-checks"}).code, 0);

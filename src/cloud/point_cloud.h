@@ -52,7 +52,8 @@ struct SourceImage {
 
 struct PointCloud {
     // Positions, x y z interleaved, 3n floats, relative to `origin`: the point lies at origin + position in
-    // the file's coordinates and units. The origin is the middle of the bounding box of the finite points.
+    // the file's coordinates and units. The origin is the middle of the bounding box of the finite points, or
+    // of that of the main part, where strays make it 100 times as large (cloud/main_part.h).
     std::vector<float> positions;
     Vec3d origin = Vec3d::Zero();
 

@@ -4,10 +4,10 @@
 //
 // The number is the least that looks like every point a sample, or less where the machine cannot move as many
 // while it follows the hand:
-//   - 2000 leave 0.04 … 0.2 % of the diagonal (README, "Measured"), about a pixel of a cloud that fills the
-//     view;
+//   - 2000 leave less than 0.1 % of the diagonal on the survey's shapes and on scans of bodies, as 1000 do
+//     (README, "Measured"), about a pixel of a cloud that fills the view;
 //   - many, small and crowded handles ask for more, see HandleSpread;
-//   - no more than a fourth of the points, and up to 1000 points all of them;
+//   - no more than 1000 or a fourth of the points, whichever is more, and up to 1000 points all of them;
 //   - a frame, its iterations and the upsampling, is to take 25 ms.
 // Every choice is a rung of 200, 500, 1000, 2000 … 20,000, or every point.
 

@@ -31,7 +31,7 @@ std::vector<DeviceDescription> list_devices();
 
 struct UpsamplerChoice {
     std::unique_ptr<Upsampler> upsampler; // never null
-    std::string warning;                  // for the user, where "auto" found no device; else empty
+    std::string warning; // for the user, where there is no device, or it cannot be opened; else empty
 };
 
 // `request` is what follows --device:

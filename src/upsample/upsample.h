@@ -86,8 +86,8 @@ public:
 
     // Takes the rest shape and the influences; again whenever any of them changed. Motions named by `rows`
     // and `mover` are numbered below `motions`. Everything that happens once is done here, so that all frames
-    // take the same time: opening the device (in the first call only), building the kernel (again only where
-    // rows have become narrow or wide), uploading, and a first small launch.
+    // take the same time: opening the device and building the kernel (in the first call that has points),
+    // uploading, and a first small launch.
     virtual void prepare(const UpsampleInput& input, std::size_t motions) = 0;
 
     // One frame: takes all `motions` that prepare() was told of, for 3n posed positions, and 3n normals if

@@ -7,7 +7,6 @@
 #include "view/framing.h"
 
 #include <algorithm>
-#include <array>
 #include <new>
 #include <utility>
 
@@ -124,7 +123,7 @@ void forget_refused(Editor& editor) {
         if (found->chosen_before && found->chosen_after == editor.chosen)
             choose(editor, *found->chosen_before);
         if (found->choosing_before) choose_samples(editor, *found->choosing_before);
-        if (found->pivot) put_pivot(editor, found->pivot->handle, found->pivot->before);
+        take_pivots_back(editor, *found);
         const auto at = static_cast<std::size_t>(found - editor.past.begin());
         editor.past.erase(found);
         if (editor.looks_from && at < *editor.looks_from) --*editor.looks_from;

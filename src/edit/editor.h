@@ -51,7 +51,7 @@ struct EditorStep {
     std::optional<bool> choosing_before = {}, choosing_after = {};
     // The chosen handle before and after a step of the document; nothing: it stays as it is.
     std::optional<std::string> chosen_before = {}, chosen_after = {};
-    std::optional<PivotMove> pivot = {}; // that it moved, or that went with its handle
+    std::vector<PivotMove> pivots = {}; // that it moved, or that went with their handles
 };
 
 // The drag that goes on, or that ended and that the document has not answered yet.

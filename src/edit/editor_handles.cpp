@@ -4,7 +4,6 @@
 #include "edit/editor_steps.h"
 #include "edit/handle_lines.h"
 #include "edit/mirroring.h"
-#include "edit/way_back.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,7 +115,6 @@ void carry_out(Editor& editor, const MakeHandle& command) {
     const std::string name = line.name;
     const StepNumber step = post_step(editor, {std::move(line)}, std::move(before));
     editor.posted_names.emplace_back(step, name);
-    put_pivot_with(editor.past.back(), editor, name, std::nullopt); // one of that name may have had its own
     if (command.role == HandleRole::moving) choose_with_step(editor, name);
 }
 
@@ -138,6 +136,7 @@ void carry_out(Editor& editor, const RenameHandle& command) {
     const StepNumber step = post_step(editor, {RenameLine{command.handle, command.to}});
     editor.posted_names.emplace_back(step, command.to);
     put_pivot_with(editor.past.back(), editor, command.to, pivot_of(editor, command.handle));
+    put_pivot_with(editor.past.back(), editor, command.handle, std::nullopt);
     if (editor.chosen == command.handle) choose_with_step(editor, command.to);
 }
 
@@ -180,7 +179,9 @@ void carry_out(Editor& editor, const ColorHandle& command) {
 }
 
 void carry_out(Editor& editor, const DeleteHandle& command) {
-    if (number_of(editor, command.handle)) post_step(editor, {DeleteLine{command.handle}});
+    if (!number_of(editor, command.handle)) return;
+    post_step(editor, {DeleteLine{command.handle}});
+    put_pivot_with(editor.past.back(), editor, command.handle, std::nullopt);
 }
 
 void carry_out(Editor& editor, const SelectHandlePoints& command) {
@@ -199,26 +200,6 @@ void carry_out(Editor& editor, const SelectHandlePoints& command) {
 // --- Poses that are not dragged ----------------------------------------------------------------------------
 
 namespace {
-
-// A drag from rest to a motion in even steps, about the middle of the handle.
-DragLine drag_towards(const std::string& handle, const HandleMotion& motion, const Vec3d& middle,
-                      const Vec3d& origin) {
-    const Vec3d to = motion.linear * middle + motion.offset;
-    const Eigen::AngleAxisd turn(motion.rotation);
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(turn.angle()) / widest_turn)));
-    const HandlePose last = pose_of(motion, middle + origin, origin);
-    DragLine line{handle, middle + origin, {}};
-    for (int k = 1; k <= steps; ++k) {
-        const double t = static_cast<double>(k) / steps;
-        HandlePose pose = last;
-        pose.translate = t * (to - middle);
-        pose.rotate = Quatd(Eigen::AngleAxisd(t * turn.angle(), turn.axis()));
-        pose.scale = Vec3d::Ones() + t * (last.scale - Vec3d::Ones());
-        line.frames.push_back(pose);
-    }
-    line.frames.back() = last;
-    return line;
-}
 
 std::string words_about(const MirrorPlane& plane, double place) {
     char text[64];
@@ -292,19 +273,21 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     line.color = there ? editor.document->handles[*there].color : std::nullopt;
     line.points = ranges_of(points);
     const std::string name = line.name;
-    std::vector<SessionAction> lines{std::move(line)};
-    const HandleMotion& pose = editor.document->motions[*number];
-    if (leaves_rest(pose) && handle.role == HandleRole::moving) {
-        const HandleMotion motion = mirrored(pose, plane, across.shift);
-        lines.emplace_back(
-            drag_towards(name, motion, rest_middle(editor, points), editor.opened.cloud->origin));
-    } else if (handle.role == HandleRole::moving) {
-        say(editor, Notice::Kind::information,
-            "Only the handle was mirrored: \"" + handle.name +
-                "\" is where it was at rest, so there is no pose to mirror.");
+    const bool is_posed = leaves_rest(editor.document->motions[*number]);
+    if (handle.role == HandleRole::moving && is_posed) {
+        PoseOfAnother pose{handle.name,
+                           [=](const HandleMotion& motion) { return mirrored(motion, plane, across.shift); },
+                           rest_middle(editor, points)};
+        editor.live->make_posed(++editor.last_step, std::move(line), std::move(pose));
+        add_step(editor, editor.last_step, nullptr);
+    } else {
+        post_step(editor, {std::move(line)});
+        if (handle.role == HandleRole::moving)
+            say(editor, Notice::Kind::information,
+                "Only the handle was mirrored: \"" + handle.name +
+                    "\" is where it was at rest, so there is no pose to mirror.");
     }
-    editor.posted_names.emplace_back(post_step(editor, std::move(lines)), name);
-    if (!there) put_pivot_with(editor.past.back(), editor, name, std::nullopt);
+    editor.posted_names.emplace_back(editor.last_step, name);
     choose_with_step(editor, name);
 }
 

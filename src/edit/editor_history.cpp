@@ -82,7 +82,7 @@ void carry_out(Editor& editor, const UndoStep& command) {
     if (step.document) editor.live->undo(step.document, command.to_look);
     if (step.choosing_before) choose_samples(editor, *step.choosing_before);
     if (step.chosen_before) choose(editor, *step.chosen_before);
-    if (step.pivot) put_pivot(editor, step.pivot->handle, step.pivot->before);
+    take_pivots_back(editor, step);
     editor.drag.reset();
     editor.future.push_back(std::move(step));
 }
@@ -98,7 +98,7 @@ void go_forward(Editor& editor, Redo&& redo) {
     if (step.choosing_after) choose_samples(editor, *step.choosing_after);
     if (step.after) restore_selection(editor, *step.after);
     if (step.chosen_after) choose(editor, *step.chosen_after);
-    if (step.pivot) put_pivot(editor, step.pivot->handle, step.pivot->after);
+    for (const PivotMove& move : step.pivots) put_pivot(editor, move.handle, move.after);
     editor.past.push_back(std::move(step));
 }
 

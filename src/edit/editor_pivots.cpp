@@ -22,8 +22,13 @@ void put_pivot_with(EditorStep& step, Editor& editor, const std::string& handle,
                     const std::optional<glm::dvec3>& pivot) {
     const auto before = pivot_of(editor, handle);
     if (before == pivot) return;
-    step.pivot = PivotMove{handle, before, pivot};
+    step.pivots.push_back({handle, before, pivot});
     put_pivot(editor, handle, pivot);
+}
+
+void take_pivots_back(Editor& editor, const EditorStep& step) {
+    for (auto move = step.pivots.rbegin(); move != step.pivots.rend(); ++move)
+        put_pivot(editor, move->handle, move->before);
 }
 
 void carry_out(Editor& editor, const SetPivot& command) {
@@ -37,7 +42,7 @@ void carry_out(Editor& editor, const SetPivot& command) {
         add_step(editor, 0, nullptr);
         EditorStep& step = editor.past.back();
         step.chosen_before = step.chosen_after = move.handle;
-        step.pivot = move;
+        step.pivots.push_back(move);
     }
     editor.moved_pivot.reset();
 }

@@ -5,7 +5,6 @@
 #include "edit/measures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace knead {

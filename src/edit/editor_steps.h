@@ -29,9 +29,11 @@ void choose_with_step(Editor& editor, const std::string& handle);
 
 // A handle's pivot, and no step of it; nothing: its middle.
 void put_pivot(Editor& editor, const std::string& handle, const std::optional<glm::dvec3>& pivot);
-// The same, as part of a step that moves the handle or makes it.
+// The same, as part of a step that moves the handle, names or deletes it.
 void put_pivot_with(EditorStep& step, Editor& editor, const std::string& handle,
                     const std::optional<glm::dvec3>& pivot);
+// Pivots as they were before a step.
+void take_pivots_back(Editor& editor, const EditorStep& step);
 
 // Whether the number of samples is chosen by itself from here on; no step of its own.
 void choose_samples(Editor& editor, bool by_itself);

@@ -16,14 +16,20 @@ namespace knead {
 
 namespace {
 
+// Of a handle, in the shape that this edit began with.
 Vec3d middle_at_rest(const Document& document, const std::string& name) {
     Vec3d sum = Vec3d::Zero();
     double count = 0;
     const auto handle = std::ranges::find(document.handles(), name, &Handle::name);
     if (handle == document.handles().end()) return sum;
-    for (const Index i : *handle->points) {
-        if (!is_finite(document.cloud(), i)) continue;
-        sum += point_at(document.cloud().positions, i);
+    std::vector<bool> is_held(document.cloud().size(), false);
+    for (const Index i : *handle->points) is_held[i] = true;
+    const std::shared_ptr<const RestShape> committed = document.kept_rest();
+    const RestShape& rest = committed ? *committed : document.pipeline().opened();
+    const std::vector<Index>& file_index = document.pipeline().order().file_index;
+    for (std::size_t point = 0; point < file_index.size(); ++point) {
+        if (!is_held[file_index[point]]) continue;
+        sum += point_at(rest.positions, point);
         ++count;
     }
     return count > 0 ? Vec3d(sum / count) : sum;
@@ -72,6 +78,22 @@ void LiveWork::carry_out(task::Lines& lines) {
 void LiveWork::carry_out(task::EditHandle& task) {
     task::Lines lines{task.step, lines_for(document_->handles(), task.edit), false};
     if (lines.lines.empty()) return refuse(task.step);
+    carry_out(lines);
+}
+
+void LiveWork::carry_out(task::MakePosed& task) {
+    task::Lines lines{task.step, {task.line}, false};
+    try {
+        finish_settling();
+        std::vector<HandleMotion> way = document_->way_of(task.pose.handle);
+        std::ranges::transform(way, way.begin(), task.pose.seen);
+        if (!way.empty())
+            lines.lines.emplace_back(
+                way_there(task.line.name, way, task.pose.middle, document_->cloud().origin));
+    } catch (...) {
+        refuse(task.step);
+        throw;
+    }
     carry_out(lines);
 }
 

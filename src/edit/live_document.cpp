@@ -65,6 +65,10 @@ void LiveDocument::edit_handle(StepNumber step, HandleEdit edit) {
     put(*shared_, task::EditHandle{step, std::move(edit)});
 }
 
+void LiveDocument::make_posed(StepNumber step, HandleLine line, PoseOfAnother pose) {
+    put(*shared_, task::MakePosed{step, std::move(line), std::move(pose)});
+}
+
 void LiveDocument::choose_samples(bool by_itself) {
     put(*shared_, task::ChooseSamples{by_itself});
 }

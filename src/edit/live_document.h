@@ -25,6 +25,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -137,6 +138,14 @@ struct OpenRequest {
     double quick = 0.02;
 };
 
+// The pose of a moving handle, for another one that takes it over. It comes there the same way, as often
+// round.
+struct PoseOfAnother {
+    std::string handle;
+    std::function<HandleMotion(const HandleMotion&)> seen; // of any of its motions: what the other's would be
+    Vec3d middle = Vec3d::Zero();                          // of the other at rest, about the cloud's origin
+};
+
 struct LiveShared; // what both threads see (edit/live_shared.h)
 
 class LiveDocument {
@@ -184,6 +193,9 @@ public:
     // Changes a handle as it is when its turn comes, after all that was posted before. Where it is gone by
     // then, or is so already, the step counts as refused without words.
     void edit_handle(StepNumber step, HandleEdit edit);
+
+    // Makes a handle and poses it like another one.
+    void make_posed(StepNumber step, HandleLine line, PoseOfAnother pose);
 
     // Whether the number of samples is chosen by itself from here on. That happens after an act that leaves
     // nothing posed, and belongs to its step: never in a drag, never where it would take a commit, and never

@@ -27,6 +27,11 @@ struct EditHandle {
     StepNumber step = 0;
     HandleEdit edit;
 };
+struct MakePosed {
+    StepNumber step = 0;
+    HandleLine line;
+    PoseOfAnother pose;
+};
 struct BeginDrag {
     StepNumber step = 0;
     std::string handle;
@@ -61,9 +66,9 @@ struct SaveSession {
     bool anyway = false;
 };
 } // namespace task
-using LiveTask = std::variant<task::ChooseSamples, task::Lines, task::EditHandle, task::BeginDrag,
-                              task::EndDrag, task::CancelDrag, task::ResetPose, task::Undo, task::Redo,
-                              task::Play, task::SaveCloud, task::SaveSession>;
+using LiveTask = std::variant<task::ChooseSamples, task::Lines, task::EditHandle, task::MakePosed,
+                              task::BeginDrag, task::EndDrag, task::CancelDrag, task::ResetPose, task::Undo,
+                              task::Redo, task::Play, task::SaveCloud, task::SaveSession>;
 
 // How a step is played.
 struct PlayPace {

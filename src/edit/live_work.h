@@ -48,6 +48,7 @@ private:
     void carry_out(task::Lines& lines);
     void carry_out_line(const SessionAction& line, bool joins, bool pose_is_seen, std::size_t& done);
     void carry_out(task::EditHandle& task);
+    void carry_out(task::MakePosed& task);
     void carry_out(task::ResetPose& task);
     void carry_out(task::Undo& task);
     void carry_out(task::Redo& task);

@@ -71,4 +71,13 @@ DragLine way_back(const std::string& handle, std::span<const HandleMotion> way, 
     return line;
 }
 
+DragLine way_there(const std::string& handle, std::span<const HandleMotion> way, const Vec3d& middle,
+                   const Vec3d& origin) {
+    DragLine line = way_back(handle, way, middle, origin);
+    line.frames.pop_back(); // at rest
+    std::ranges::reverse(line.frames);
+    line.frames.push_back(pose_of(way.back(), middle + origin, origin));
+    return line;
+}
+
 } // namespace knead

@@ -1,5 +1,5 @@
 #pragma once
-// The way of a handle back to where it was at rest. Private to this room.
+// The way of a handle back to where it was at rest, and to where another one is. Private to this room.
 
 #include "edit/handles.h"
 
@@ -18,5 +18,10 @@ inline constexpr double widest_turn = 20.0 * std::numbers::pi / 180.0;
 // goes off evenly on the way.
 DragLine way_back(const std::string& handle, std::span<const HandleMotion> way, const Vec3d& middle,
                   const Vec3d& origin);
+
+// A drag from rest to where the way ends, by the same stops: a handle that another's way is given to is wound
+// up as often. `way`: at least one motion.
+DragLine way_there(const std::string& handle, std::span<const HandleMotion> way, const Vec3d& middle,
+                   const Vec3d& origin);
 
 } // namespace knead

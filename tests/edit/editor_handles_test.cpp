@@ -50,6 +50,46 @@ TEST_F(BarEditor, MirroringTakesThePointsAndThePoseAcross) {
     EXPECT_NEAR(turn.axis().x() * first.axis().x(), -1, 1e-9);
 }
 
+// Also by more than half a turn, which by the shortest way would be less the other way round.
+TEST_F(BarEditor, AMirroredHandleIsWoundUpAsTheOtherIs) {
+    editor_.camera.orthographic = true;
+    select_heights(-0.2, 0.2);
+    apply(editor_, MakeHandle{HandleRole::fixed, "middle"});
+    select_heights(2, 3);
+    apply(editor_, MakeHandle{HandleRole::moving, "high"});
+    calm();
+    const auto& rest = editor_.opened.opened->positions;
+    const auto turn_at = [&](double z) { // about the bar's axis, of a slice
+        double sine = 0, cosine = 0;
+        for (std::size_t i = 0; i < rest.size(); i += 3) {
+            if (std::abs(static_cast<double>(rest[i + 2]) - z) > 0.1) continue;
+            const float* now = editor_.frame.positions.data() + i;
+            sine += static_cast<double>(rest[i] * now[1] - rest[i + 1] * now[0]);
+            cosine += static_cast<double>(rest[i] * now[0] + rest[i + 1] * now[1]);
+        }
+        return std::atan2(sine, cosine);
+    };
+    const auto twist_to = [&](double end) { // from the middle, in degrees
+        double sum = 0;
+        for (int step = 0; step < 20; ++step)
+            sum += std::remainder(turn_at(end * (step + 1) / 20) - turn_at(end * step / 20), 2 * pi);
+        return sum * 180 / pi;
+    };
+    apply(editor_, ChooseHandle{"high"});
+    apply(editor_, BeginDrag{glm::dvec3(0, 0, 2)});
+    Transform twist;
+    twist.axis = {0, 0, 1};
+    twist.angle = 190 * pi / 180;
+    apply(editor_, DragTo{twist});
+    apply(editor_, EndDrag{});
+    calm();
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    EXPECT_EQ(editor_.document->handles.back().name, "high mirrored");
+    EXPECT_NEAR(twist_to(2), 190, 5);
+    EXPECT_NEAR(twist_to(-2), 190, 5);
+}
+
 TEST_F(BarEditor, AHandleIsToldHowItHoldsAndKeepsItThroughItsRole) {
     make_handles();
     apply(editor_, ChangeHold{"high", true, 0.25});
@@ -284,6 +324,29 @@ TEST_F(BarEditor, EveryHandleKeepsItsPivotAndTakesItAlong) {
     EXPECT_EQ(at("high"), middle);
 }
 
+TEST_F(BarEditor, AHandleOfANameThatWasBeginsWithNoPivot) {
+    make_handles();
+    const glm::dvec3 middle = gizmo_of(editor_)->center, elsewhere(5, 5, 5);
+    const auto pivot = [&] {
+        calm();
+        apply(editor_, ChooseHandle{"high"});
+        return gizmo_of(editor_)->center;
+    };
+    apply(editor_, SetPivot{elsewhere});
+    apply(editor_, DeleteHandle{"high"});
+    calm();
+    select_heights(2, 3);
+    apply(editor_, MakeHandle{HandleRole::moving, "high"});
+    EXPECT_EQ(pivot(), middle);
+    for (int step = 0; step < 3; ++step) apply(editor_, UndoStep{}); // made, selected, deleted
+    EXPECT_EQ(pivot(), elsewhere) << "it comes back with the handle that was deleted";
+    apply(editor_, RenameHandle{"high", "top"});
+    calm();
+    select_heights(0, 1);
+    apply(editor_, MakeHandle{HandleRole::moving, "high"});
+    EXPECT_NE(pivot(), elsewhere);
+}
+
 TEST_F(BarEditor, LargeHandlesNeedNoFalloff) {
     make_handles();
     for (const Handle& handle : editor_.document->handles) EXPECT_EQ(least_falloff(editor_, handle), 0);
@@ -390,6 +453,27 @@ TEST_F(BarEditor, PointsThatChangeNothingAreSaidAndAreNoStep) {
     EXPECT_NE(told(SelectMode::remove).find("would hold no point"), std::string::npos);
     select_heights(0, 1);
     EXPECT_NE(told(SelectMode::remove).find("holds none"), std::string::npos);
+}
+
+TEST_F(BarEditor, AHandleIsGivenBackWhatALaterOneTook) {
+    make_handles();
+    const std::vector<std::uint8_t> made = editor_.marks;
+    for (const SelectMode mode : {SelectMode::add, SelectMode::replace}) {
+        select_heights(2.3, 3);
+        apply(editor_, MakeHandle{HandleRole::moving, "tip"});
+        calm();
+        select_heights(mode == SelectMode::add ? 2.3 : 2, 3);
+        apply(editor_, AssignPoints{"high", mode});
+        calm();
+        const std::vector<Handle>& handles = editor_.document->handles;
+        ASSERT_EQ(handles.back().name, "high");
+        EXPECT_EQ(
+            static_cast<std::size_t>(std::ranges::count(editor_.marks, handle_mark(handles.size() - 1))),
+            points_between(2, 3));
+        for (int step = 0; step < 4; ++step) apply(editor_, UndoStep{}); // with their selections
+        calm();
+        EXPECT_EQ(editor_.marks, made);
+    }
 }
 
 TEST_F(BarEditor, EscapeDropsTheSelectionAndThenTheChosenHandle) {

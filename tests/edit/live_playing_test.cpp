@@ -33,15 +33,16 @@ protected:
         });
     }
 
-    // Of the last drag in what is recorded.
-    std::size_t recorded_frames() {
+    // In what is recorded.
+    DragLine last_drag() {
         live_->save_session(folder_ / "frames.knead");
         settle_down();
-        std::size_t frames = 0;
+        DragLine last;
         for (const SessionLine& line : read_session(folder_ / "frames.knead").lines)
-            if (const auto* drag = std::get_if<DragLine>(&line.action)) frames = drag->frames.size();
-        return frames;
+            if (const auto* drag = std::get_if<DragLine>(&line.action)) last = *drag;
+        return last;
     }
+    std::size_t recorded_frames() { return last_drag().frames.size(); }
 
     std::vector<float> dragged_;
 };
@@ -177,6 +178,25 @@ TEST_F(PlayedBar, ResettingAPoseUnwindsItsTurns) {
     EXPECT_GT(largest_displacement(), 0.2);
     live_->redo(step_);
     expect_replay_makes_the_same();
+}
+
+// A handle that was turned in place turns back in place, wherever a commit left it.
+TEST_F(PlayedBar, ResettingAPoseGoesByTheMiddleInTheShapeThatWasCommitted) {
+    Transform shift;
+    shift.shift = {3, 0, 0};
+    drag({shift});
+    live_->post(++step_, {CommitLine{}});
+    settle_down();
+    Transform turn;
+    turn.pivot = {3, 0, 2.25};
+    turn.axis = {0, 0, 1};
+    turn.angle = 2.6;
+    drag({turn});
+    live_->reset_pose(++step_, "high");
+    settle_down();
+    const DragLine back = last_drag();
+    EXPECT_NEAR(back.pivot.x(), 3, 0.02);
+    for (const HandlePose& pose : back.frames) EXPECT_LT(pose.translate.norm(), 0.02);
 }
 
 } // namespace knead::test

@@ -56,6 +56,23 @@ TEST(WayBack, TwoTurnsAreUnwoundByTwoTurns) {
     EXPECT_TRUE(is_rest(line.frames.back()));
 }
 
+TEST(WayBack, TheWayThereIsWoundUpAsOftenAndEndsWhereItDid) {
+    std::vector<HandleMotion> way;
+    wind(way, Vec3d::UnitZ(), 72);
+    wind(way, Vec3d::UnitX(), 4);
+    const DragLine line = way_there("ear", way, middle, origin);
+    HandleMotion motion;
+    double turned = 0;
+    for (const HandlePose& pose : line.frames) {
+        const HandleMotion next = motion_of(pose, line.pivot, origin, motion.rotation);
+        turned += 2 * std::acos(std::min(1.0, motion.rotation.dot(next.rotation)));
+        motion = next;
+    }
+    EXPECT_NEAR(turned, 4 * pi, 40 * pi / 180); // corners are cut
+    EXPECT_GT(motion.rotation.dot(way.back().rotation), 1 - 1e-12) << "and not its negative";
+    EXPECT_LT((motion.linear - way.back().linear).norm() + (motion.offset - way.back().offset).norm(), 1e-9);
+}
+
 TEST(WayBack, ThreeQuartersAreNotCutShort) {
     std::vector<HandleMotion> way;
     wind(way, Vec3d::UnitX(), 27);

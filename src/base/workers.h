@@ -6,7 +6,6 @@
 // writes its own outputs, and sums over chunks are taken in the order of the chunks.
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <type_traits>
 

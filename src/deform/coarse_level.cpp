@@ -6,7 +6,6 @@
 
 #include <Eigen/LU>
 
-#include <cmath>
 #include <limits>
 #include <map>
 

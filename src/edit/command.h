@@ -6,7 +6,6 @@
 #include "view/screen_region.h"
 #include "view/transform.h"
 
-#include <filesystem>
 #include <string>
 #include <variant>
 

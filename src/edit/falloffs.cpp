@@ -4,7 +4,6 @@
 #include "graph/distances.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <unordered_map>

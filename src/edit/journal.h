@@ -6,7 +6,6 @@
 #include "edit/session.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

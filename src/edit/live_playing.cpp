@@ -4,7 +4,6 @@
 #include "edit/live_work.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace knead {

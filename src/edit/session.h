@@ -8,12 +8,10 @@
 #include "base/types.h"
 #include "graph/influences.h"
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 

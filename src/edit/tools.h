@@ -29,7 +29,6 @@
 #include "view/gizmo.h"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace knead {

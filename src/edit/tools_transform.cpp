@@ -2,8 +2,6 @@
 
 #include "edit/tool_steps.h"
 
-#include <utility>
-
 namespace knead {
 
 namespace {

@@ -6,7 +6,6 @@
 #include "io/scalar_bytes.h"
 
 #include <cmath>
-#include <cstring>
 #include <string_view>
 
 namespace knead {

@@ -5,10 +5,8 @@
 #include "io/text_statements.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <optional>
 
 namespace knead {

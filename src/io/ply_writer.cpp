@@ -7,7 +7,6 @@
 #include "io/text_numbers.h"
 
 #include <algorithm>
-#include <array>
 
 namespace knead {
 

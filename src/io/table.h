@@ -19,8 +19,6 @@
 #include "io/table_layout.h"
 
 #include <cstddef>
-#include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,6 @@
 // There is no standard of it; what is understood is in table.h.
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>

@@ -4,10 +4,8 @@
 #include "io/ascii_rows.h"
 #include "io/table_layout.h"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstring>
 
 namespace knead {
 

@@ -3,7 +3,6 @@
 
 #include "cloud/splats.h"
 
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>

@@ -61,6 +61,9 @@ void range_fields(const Ui& ui) {
     if (automatic) return;
     const double step = std::max(1e-9, 0.005 * (display.range.high - display.range.low));
     std::array<float, 2> ends{static_cast<float>(display.range.low), static_cast<float>(display.range.high)};
+    ImGui::PushID("##range");
+    for (const char* end : {"##min", "##max"}) take_decimal_commas(ImGui::GetID(end));
+    ImGui::PopID();
     if (ImGui::DragFloatRange2("##range", &ends[0], &ends[1], static_cast<float>(step), 0, 0, "%.4g", "%.4g"))
         display.range = {static_cast<double>(ends[0]), static_cast<double>(ends[1])};
     explain("The lowest and the highest value of the scale; drag, or Ctrl+click to type");

@@ -107,6 +107,7 @@ void falloff_menu(const Ui& ui, const Handle& handle) {
     inline_caption("Length", ui.scaled(70));
     ImGui::SetNextItemWidth(-FLT_MIN);
     double length = std::max(handle.falloff, least * diagonal);
+    take_decimal_commas(ImGui::GetID("##length"));
     if (ImGui::InputDouble("##length", &length, 0, 0, "%.4g", ImGuiInputTextFlags_EnterReturnsTrue)) {
         pull(std::clamp(length / diagonal, 0.0, most_falloff));
         ImGui::CloseCurrentPopup();

@@ -117,11 +117,22 @@ void draw_bar(const char* name, const char* value, float filled) {
     list.AddText({high.x - style.FramePadding.x - ImGui::CalcTextSize(value).x, y}, ink, value);
 }
 
+} // namespace
+
+void take_decimal_commas(ImGuiID field) {
+    if (ImGui::GetActiveID() != field) return;
+    for (ImWchar& character : ImGui::GetIO().InputQueueCharacters)
+        if (character == ',') character = '.';
+}
+
+namespace {
+
 bool bar_slider_of(const char* name, ImGuiDataType type, void* value, const void* lowest, const void* highest,
                    const char* format, int flags) {
     // While a number is typed it is an ordinary field.
     const std::string id = std::string("##") + name;
     const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id.c_str()));
+    if (typed) take_decimal_commas(ImGui::GetID(id.c_str()));
     if (!typed)
         for (const ImGuiCol hidden : {ImGuiCol_Text, ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive,
                                       ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive})

@@ -90,7 +90,7 @@ struct DragTo {
 };
 struct EndDrag {};
 struct CancelDrag {};    // the pose at BeginDrag again
-struct RefuseTransform { // a key asked for one that would change nothing; the user hears why
+struct RefuseTransform { // a key asked for one that cannot be, or would change nothing; the user hears why
     TransformKind kind = TransformKind::rotate;
 };
 struct SetPivot { // of the chosen handle's gizmo; nothing: the handle's middle

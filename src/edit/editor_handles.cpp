@@ -339,6 +339,14 @@ void carry_out(Editor& editor, const CancelDrag& /*command*/) {
 }
 
 void carry_out(Editor& editor, const RefuseTransform& command) {
+    const Handle* chosen = chosen_handle(editor);
+    if (!chosen) return say(editor, Notice::Kind::information, next_step(editor));
+    if (chosen->role != HandleRole::moving)
+        return say(editor, Notice::Kind::information,
+                   "\"" + chosen->name +
+                       "\" is no moving handle: choose one that is, or right-click this one in "
+                       "the list to make it one.");
+    if (!gizmo_of(editor)) return;
     const bool scales = command.kind == TransformKind::scale;
     say(editor, Notice::Kind::information,
         (scales ? "Scaling \"" : "Turning \"") + editor.chosen +

@@ -70,11 +70,12 @@ struct Tools {
     int clicks = 1;                     // of that press
     Transform sent;                     // the last transform that DragTo told
     bool drags_pivot = false;           // the drag moves the gizmo's pivot
+    bool refused = false; // G, R or S was, just now: the amount that goes on being typed is for nothing else
 };
 
 // Handles one input; commands go to the end of `commands` in the order in which they are to be applied.
 // Returns whether the input was used (if not, it may be a menu's key).
-// Keys that need what is not there (G with no gizmo) are not.
+// Keys that need what is not there are not; but G, R and S with no gizmo are refused with words.
 bool handle_input(Tools& tools, const ToolContext& context, const Input& input,
                   std::vector<Command>& commands);
 

@@ -79,13 +79,21 @@ bool command_key(const Hand& hand, Key pressed, const KeyPress& press) {
 }
 
 bool begin_modal(const Hand& hand, TransformKind kind, bool repeated) {
-    if (!hand.context.gizmo) return false;
     if (repeated) return true;
-    if (has_effect(*hand.context.gizmo, kind))
-        begin_drag(hand, {kind, {}}, true);
-    else
+    hand.tools.refused = !hand.context.gizmo || !has_effect(*hand.context.gizmo, kind);
+    if (hand.tools.refused)
         hand.tell(RefuseTransform{kind});
+    else
+        begin_drag(hand, {kind, {}}, true);
     return true;
+}
+
+// Whether it would go on with an amount that is typed, or end it.
+bool is_of_an_amount(Key pressed) {
+    const int code = static_cast<int>(pressed);
+    return (code >= '0' && code <= '9') || (code >= 'X' && code <= 'Z') || pressed == key('-') ||
+           pressed == key('.') || pressed == key(',') || pressed == Key::backspace || pressed == Key::enter ||
+           pressed == Key::escape;
 }
 
 bool choose(Tools& tools, SelectTool tool) {
@@ -140,6 +148,11 @@ bool tool_key(const Hand& hand, Key pressed, bool repeated) {
 
 bool idle_key(const Hand& hand, const KeyPress& press) {
     const Key pressed = without_pad(press.key);
+    if (hand.tools.refused) {
+        const bool is_swallowed = press.held == plain && is_of_an_amount(pressed);
+        hand.tools.refused = is_swallowed && pressed != Key::enter && pressed != Key::escape;
+        if (is_swallowed) return true;
+    }
     if (command_key(hand, pressed, press)) return true;
     return press.held == plain && tool_key(hand, pressed, press.repeated);
 }

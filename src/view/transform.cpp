@@ -323,7 +323,23 @@ bool type_character(TransformDrag& drag, char character) {
     return true;
 }
 
+namespace {
+
+// A shift along one axis is free again, and its length that along this axis.
+void leave_axis(TransformDrag& drag) {
+    const int axis = drag.constraint.axis;
+    drag.constraint = {Constraint::Kind::free, 0, drag.constraint.local};
+    std::array<std::string, 3> lengths;
+    lengths[static_cast<std::size_t>(axis)] = std::move(drag.typed[0]);
+    drag.typed = std::move(lengths);
+    drag.field = axis;
+}
+
+} // namespace
+
 void next_field(TransformDrag& drag, bool back) {
+    if (drag.kind == TransformKind::translate && drag.constraint.kind == Constraint::Kind::axis)
+        leave_axis(drag);
     const int count = fields_of(drag);
     drag.field = (field_of(drag) + (back ? count - 1 : 1)) % count;
 }
@@ -371,7 +387,8 @@ char letter(int axis) {
 
 // " along own X", " in world YZ", or nothing where it is free.
 std::string constraint_words(const TransformDrag& drag, const char* axis_word) {
-    if (drag.constraint.kind == Constraint::Kind::free) return {};
+    if (drag.constraint.kind == Constraint::Kind::free)
+        return drag.constraint.local ? "  along own axes" : "";
     const std::string whose = drag.constraint.local ? "own " : "world ";
     const int axis = drag.constraint.axis;
     if (drag.constraint.kind == Constraint::Kind::axis || drag.kind == TransformKind::rotate)

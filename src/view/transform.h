@@ -29,9 +29,14 @@ enum class TransformKind { translate, rotate, scale };
 
 // Along, about or across what.
 struct Constraint {
-    enum class Kind { free, axis, plane } kind = Kind::free; // free: in the plane of the screen
-    int axis = 0;                                            // 0 x, 1 y, 2 z; of a plane, its normal
-    bool local = false;                                      // the handle's own axes instead of the world's
+    enum class Kind {
+        free,
+        axis,
+        plane
+    } kind = Kind::free; // free: in the plane of the screen,
+                         // or by typed lengths along all three axes
+    int axis = 0;        // 0 x, 1 y, 2 z; of a plane, its normal
+    bool local = false;  // the handle's own axes instead of the world's
 
     bool operator==(const Constraint&) const = default;
 };
@@ -85,7 +90,8 @@ void press_axis(TransformDrag& drag, int axis, bool plane);
 // are not taken: returns false. Degrees in rotation, a factor in scale; in translation a length along the
 // axis, and first along x where it is free, along the first of a plane's two axes.
 bool type_character(TransformDrag& drag, char character);
-// The key Tab: the next of these lengths, or the one before; what is typed at that becomes it.
+// The key Tab: the next of these lengths, or the one before; what is typed at that becomes it. A shift that
+// is held to one axis is free from there on, with what was typed as its length along that axis.
 void next_field(TransformDrag& drag, bool back);
 // The transform as it stands. The camera is no longer asked: what the drag has followed decides, so that
 // nothing moves or flips with the camera.

@@ -278,6 +278,38 @@ TEST_F(BarEditor, APointThatLeavesRotationFreeSaysWhyItDoesNotTurn) {
     EXPECT_TRUE(editor_.tools.drag);
 }
 
+TEST_F(BarEditor, AnAmountThatIsTypedForNoMovingHandleIsNotTakenForOtherKeys) {
+    make_handles();
+    turn_chosen("30");
+    apply(editor_, ChooseHandle{"low"});
+    editor_.notices.clear();
+    const Camera camera = editor_.camera;
+    const auto refused = [&](const char* what) {
+        press('G');
+        press('Z');
+        type("3.7");
+        press(Key::enter);
+        calm();
+        ASSERT_EQ(editor_.notices.size(), 1U);
+        EXPECT_NE(editor_.notices.back().words.find(what), std::string::npos) << editor_.notices.back().words;
+        EXPECT_EQ(editor_.camera, camera);
+        EXPECT_TRUE(editor_.document->posed) << "it was not committed";
+        editor_.notices.clear();
+    };
+    refused("\"low\" is no moving handle");
+    apply(editor_, DropChoice{});
+    refused("Click a moving handle");
+    press('G');
+    move({401, 100});
+    press('3');
+    EXPECT_NE(editor_.camera, camera) << "the hand did something else";
+    press('G');
+    press(Key::enter);
+    press(Key::enter);
+    calm();
+    EXPECT_FALSE(editor_.document->posed) << "one amount alone";
+}
+
 TEST_F(BarEditor, EveryHandleKeepsItsPivotAndTakesItAlong) {
     make_handles();
     select_heights(-0.5, 0.5);

@@ -227,9 +227,10 @@ TEST(SelectTools, KeysChangeSelectionAndHandles) {
     EXPECT_FALSE(bench.hit('S', ctrl));
     EXPECT_FALSE(bench.hit('O', ctrl));
     EXPECT_FALSE(bench.hit('=')) << "point size is the menu's";
-    EXPECT_FALSE(bench.hit('G')) << "nothing to move";
     EXPECT_FALSE(bench.take(Character{U'g'}));
     EXPECT_EQ(bench.commands.size(), count);
+    EXPECT_TRUE(bench.hit('G'));
+    EXPECT_EQ(bench.all<RefuseTransform>().size(), 1U) << "nothing to move";
 }
 
 TEST(SelectTools, HeldKeysRepeatOnlyWhatMakesSense) {

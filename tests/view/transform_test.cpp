@@ -306,8 +306,13 @@ TEST(TransformDrag, TabGoesToTheNextLength) {
     scene.constrain(2);
     EXPECT_EQ(scene.now().shift, glm::dvec3(0, 0, 15));
     next_field(scene.drag, false);
-    scene.type("0");
-    EXPECT_EQ(scene.now().shift, glm::dvec3(0, 0, 150)) << "there is no other";
+    scene.type("7");
+    EXPECT_EQ(scene.now().shift, glm::dvec3(7, 0, 15)) << "free again";
+    EXPECT_EQ(amount_text(scene.drag), "G  X [7]  Y 0.000  Z [15]");
+    scene.drag.own_first = true;
+    press_axis(scene.drag, 1, false);
+    next_field(scene.drag, true);
+    EXPECT_EQ(amount_text(scene.drag), "G  X []  Y [7]  Z 0.000  along own axes");
 
     Scene turn(TransformKind::rotate);
     turn.type("9");

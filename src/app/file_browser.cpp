@@ -82,6 +82,13 @@ float bottom_height(const Ui& ui) {
 
 // Whether a file can be saved there; if not, `trouble` says why, and the name stays to be mended.
 bool can_save(FileBrowser& browser, const std::filesystem::path& file) {
+    if (browser.purpose == BrowseFor::save_session && has_cloud_extension(file)) {
+        browser.trouble = file.filename().string() +
+                          " is a name for a cloud. A session, the handles and poses, "
+                          "ends in .knead; the shape is exported with Ctrl+E.";
+        browser.focus_name = true;
+        return false;
+    }
     try {
         if (browser.purpose == BrowseFor::save_cloud)
             refuse_bad_target(file);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 namespace knead {
@@ -44,16 +45,19 @@ bool is_modifier(int glfw_key) {
     return glfw_key >= GLFW_KEY_LEFT_SHIFT && glfw_key <= GLFW_KEY_RIGHT_SUPER;
 }
 
-// GLFW names a key by its place on a US keyboard. Letters are taken by what is printed on them, so that
-// Ctrl+Z is where the Z is.
+// GLFW names a key by its place on a US keyboard. It is taken by what is printed on it, so that Ctrl+Z is
+// where the Z is and Ctrl++ where the plus is; but digits by their place, which Shift is needed for in
+// France.
+Key printed_key(int glfw_key, int scancode) {
+    const char* name = glfwGetKeyName(glfw_key, scancode);
+    const bool is_plain = name && name[0] > ' ' && name[0] < 127 && !name[1];
+    const bool is_digit = glfw_key >= GLFW_KEY_0 && glfw_key <= GLFW_KEY_9;
+    if (!is_plain || (is_digit && !std::strchr("+-=,.", name[0]))) return key(static_cast<char>(glfw_key));
+    return key(static_cast<char>(std::toupper(static_cast<unsigned char>(name[0]))));
+}
+
 std::optional<Key> key_of(int glfw_key, int scancode) {
-    if (glfw_key >= GLFW_KEY_A && glfw_key <= GLFW_KEY_Z) {
-        const char* name = glfwGetKeyName(glfw_key, scancode);
-        if (name && name[0] && !name[1] && std::isalpha(static_cast<unsigned char>(name[0])))
-            return key(static_cast<char>(std::toupper(static_cast<unsigned char>(name[0]))));
-        return key(static_cast<char>(glfw_key));
-    }
-    if (glfw_key > ' ' && glfw_key < 128) return key(static_cast<char>(glfw_key));
+    if (glfw_key > ' ' && glfw_key < 128) return printed_key(glfw_key, scancode);
     if (glfw_key >= GLFW_KEY_ESCAPE && glfw_key <= GLFW_KEY_END)
         return static_cast<Key>(static_cast<int>(Key::escape) + glfw_key - GLFW_KEY_ESCAPE);
     if (glfw_key >= GLFW_KEY_F1 && glfw_key <= GLFW_KEY_F12)

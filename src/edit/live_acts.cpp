@@ -199,15 +199,30 @@ void LiveWork::carry_out(task::SaveSession& task) {
     publish_view();
 }
 
-// A session knows its cloud again, as it was when it was read.
-void LiveWork::note_digest() {
-    const std::filesystem::path& cloud = recording_->cloud();
-    const auto is_as_read = [&] { return cloud_stamp_ && stamp_of(cloud) == cloud_stamp_; };
-    if (!recording_->sha256() && is_as_read()) {
-        std::string digest = sha256_of_file(cloud);
-        if (is_as_read()) recording_->set_sha256(std::move(digest));
+// As early as may be: the file could be another one by the time that a session is saved.
+void LiveWork::begin_digest() {
+    if (digest_ || !cloud_stamp_ || recording_->sha256()) return;
+    try {
+        digest_.emplace(recording_->cloud(), *cloud_stamp_);
+    } catch (
+        const std::exception&) { // there is no memory or no thread for it now; the next time there may be
     }
-    if (!is_as_read())
+}
+
+// A session knows its cloud again, as it was when it was read. A file that was only touched, or copied to
+// where it lay, is still that one.
+void LiveWork::note_digest() {
+    begin_digest();
+    if (digest_ && digest_->get()) recording_->set_sha256(*digest_->get());
+    const std::filesystem::path& cloud = recording_->cloud();
+    const std::optional<FileStamp> now = stamp_of(cloud);
+    if (now && now == cloud_stamp_) return;
+    bool is_as_read = false;
+    try {
+        is_as_read = now && recording_->sha256() && sha256_of_file(cloud) == *recording_->sha256();
+    } catch (const Error&) { // it cannot even be read
+    }
+    if (!is_as_read)
         say(Notice::Kind::warning, cloud.string() + " is not the file any more that was opened. The session "
                                                     "belongs to the points as they were: keep a copy of "
                                                     "those, or it cannot be opened again.");
@@ -245,7 +260,10 @@ void LiveWork::tell_of_journal() noexcept {
         try {
             throw;
         } catch (const Error& error) {
-            say(Notice::Kind::error, words_in_window(error));
+            say(Notice::Kind::error,
+                words_in_window(error) +
+                    ". Until it can be, a crash would lose what you do: save the session "
+                    "(Ctrl+S).");
         } catch (const std::bad_alloc&) {
             say(Notice::Kind::error, "There is not enough memory to write the recording now. It is made up "
                                      "for with the next step.");

@@ -256,6 +256,7 @@ void LiveWork::look_for_others() {
 }
 
 void LiveWork::rest_if_idle() {
+    if (!something_to_do()) begin_digest();
     const std::string warning = upsampler_->take_warning();
     if (!warning.empty()) say(Notice::Kind::warning, warning);
     shared_.with([&](LiveShared& s) {

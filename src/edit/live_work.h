@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "edit/cloud_digest.h"
 #include "edit/cures.h"
 #include "edit/known_files.h"
 #include "edit/live_drag.h"
@@ -55,6 +56,7 @@ private:
     void carry_out(task::SaveCloud& task);
     void carry_out(task::SaveSession& task);
     bool hold_back(HeldSave save);
+    void begin_digest();
     void note_digest();
     template<typename Record>
     void record(Record&& write);
@@ -144,6 +146,7 @@ private:
     LiveDocument::Saved saved_;
     std::filesystem::path session_file_;
     std::optional<FileStamp> cloud_stamp_; // before it was read
+    std::optional<CloudDigest> digest_;    // once there was nothing else to do
     KnownFiles known_files_;
 
     std::optional<OpenFiles> open_files_;

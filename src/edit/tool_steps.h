@@ -43,5 +43,7 @@ void band_key(const Hand& hand, const KeyPress& press);
 
 // A key while nothing is going on; returns whether it means anything.
 bool idle_key(const Hand& hand, const KeyPress& press);
+// The same of a character, which keyboards have in different places.
+bool idle_character(Tools& tools, char32_t code);
 
 } // namespace knead

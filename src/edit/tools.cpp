@@ -175,6 +175,7 @@ bool take(const Hand& hand, const KeyPress& press) {
 }
 
 bool take(const Hand& hand, const Character& character) {
+    if (hand.tools.doing == Doing::nothing) return idle_character(hand.tools, character.code);
     if (!transforms(hand.tools)) return false;
     drag_character(hand, character);
     return true;

@@ -101,11 +101,6 @@ bool choose(Tools& tools, SelectTool tool) {
     return true;
 }
 
-bool resize_brush(Tools& tools, double factor) {
-    tools.brush_radius = std::clamp(tools.brush_radius * factor, 2.0, 500.0);
-    return true;
-}
-
 // What changes the tools themselves, begins something, or needs the present camera.
 bool tool_key(const Hand& hand, Key pressed, bool repeated) {
     Tools& tools = hand.tools;
@@ -126,10 +121,6 @@ bool tool_key(const Hand& hand, Key pressed, bool repeated) {
         return choose(tools, SelectTool::polygon);
     case 'K':
         return choose(tools, SelectTool::brush);
-    case '[':
-        return resize_brush(tools, 1 / 1.2);
-    case ']':
-        return resize_brush(tools, 1.2);
     case 'T':
         if (!repeated) tools.through = !tools.through;
         return true;
@@ -144,6 +135,11 @@ bool tool_key(const Hand& hand, Key pressed, bool repeated) {
     }
 }
 
+bool resize_brush(Tools& tools, double factor) {
+    tools.brush_radius = std::clamp(tools.brush_radius * factor, 2.0, 500.0);
+    return true;
+}
+
 } // namespace
 
 bool idle_key(const Hand& hand, const KeyPress& press) {
@@ -155,6 +151,12 @@ bool idle_key(const Hand& hand, const KeyPress& press) {
     }
     if (command_key(hand, pressed, press)) return true;
     return press.held == plain && tool_key(hand, pressed, press.repeated);
+}
+
+// Brackets are characters, as many keyboards have them on keys of something else.
+bool idle_character(Tools& tools, char32_t code) {
+    if (code == U'[') return resize_brush(tools, 1 / 1.2);
+    return code == U']' && resize_brush(tools, 1.2);
 }
 
 } // namespace knead

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <system_error>
 #include <vector>
 
@@ -53,13 +54,11 @@ struct CloseFile {
 
 } // namespace
 
-std::string sha256_of(std::span<const std::byte> bytes) {
-    Sha256 digest;
-    digest.add(bytes);
-    return digest.finish();
+std::string sha256_of_file(const std::filesystem::path& path) {
+    return sha256_of_file(path, nullptr).value();
 }
 
-std::string sha256_of_file(const std::filesystem::path& path) {
+std::optional<std::string> sha256_of_file(const std::filesystem::path& path, const std::atomic<bool>* stop) {
     const auto fail = [&path](const char* doing) {
         throw Error(Trouble::input, path.string(),
                     std::string(doing) + ": " + std::generic_category().message(errno));
@@ -68,8 +67,10 @@ std::string sha256_of_file(const std::filesystem::path& path) {
     if (!file) fail("cannot be opened");
     Sha256 digest;
     std::vector<std::byte> block(std::size_t{1} << 20);
-    while (const std::size_t got = std::fread(block.data(), 1, block.size(), file.get()))
+    while (const std::size_t got = std::fread(block.data(), 1, block.size(), file.get())) {
+        if (stop && *stop) return std::nullopt;
         digest.add(std::span(block).first(got));
+    }
     if (std::ferror(file.get()) != 0) fail("cannot be read");
     return digest.finish();
 }

@@ -222,6 +222,29 @@ TEST_F(LiveBar, ASavedSessionKnowsItsCloudAgain) {
     EXPECT_EQ(read_session(folder_ / "b.knead").cloud, "elsewhere.ply");
 }
 
+TEST_F(LiveBar, ACloudThatWasOnlyTouchedOrCopiedBackIsTheSameOne) {
+    const std::filesystem::path cloud = folder_ / "bar.ply", session = folder_ / "a.knead";
+    const std::string digest = sha256_of_file(cloud);
+    const auto saved = [&] { // warnings of it
+        live_->take_notices();
+        live_->save_session(session);
+        settle_down();
+        const std::vector<Notice> notices = live_->take_notices();
+        EXPECT_EQ(read_session(session).sha256, digest);
+        return std::ranges::count(notices, Notice::Kind::warning, &Notice::kind);
+    };
+    EXPECT_EQ(saved(), 0);
+    std::filesystem::last_write_time(cloud, std::filesystem::last_write_time(cloud) + std::chrono::hours(1));
+    EXPECT_EQ(saved(), 0);
+    std::filesystem::copy_file(cloud, folder_ / "copy.ply");
+    std::filesystem::remove(cloud);
+    EXPECT_EQ(saved(), 1) << "it is not there";
+    std::filesystem::rename(folder_ / "copy.ply", cloud);
+    EXPECT_EQ(saved(), 0);
+    write_text(cloud, read_text(cloud) + "more");
+    EXPECT_EQ(saved(), 1);
+}
+
 // Otherwise what was done would be done to what it had made already.
 TEST_F(LiveBar, WorkIsNotRestoredOnACloudThatWasWrittenToSince) {
     const std::filesystem::path state = folder_ / "state", copy = folder_ / "copy.ply";

@@ -90,18 +90,18 @@ TEST(SelectTools, AWayThatComesBackIsNoClick) {
 TEST(SelectTools, BrushPaintsOneStroke) {
     Bench bench;
     bench.hit('K');
-    EXPECT_TRUE(bench.hit(']'));
+    EXPECT_TRUE(bench.take(Character{U']'}));
     EXPECT_NEAR(bench.tools.brush_radius, 28.8, 1e-12);
-    EXPECT_TRUE(bench.hit('['));
+    EXPECT_TRUE(bench.take(Character{U'['}));
     EXPECT_NEAR(bench.tools.brush_radius, 24, 1e-12);
     bench.drag({{100, 50}, {120, 50}, {140, 70}});
     const SelectRegion select = bench.only<SelectRegion>();
     const std::vector<glm::dvec2> way{{100, 50}, {120, 50}, {140, 70}};
     EXPECT_EQ(std::get<ScreenStroke>(select.region).path, way);
     EXPECT_EQ(std::get<ScreenStroke>(select.region).radius, bench.tools.brush_radius);
-    for (int i = 0; i < 100; ++i) bench.hit('[');
+    for (int i = 0; i < 100; ++i) bench.take(Character{U'['});
     EXPECT_GE(bench.tools.brush_radius, 1);
-    for (int i = 0; i < 100; ++i) bench.hit(']');
+    for (int i = 0; i < 100; ++i) bench.take(Character{U']'});
     EXPECT_LE(bench.tools.brush_radius, 1000);
 }
 

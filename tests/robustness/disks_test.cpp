@@ -173,12 +173,14 @@ TEST_F(Disks, AnEditorOnAFullOneGoesOnAndItsRecordingCatchesUp) {
         return edit_on_full_disk(folder_ / "disk");
     });
     if (outcome == no_mounts) GTEST_SKIP() << no_mounts;
-    EXPECT_EQ(outcome, "cannot be written: the disk is full; free some space or choose another place\n"
-                       "cannot be written: the disk is full; free some space or choose another place\n"
-                       "cannot write the recording: No space left on device\n"
-                       "acts 3\n"
-                       "out.ply old, work.knead old\n"
-                       "journal 4\n");
+    EXPECT_EQ(outcome,
+              "cannot be written: the disk is full; free some space or choose another place\n"
+              "cannot be written: the disk is full; free some space or choose another place\n"
+              "cannot write the recording: No space left on device. Until it can be, a crash would lose what "
+              "you do: save the session (Ctrl+S).\n"
+              "acts 3\n"
+              "out.ply old, work.knead old\n"
+              "journal 4\n");
 }
 
 } // namespace

@@ -135,8 +135,8 @@ struct AfterSaving {
     std::optional<std::uint64_t> discarded = {}; // the state (DocumentView) that need not be saved
 };
 
-// Where an opened file's cloud was to be exported last, whatever came of it.
-struct LastExport {
+// Where an opened file's cloud was to be exported last, or its session to be saved, whatever came of it.
+struct LastTarget {
     std::filesystem::path of, target;
 };
 
@@ -147,7 +147,7 @@ struct UiState {
     Legend legend; // of the colours as they are
     Rectangle legend_place = {};
     FileBrowser browser;
-    LastExport last_export; // is proposed again
+    LastTarget last_export, last_session; // are proposed again
     Measured measured;
 
     std::deque<Toast> toasts;

@@ -107,16 +107,18 @@ std::filesystem::path folder_around(const std::filesystem::path& file) {
     return folder;
 }
 
-// Where the cloud that is open went last; the first time a name beside its own, of the same kind.
-void propose_export(Work& work) {
+// Where the last one of the cloud that is open went; the first time such a name.
+void propose(Work& work, const LastTarget& last, const std::string& first) {
     FileBrowser& browser = work.state.browser;
-    const std::filesystem::path& opened = work.editor.opened.file;
-    if (const LastExport& last = work.state.last_export; last.of == opened && !last.target.empty()) {
-        browser.folder = folder_around(last.target);
-        browser.typed = last.target.filename().string();
-    } else
-        browser.typed = opened.stem().string() + "-posed" +
-                        (has_cloud_extension(opened) ? opened.extension().string() : ".ply");
+    const bool has_last = last.of == work.editor.opened.file && !last.target.empty();
+    if (has_last) browser.folder = folder_around(last.target);
+    browser.typed = has_last ? last.target.filename().string() : first;
+}
+
+// A name beside its own, of the same kind.
+std::string name_of_export(const std::filesystem::path& opened) {
+    return opened.stem().string() + "-posed" +
+           (has_cloud_extension(opened) ? opened.extension().string() : ".ply");
 }
 
 void fulfil(Work& work, const WishBrowse& wish) {
@@ -134,12 +136,13 @@ void fulfil(Work& work, const WishBrowse& wish) {
             browser.folder = work.state.recent.front().parent_path();
     }
     if (!work.editor.document) return;
-    if (wish.purpose == BrowseFor::save_session) browser.typed = opened.stem().string() + ".knead";
+    if (wish.purpose == BrowseFor::save_session)
+        propose(work, work.state.last_session, opened.stem().string() + ".knead");
     if (wish.purpose == BrowseFor::save_cloud && looks_back(work.editor))
         add_toast(work.state, {Notice::Kind::warning,
                                "This is an earlier step: the cloud is saved as it was then, without what was "
                                "done later."});
-    if (wish.purpose == BrowseFor::save_cloud) propose_export(work);
+    if (wish.purpose == BrowseFor::save_cloud) propose(work, work.state.last_export, name_of_export(opened));
 }
 
 void save(Work& work, const WishSaveTo& wish) {
@@ -147,6 +150,7 @@ void save(Work& work, const WishSaveTo& wish) {
         save_session(work.editor, wish.file, wish.anyway);
         remember_file(work.state.recent, wish.file);
         remember_choosing(wish.file, work.editor.chooses_samples);
+        work.state.last_session = {work.editor.opened.file, wish.file};
     } else {
         save_cloud(work.editor, wish.file, wish.columns, wish.anyway);
         work.state.last_export = {work.editor.opened.file, wish.file};

@@ -142,6 +142,7 @@ void take(Loop& loop, MouseMove event) {
 }
 
 void take(Loop& loop, MousePress event) {
+    loop.editor.tools.refused = Tools::Refused::no;
     if (!over_cloud(loop, event.cursor) && !loop.button_is_ours && !hand_is_full(loop)) return;
     loop.button_is_ours = true;
     loop.press_is_hands |= hand_is_full(loop);

@@ -132,7 +132,7 @@ bool bar_slider_of(const char* name, ImGuiDataType type, void* value, const void
     // While a number is typed it is an ordinary field.
     const std::string id = std::string("##") + name;
     const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id.c_str()));
-    if (typed) take_decimal_commas(ImGui::GetID(id.c_str()));
+    if (typed && type == ImGuiDataType_Float) take_decimal_commas(ImGui::GetID(id.c_str()));
     if (!typed)
         for (const ImGuiCol hidden : {ImGuiCol_Text, ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive,
                                       ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive})

@@ -27,7 +27,7 @@ bool bar_slider(const char* name, float& value, float lowest, float highest, con
 bool bar_slider(const char* name, int& value, int lowest, int highest, const char* format, int flags = 0);
 
 // A comma that is being typed into a field for a number becomes its point, as on the keypads of half the
-// world. Call it before the field is laid out; bar_slider() does.
+// world. Call it before the field is laid out; bar_slider() does for numbers that are not whole.
 void take_decimal_commas(ImGuiID field);
 
 // The heading of a part of a panel, which folds it. Returns whether it is open. `unfold`: opens it.

@@ -46,13 +46,15 @@ bool is_modifier(int glfw_key) {
 }
 
 // GLFW names a key by its place on a US keyboard. It is taken by what is printed on it, so that Ctrl+Z is
-// where the Z is and Ctrl++ where the plus is; but digits by their place, which Shift is needed for in
-// France.
+// where the Z is and Ctrl++ where the plus is; but digits that are shortcuts by their place, as Shift is
+// needed for them in France.
 Key printed_key(int glfw_key, int scancode) {
     const char* name = glfwGetKeyName(glfw_key, scancode);
     const bool is_plain = name && name[0] > ' ' && name[0] < 127 && !name[1];
     const bool is_digit = glfw_key >= GLFW_KEY_0 && glfw_key <= GLFW_KEY_9;
-    if (!is_plain || (is_digit && !std::strchr("+-=,.", name[0]))) return key(static_cast<char>(glfw_key));
+    const bool is_sign = is_plain && std::strchr("+-=,.", name[0]);
+    if (!is_plain || (is_digit && (std::strchr("1357", glfw_key) || !is_sign)))
+        return key(static_cast<char>(glfw_key));
     return key(static_cast<char>(std::toupper(static_cast<unsigned char>(name[0]))));
 }
 
@@ -121,8 +123,10 @@ struct Window::Callbacks {
         if (action == GLFW_RELEASE) return;
         self.look_where_cursor_is();
         if (glfw_key >= 0) self.tapped_.push_back({glfw_key, mods});
+        Modifiers held = modifiers_of(mods);
+        held.alt |= glfwGetKey(window, GLFW_KEY_RIGHT_ALT) == GLFW_PRESS; // AltGr: its 5 is no 5
         if (const std::optional<Key> which = key_of(glfw_key, scancode))
-            self.events_.emplace_back(Input(KeyPress{*which, modifiers_of(mods), action == GLFW_REPEAT}));
+            self.events_.emplace_back(Input(KeyPress{*which, held, action == GLFW_REPEAT}));
     }
     static void character(GLFWwindow* window, unsigned code) {
         of(window).events_.emplace_back(Input(Character{static_cast<char32_t>(code)}));

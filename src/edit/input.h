@@ -15,7 +15,7 @@ struct Modifiers {
     bool operator==(const Modifiers&) const = default;
 };
 
-// Keys by their meaning on a US keyboard: letters in upper case and digits as their ASCII code, the others as
+// Keys by what is printed on them: letters in upper case, digits and signs as their ASCII code, the others as
 // here.
 enum class Key : int {
     escape = 256,

@@ -222,10 +222,14 @@ void LiveWork::note_digest() {
         is_as_read = now && recording_->sha256() && sha256_of_file(cloud) == *recording_->sha256();
     } catch (const Error&) { // it cannot even be read
     }
-    if (!is_as_read)
-        say(Notice::Kind::warning, cloud.string() + " is not the file any more that was opened. The session "
-                                                    "belongs to the points as they were: keep a copy of "
-                                                    "those, or it cannot be opened again.");
+    if (is_as_read) return;
+    const bool may_be = now && !recording_->sha256();
+    say(Notice::Kind::warning,
+        cloud.string() +
+            (may_be ? " was written to since it was opened, and nobody knows whether its points are the same."
+                    : " is not the file any more that was opened.") +
+            " The session belongs to the points as they were: keep a copy of those, or it cannot be opened "
+            "again.");
 }
 
 std::vector<float> LiveWork::in_file_order(std::span<const float> ordered, float left_out) {

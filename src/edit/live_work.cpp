@@ -73,6 +73,7 @@ void LiveWork::open() {
     recording_->is_on(cloud_stamp_);
     if (!is_plain_cloud && request_.sets_session) take_settings();
     publish_opened();
+    begin_digest();
     if (!request_.restore) recording_->keep_journal(request_.journal_folder);
 }
 
@@ -256,7 +257,6 @@ void LiveWork::look_for_others() {
 }
 
 void LiveWork::rest_if_idle() {
-    if (!something_to_do()) begin_digest();
     const std::string warning = upsampler_->take_warning();
     if (!warning.empty()) say(Notice::Kind::warning, warning);
     shared_.with([&](LiveShared& s) {

@@ -146,7 +146,7 @@ private:
     LiveDocument::Saved saved_;
     std::filesystem::path session_file_;
     std::optional<FileStamp> cloud_stamp_; // before it was read
-    std::optional<CloudDigest> digest_;    // once there was nothing else to do
+    std::optional<CloudDigest> digest_;    // begun when it was opened, unless its session knew it
     KnownFiles known_files_;
 
     std::optional<OpenFiles> open_files_;

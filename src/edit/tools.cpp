@@ -74,7 +74,7 @@ bool move_to(const Hand& hand, glm::dvec2 cursor, Modifiers held) {
     Tools& tools = hand.tools;
     const glm::dvec2 drag = cursor - tools.cursor;
     tools.cursor = cursor;
-    if (drag != glm::dvec2(0.0)) tools.refused = false;
+    if (drag != glm::dvec2(0.0)) tools.refused = Tools::Refused::no;
     if (moves_camera(tools))
         drag_camera(hand, drag);
     else if (transforms(tools))
@@ -125,7 +125,7 @@ bool take(const Hand& hand, const MouseMove& move) {
 
 bool take(const Hand& hand, const MousePress& press) {
     Tools& tools = hand.tools;
-    tools.refused = false;
+    tools.refused = Tools::Refused::no;
     move_to(hand, press.cursor, press.held);
     if (moves_camera(tools)) return true; // a second button changes nothing
     if (press.button == MouseButton::right) return press_right(hand);

@@ -14,14 +14,15 @@
 //   right click drops a band, and so does Ctrl+Z any but a polygon. One SelectRegion a gesture. A double
 //   click sets the camera's pivot. A all, Alt+A none (Esc too), Ctrl+I invert, Ctrl+plus/minus grow and
 //   shrink, L connected, V hides (Shift: the others, Alt: shows all). Tools: C click, B box, Q lasso, P
-//   polygon, K brush, [ ] its size, T through.
+//   polygon, K brush, [ ] (as Characters) its size, T through.
 // Handles. H makes a moving one, Shift+H a fixed one, Ctrl+H the region of interest.
 // Moving. A press on the gizmo drags its part until the release; G, R, S follow the hand until a click or
 // Enter.
 //   X, Y, Z constrain (press_axis() in view/transform.h), Ctrl snaps, Shift slows, digits and . - arrive as
 //   Characters, Tab goes to the next length. Esc, Ctrl+Z or right click cancels; another of G, R, S goes on
-//   as that. R and S of what they would not change are refused. No other key is taken. A drag is BeginDrag,
-//   DragTo whenever the transform changed, and EndDrag; or CancelDrag, also where it ends with nothing moved.
+//   as that. R and S of what they would not change are refused, and all three without a gizmo; an amount that
+//   is typed on then means nothing. No other key is taken in a drag, which is BeginDrag, DragTo whenever the
+//   transform changed, and EndDrag; or CancelDrag, also where it ends with nothing moved.
 // Enter commits the pose; Ctrl+Z undoes, Ctrl+Shift+Z and Ctrl+Y redo.
 
 #include "edit/command.h"
@@ -70,7 +71,8 @@ struct Tools {
     int clicks = 1;                     // of that press
     Transform sent;                     // the last transform that DragTo told
     bool drags_pivot = false;           // the drag moves the gizmo's pivot
-    bool refused = false; // G, R or S was, just now: the amount that goes on being typed is for nothing else
+    // G, R or S was refused, just now or with an amount typed on since, which is taken for nothing else.
+    enum class Refused : std::uint8_t { no, just_now, typed_on } refused = Refused::no;
 };
 
 // Handles one input; commands go to the end of `commands` in the order in which they are to be applied.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace knead {
 
@@ -80,20 +81,32 @@ bool command_key(const Hand& hand, Key pressed, const KeyPress& press) {
 
 bool begin_modal(const Hand& hand, TransformKind kind, bool repeated) {
     if (repeated) return true;
-    hand.tools.refused = !hand.context.gizmo || !has_effect(*hand.context.gizmo, kind);
-    if (hand.tools.refused)
-        hand.tell(RefuseTransform{kind});
-    else
+    if (hand.context.gizmo && has_effect(*hand.context.gizmo, kind)) {
         begin_drag(hand, {kind, {}}, true);
+    } else {
+        hand.tools.refused = Tools::Refused::just_now;
+        hand.tell(RefuseTransform{kind});
+    }
     return true;
 }
 
-// Whether it would go on with an amount that is typed, or end it.
+// Whether it would go on with an amount that is typed.
 bool is_of_an_amount(Key pressed) {
     const int code = static_cast<int>(pressed);
     return (code >= '0' && code <= '9') || (code >= 'X' && code <= 'Z') || pressed == key('-') ||
-           pressed == key('.') || pressed == key(',') || pressed == Key::backspace || pressed == Key::enter ||
-           pressed == Key::escape;
+           pressed == key('.') || pressed == key(',') || pressed == Key::backspace;
+}
+
+// Whether a key belongs to what was refused, and so means nothing. Tab goes to another handle as long as
+// nothing was typed.
+bool is_refused(Tools& tools, Key pressed, Modifiers held) {
+    const Tools::Refused before = std::exchange(tools.refused, Tools::Refused::no);
+    if (before == Tools::Refused::no || held.ctrl || held.alt) return false;
+    if (pressed == Key::enter || pressed == Key::escape) return true;
+    const bool next_length = pressed == Key::tab && before == Tools::Refused::typed_on;
+    if (!is_of_an_amount(pressed) && !next_length) return false;
+    tools.refused = Tools::Refused::typed_on;
+    return true;
 }
 
 bool choose(Tools& tools, SelectTool tool) {
@@ -144,11 +157,7 @@ bool resize_brush(Tools& tools, double factor) {
 
 bool idle_key(const Hand& hand, const KeyPress& press) {
     const Key pressed = without_pad(press.key);
-    if (hand.tools.refused) {
-        const bool is_swallowed = press.held == plain && is_of_an_amount(pressed);
-        hand.tools.refused = is_swallowed && pressed != Key::enter && pressed != Key::escape;
-        if (is_swallowed) return true;
-    }
+    if (is_refused(hand.tools, pressed, press.held)) return true;
     if (command_key(hand, pressed, press)) return true;
     return press.held == plain && tool_key(hand, pressed, press.repeated);
 }

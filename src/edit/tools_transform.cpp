@@ -132,7 +132,10 @@ void drag_key(const Hand& hand, const KeyPress& press) {
     const bool takes_back = press.held.ctrl && press.key == key('Z'); // what is going on, that is
     if (press.key == Key::escape || takes_back) return cancel_drag(hand.tools, hand.commands);
     if (press.key == Key::enter) return end_drag(hand.tools, hand.commands);
-    if (press.key == Key::tab) return next_field(drag, press.held.shift);
+    if (press.key == Key::tab) {
+        next_field(drag, press.held.shift);
+        return tell_transform(hand);
+    }
     if (const auto kind = kind_of(press.key); kind && hand.tools.modal && press.held == Modifiers{})
         return hand.context.gizmo ? go_on_as(hand, *kind) : void();
     const int axis = static_cast<int>(press.key) - static_cast<int>('X');

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <numbers>
+#include <span>
 
 namespace knead {
 
@@ -177,8 +178,11 @@ bool turn_to(TransformDrag& drag, glm::dvec2 cursor, double share) {
     return true;
 }
 
+int fields_of(const TransformDrag& drag);
+
 bool is_typed(const TransformDrag& drag) {
-    return std::ranges::any_of(drag.typed, [](const std::string& number) { return !number.empty(); });
+    const auto numbers = std::span(drag.typed).first(static_cast<std::size_t>(fields_of(drag)));
+    return std::ranges::any_of(numbers, [](const std::string& number) { return !number.empty(); });
 }
 
 // A number as far as it is typed: "-" and "." are none yet.
@@ -288,10 +292,24 @@ void follow_cursor(TransformDrag& drag, glm::dvec2 cursor, bool slow, const Came
     drag.hand = cursor;
 }
 
+namespace {
+
+// What was typed for this axis is the length along it; where that is nothing, what was typed first.
+void keep_length_along(TransformDrag& drag, int axis) {
+    std::string& length = drag.typed[static_cast<std::size_t>(axis)];
+    if (axis == 0 || length.empty()) return;
+    drag.typed = {std::move(length), "", ""};
+    drag.field = 0;
+}
+
+} // namespace
+
 void press_axis(TransformDrag& drag, int axis, bool plane) {
     const Constraint::Kind kind = plane ? Constraint::Kind::plane : Constraint::Kind::axis;
     const Grip grip = grip_of(drag);
     const bool faced = dial_of(drag, grip).cosine >= 0;
+    if (!plane && drag.kind == TransformKind::translate && drag.constraint.kind == Constraint::Kind::free)
+        keep_length_along(drag, axis);
     if (drag.constraint.kind != kind || drag.constraint.axis != axis)
         drag.constraint = {kind, axis, drag.own_first};
     else if (drag.constraint.local == drag.own_first)
@@ -338,7 +356,8 @@ void leave_axis(TransformDrag& drag) {
 } // namespace
 
 void next_field(TransformDrag& drag, bool back) {
-    if (drag.kind == TransformKind::translate && drag.constraint.kind == Constraint::Kind::axis)
+    if (drag.kind == TransformKind::translate && drag.constraint.kind == Constraint::Kind::axis &&
+        is_typed(drag))
         leave_axis(drag);
     const int count = fields_of(drag);
     drag.field = (field_of(drag) + (back ? count - 1 : 1)) % count;

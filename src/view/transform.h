@@ -91,7 +91,7 @@ void press_axis(TransformDrag& drag, int axis, bool plane);
 // axis, and first along x where it is free, along the first of a plane's two axes.
 bool type_character(TransformDrag& drag, char character);
 // The key Tab: the next of these lengths, or the one before; what is typed at that becomes it. A shift that
-// is held to one axis is free from there on, with what was typed as its length along that axis.
+// is held to one axis, and has its length typed, is free from there on, with that length along that axis.
 void next_field(TransformDrag& drag, bool back);
 // The transform as it stands. The camera is no longer asked: what the drag has followed decides, so that
 // nothing moves or flips with the camera.

@@ -297,6 +297,17 @@ TEST_F(BarEditor, AnAmountThatIsTypedForNoMovingHandleIsNotTakenForOtherKeys) {
         editor_.notices.clear();
     };
     refused("\"low\" is no moving handle");
+    press('G');
+    press('1');
+    press(Key::tab);
+    handle_input(editor_, KeyPress{key('2'), {.shift = true}}); // as digits are typed in France
+    press(Key::enter);
+    calm();
+    EXPECT_TRUE(editor_.document->posed);
+    editor_.notices.clear();
+    press('G');
+    EXPECT_FALSE(handle_input(editor_, KeyPress{Key::tab, {}})) << "it goes to a handle that moves";
+    editor_.notices.clear();
     apply(editor_, DropChoice{});
     refused("Click a moving handle");
     press('G');

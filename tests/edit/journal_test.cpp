@@ -103,8 +103,8 @@ TEST(Journal, ALastLineThatOnlyLacksItsEndIsKept) {
     EXPECT_EQ(lost[0].steps, 2U);
     Journal journal = Journal::take_over(file);
     journal.append(commit);
-    EXPECT_EQ(read_text(file), std::string(header) + "\n" + commit + "\n" +
-                                   R"({"op":"set","iterations":3})" + "\n" + commit + "\n");
+    EXPECT_EQ(read_text(file), std::string(header) + "\n" + commit + "\n" + R"({"op":"set","iterations":3})" +
+                                   "\n" + commit + "\n");
 }
 
 TEST(Journal, IsMendedWhereverACrashCutIt) {

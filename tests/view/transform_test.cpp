@@ -309,6 +309,13 @@ TEST(TransformDrag, TabGoesToTheNextLength) {
     scene.type("7");
     EXPECT_EQ(scene.now().shift, glm::dvec3(7, 0, 15)) << "free again";
     EXPECT_EQ(amount_text(scene.drag), "G  X [7]  Y 0.000  Z [15]");
+    press_axis(scene.drag, 2, false);
+    EXPECT_EQ(amount_text(scene.drag), "G  Z [15]  along world Z") << "its own again";
+    scene.type("\b\b");
+    next_field(scene.drag, false);
+    EXPECT_EQ(scene.drag.constraint.kind, Constraint::Kind::axis) << "the cursor drives along it";
+    scene.drag.constraint = {};
+    scene.type("7");
     scene.drag.own_first = true;
     press_axis(scene.drag, 1, false);
     next_field(scene.drag, true);

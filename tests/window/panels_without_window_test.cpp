@@ -77,7 +77,10 @@ protected:
 class NumberSlider : public Panel {
 protected:
     void draw() override {
-        if (bar_slider("Stiffness", value_, 0.0f, 1.0f, "%.3f")) ++changes_;
+        if (whole_)
+            bar_slider("Samples", count_, 50, 100000, "%d");
+        else if (bar_slider("Stiffness", value_, 0.0f, 1.0f, "%.3f"))
+            ++changes_;
         middle_ = ImRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax()).GetCenter();
     }
 
@@ -94,7 +97,8 @@ protected:
     }
 
     float value_ = 0.5f;
-    int changes_ = 0;
+    bool whole_ = false;
+    int count_ = 1000, changes_ = 0;
     ImVec2 middle_;
 };
 
@@ -198,6 +202,13 @@ TEST_F(NumberSlider, ACommaIsADecimalPoint) {
     type("0,125");
     press(ImGuiKey_Enter);
     EXPECT_EQ(value_, 0.125f);
+}
+
+TEST_F(NumberSlider, ACommaInAWholeNumberCountsForNothing) {
+    whole_ = true;
+    type("12,500");
+    press(ImGuiKey_Enter);
+    EXPECT_EQ(count_, 12500);
 }
 
 TEST_F(NumberSlider, WhatIsTypedCountsOnceWhenTheFieldIsLeft) {

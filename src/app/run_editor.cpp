@@ -142,8 +142,10 @@ void take(Loop& loop, MouseMove event) {
 }
 
 void take(Loop& loop, MousePress event) {
-    loop.editor.tools.refused = Tools::Refused::no;
-    if (!over_cloud(loop, event.cursor) && !loop.button_is_ours && !hand_is_full(loop)) return;
+    if (!over_cloud(loop, event.cursor) && !loop.button_is_ours && !hand_is_full(loop)) {
+        loop.editor.tools.refused = Tools::Refused::no; // the hand works on a panel
+        return;
+    }
     loop.button_is_ours = true;
     loop.press_is_hands |= hand_is_full(loop);
     event.cursor = in_view(loop, event.cursor);

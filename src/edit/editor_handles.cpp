@@ -225,18 +225,6 @@ std::span<const float> rest_positions(const Editor& editor) {
     return editor.frame.positions;
 }
 
-Vec3d rest_middle(const Editor& editor, const std::vector<Index>& points) {
-    const std::span<const float> positions = rest_positions(editor);
-    Vec3d sum = Vec3d::Zero();
-    std::size_t count = 0;
-    for (const Index i : points) {
-        if (editor.ordered[i] == no_index) continue;
-        sum += point_at(positions, editor.ordered[i]);
-        ++count;
-    }
-    return count > 0 ? Vec3d(sum / static_cast<double>(count)) : sum;
-}
-
 } // namespace
 
 void carry_out(Editor& editor, const ResetPose& command) {
@@ -276,8 +264,7 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     const bool is_posed = leaves_rest(editor.document->motions[*number]);
     if (handle.role == HandleRole::moving && is_posed) {
         PoseOfAnother pose{handle.name,
-                           [=](const HandleMotion& motion) { return mirrored(motion, plane, across.shift); },
-                           rest_middle(editor, points)};
+                           [=](const HandleMotion& motion) { return mirrored(motion, plane, across.shift); }};
         editor.live->make_posed(++editor.last_step, std::move(line), std::move(pose));
         add_step(editor, editor.last_step, nullptr);
     } else {

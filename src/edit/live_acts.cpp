@@ -16,14 +16,13 @@ namespace knead {
 
 namespace {
 
-// Of a handle, in the shape that this edit began with.
-Vec3d middle_at_rest(const Document& document, const std::string& name) {
+// Of points of the file, in the shape that this edit began with.
+Vec3d middle_at_rest(const Document& document, std::span<const IndexRange> points) {
     Vec3d sum = Vec3d::Zero();
     double count = 0;
-    const auto handle = std::ranges::find(document.handles(), name, &Handle::name);
-    if (handle == document.handles().end()) return sum;
     std::vector<bool> is_held(document.cloud().size(), false);
-    for (const Index i : *handle->points) is_held[i] = true;
+    for (const IndexRange& range : points)
+        for (std::uint64_t i = range.first; i <= range.last; ++i) is_held[i] = true;
     const std::shared_ptr<const RestShape> committed = document.kept_rest();
     const RestShape& rest = committed ? *committed : document.pipeline().opened();
     const std::vector<Index>& file_index = document.pipeline().order().file_index;
@@ -87,9 +86,10 @@ void LiveWork::carry_out(task::MakePosed& task) {
         finish_settling();
         std::vector<HandleMotion> way = document_->way_of(task.pose.handle);
         std::ranges::transform(way, way.begin(), task.pose.seen);
+        const auto& points = std::get<std::vector<IndexRange>>(task.line.points);
         if (!way.empty())
-            lines.lines.emplace_back(
-                way_there(task.line.name, way, task.pose.middle, document_->cloud().origin));
+            lines.lines.emplace_back(way_there(task.line.name, way, middle_at_rest(*document_, points),
+                                               document_->cloud().origin));
     } catch (...) {
         refuse(task.step);
         throw;
@@ -102,7 +102,9 @@ void LiveWork::carry_out(task::ResetPose& task) {
     try {
         finish_settling();
         const std::vector<HandleMotion> way = document_->way_of(task.handle);
-        back = way_back(task.handle, way, middle_at_rest(*document_, task.handle), document_->cloud().origin);
+        const auto handle = std::ranges::find(document_->handles(), task.handle, &Handle::name);
+        back = way_back(task.handle, way, middle_at_rest(*document_, ranges_of(*handle->points)),
+                        document_->cloud().origin);
     } catch (...) {
         refuse(task.step);
         throw;
@@ -266,8 +268,7 @@ void LiveWork::tell_of_journal() noexcept {
         } catch (const Error& error) {
             say(Notice::Kind::error,
                 words_in_window(error) +
-                    ". Until it can be, a crash would lose what you do: save the session "
-                    "(Ctrl+S).");
+                    ". Until it can be, a crash would lose what you do: save the session (Ctrl+S).");
         } catch (const std::bad_alloc&) {
             say(Notice::Kind::error, "There is not enough memory to write the recording now. It is made up "
                                      "for with the next step.");

@@ -143,7 +143,6 @@ struct OpenRequest {
 struct PoseOfAnother {
     std::string handle;
     std::function<HandleMotion(const HandleMotion&)> seen; // of any of its motions: what the other's would be
-    Vec3d middle = Vec3d::Zero();                          // of the other at rest, about the cloud's origin
 };
 
 struct LiveShared; // what both threads see (edit/live_shared.h)
@@ -194,7 +193,7 @@ public:
     // then, or is so already, the step counts as refused without words.
     void edit_handle(StepNumber step, HandleEdit edit);
 
-    // Makes a handle and poses it like another one.
+    // Makes a handle, whose line has points, and poses it like another one.
     void make_posed(StepNumber step, HandleLine line, PoseOfAnother pose);
 
     // Whether the number of samples is chosen by itself from here on. That happens after an act that leaves

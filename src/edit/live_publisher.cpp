@@ -126,9 +126,10 @@ void LivePublisher::tell(Notice::About about, std::string words, std::string& to
 void LivePublisher::strays(const Pipeline::Strays& strays) {
     std::string words = words_about(strays);
     if (!words.empty() && strays.fate == Strays::freeze)
-        words += "; \"Strays\" in the shape panel can make all such parts follow, or join them to what they "
-                 "lie next to. "
-                 "Changing it makes the pose the new rest shape, so undo first (Ctrl+Z) what tore them off";
+        words +=
+            "; \"Strays\" in the shape panel can make all such parts follow, or join them to what they "
+            "lie next to. Changing it makes the pose the new rest shape, so undo first (Ctrl+Z) what tore "
+            "them off";
     tell(Notice::About::strays, std::move(words), told_of_strays_);
 }
 

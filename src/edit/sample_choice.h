@@ -4,7 +4,7 @@
 //
 // The number is the least that looks like every point a sample, or less where the machine cannot move as many
 // while it follows the hand:
-//   - 2000 leave less than 0.1 % of the diagonal on the survey's shapes and on scans of bodies, as 1000 do
+//   - 2000 leave no more of the diagonal than 1000 do, 0.11 % on the survey's shapes and on scans of bodies
 //     (README, "Measured"), about a pixel of a cloud that fills the view;
 //   - many, small and crowded handles ask for more, see HandleSpread;
 //   - no more than 1000 or a fourth of the points, whichever is more, and up to 1000 points all of them;

@@ -178,7 +178,18 @@ bool turn_to(TransformDrag& drag, glm::dvec2 cursor, double share) {
     return true;
 }
 
-int fields_of(const TransformDrag& drag);
+bool leaves(const Constraint& constraint, int axis) {
+    if (constraint.kind == Constraint::Kind::free) return true;
+    return (axis == constraint.axis) == (constraint.kind == Constraint::Kind::axis);
+}
+
+// So many numbers can be typed.
+int fields_of(const TransformDrag& drag) {
+    if (drag.kind != TransformKind::translate) return 1;
+    int count = 0;
+    for (int axis = 0; axis < 3; ++axis) count += leaves(drag.constraint, axis) ? 1 : 0;
+    return count;
+}
 
 bool is_typed(const TransformDrag& drag) {
     const auto numbers = std::span(drag.typed).first(static_cast<std::size_t>(fields_of(drag)));
@@ -194,19 +205,6 @@ std::optional<double> typed_number(const TransformDrag& drag, std::size_t field 
 
 double round_to(double value, double step) {
     return step > 0 ? step * std::round(value / step) : value;
-}
-
-bool leaves(const Constraint& constraint, int axis) {
-    if (constraint.kind == Constraint::Kind::free) return true;
-    return (axis == constraint.axis) == (constraint.kind == Constraint::Kind::axis);
-}
-
-// So many numbers can be typed.
-int fields_of(const TransformDrag& drag) {
-    if (drag.kind != TransformKind::translate) return 1;
-    int count = 0;
-    for (int axis = 0; axis < 3; ++axis) count += leaves(drag.constraint, axis) ? 1 : 0;
-    return count;
 }
 
 // Which of them is typed at. The constraint may have become another one since.

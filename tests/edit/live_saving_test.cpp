@@ -233,8 +233,7 @@ TEST_F(LiveBar, ACloudThatWasOnlyTouchedOrCopiedBackIsTheSameOne) {
         EXPECT_EQ(read_session(session).sha256, digest);
         return std::ranges::count(notices, Notice::Kind::warning, &Notice::kind);
     };
-    std::this_thread::sleep_for(
-        std::chrono::milliseconds(300)); // the digest of so few points is made by then
+    std::this_thread::sleep_for(std::chrono::seconds(1)); // the digest of so few points is made by then
     std::filesystem::last_write_time(cloud, std::filesystem::last_write_time(cloud) + std::chrono::hours(1));
     EXPECT_EQ(saved(), 0);
     std::filesystem::copy_file(cloud, folder_ / "copy.ply");

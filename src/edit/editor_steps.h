@@ -47,6 +47,9 @@ void marks_changed(Editor& editor);
 // The bits that say which handle a point belongs to, from the document's handles.
 void mark_handles(Editor& editor);
 
+// The point that a click on the picture means, in the order of the edit, as it is now; no_index: none.
+Index point_clicked(Editor& editor, glm::dvec2 pixel);
+
 // How a tool selects a part: "draw a lasso round".
 std::string way_to_select(SelectTool tool);
 
@@ -64,6 +67,10 @@ bool may_act(Editor& editor);
 // it would be. Tells the user why not.
 bool may_take_pose(Editor& editor);
 
+void carry_out(Editor& editor, const SelectRegion& command);
+void carry_out(Editor& editor, const SelectPointUnder& command);
+void carry_out(Editor& editor, const ChangeSelection& command);
+void carry_out(Editor& editor, const ChangeHidden& command);
 void carry_out(Editor& editor, const UndoStep& command);
 void carry_out(Editor& editor, const RedoStep& command);
 void carry_out(Editor& editor, const PlayStep& command);

@@ -1,0 +1,149 @@
+// How an editor opens a file, and takes in what the live document has made since it looked last.
+
+#include "edit/editor_steps.h"
+#include "view/framing.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace knead {
+
+void open(Editor& editor, OpenRequest request) {
+    editor.opening_request = request;
+    editor.opening = std::make_unique<LiveDocument>(std::move(request));
+}
+
+void cancel_opening(Editor& editor) {
+    if (editor.opening) editor.opening->cancel_opening();
+}
+
+namespace {
+
+// What was opened takes the place of what was there, of which nothing is to be restored: whoever opens a file
+// was asked about it.
+void take_over(Editor& editor) {
+    if (editor.live) editor.live->discard_journal();
+    editor.live = std::move(editor.opening);
+    editor.opened = editor.live->opened();
+    editor.document = editor.live->view();
+    editor.chooses_samples = editor.document->chooses_samples;
+    editor.frame = {};
+    editor.live->take_frame(editor.frame);
+    editor.drag.reset();
+    editor.chosen.clear();
+    editor.posted_names.clear();
+    editor.pivots.clear();
+    editor.moved_pivot.reset();
+    editor.tools.drag.reset();
+    editor.tools.doing = Tools::Doing::nothing;
+
+    editor.ordered.assign(editor.opened.cloud->size(), no_index);
+    const std::vector<Index>& file_index = editor.opened.order->file_index;
+    for (Index i = 0; i < file_index.size(); ++i) editor.ordered[file_index[i]] = i;
+    editor.marks.assign(file_index.size(), 0);
+    editor.past.assign(editor.document->undoable_steps, EditorStep{step_of_opened_session});
+    editor.future.assign(editor.document->redoable_steps, EditorStep{step_of_opened_session});
+    editor.looks_from.reset();
+    mark_handles(editor);
+    editor.camera = first_view(bulk_box(editor.frame.positions), editor.viewport);
+    editor.changes = {};
+}
+
+// What is open has to finish that before another takes its place.
+bool is_still_saving(const Editor& editor) {
+    return editor.live && editor.live->status().saving;
+}
+
+bool refresh_opening(Editor& editor) {
+    if (!editor.opening) return false;
+    const LiveDocument::Status status = editor.opening->status();
+    if (status.stage == LiveDocument::Stage::opening) return false;
+    if (status.stage == LiveDocument::Stage::open && is_still_saving(editor)) return false;
+    std::vector<Notice> notices = editor.opening->take_notices();
+    if (status.wants_cloud && !notices.empty()) {
+        editor.without_cloud = {editor.opening_request, std::move(notices.back().words)};
+        notices.pop_back();
+    }
+    std::ranges::move(notices, std::back_inserter(editor.notices));
+    if (status.stage == LiveDocument::Stage::open)
+        take_over(editor);
+    else
+        editor.opening.reset();
+    return true;
+}
+
+// The next step of the future is its last.
+void forget_future(Editor& editor, StepNumber step) {
+    const auto found = std::ranges::find(editor.future, step, &EditorStep::document);
+    if (found == editor.future.end()) return;
+    const auto at = editor.past.size() + static_cast<std::size_t>(editor.future.end() - found) - 1;
+    editor.future.erase(found);
+    if (editor.looks_from && at < *editor.looks_from) --*editor.looks_from;
+}
+
+// A step that the document refused is no step: it leaves the history, and the selection comes back.
+void forget_refused(Editor& editor) {
+    for (const StepNumber step : editor.live->take_refused()) {
+        std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first == step; });
+        forget_future(editor, step);
+        for (EditorStep& past : editor.past)
+            if (past.joined == step) past.joined = 0;
+        if (editor.drag && editor.drag->step == step) editor.drag.reset();
+        const auto found = std::ranges::find(editor.past, step, &EditorStep::document);
+        if (found == editor.past.end()) continue;
+        if (found->before) restore_selection(editor, *found->before);
+        if (found->chosen_before && found->chosen_after == editor.chosen)
+            choose(editor, *found->chosen_before);
+        if (found->choosing_before) choose_samples(editor, *found->choosing_before);
+        take_pivots_back(editor, *found);
+        const auto at = static_cast<std::size_t>(found - editor.past.begin());
+        editor.past.erase(found);
+        if (editor.looks_from && at < *editor.looks_from) --*editor.looks_from;
+    }
+}
+
+bool refresh_view(Editor& editor) {
+    auto view = editor.live->view();
+    if (view == editor.document) return false;
+    const bool other_handles = !hold_the_same(view->handles, editor.document->handles);
+    editor.document = std::move(view);
+    if (other_handles) mark_handles(editor);
+    std::erase_if(editor.posted_names,
+                  [&](const auto& posted) { return posted.first <= editor.document->last_step; });
+    if (editor.drag && editor.drag->ended && editor.document->last_step >= editor.drag->step)
+        editor.drag.reset();
+    return true;
+}
+
+} // namespace
+
+bool refresh(Editor& editor) {
+    bool changed = refresh_opening(editor);
+    if (editor.opening) editor.status = editor.opening->status();
+    if (!editor.live) return changed;
+    const auto playing = editor.status.playing;
+    if (!editor.opening) editor.status = editor.live->status();
+    editor.saving = editor.live->status().saving; // before its words are taken
+    changed |= playing != editor.status.playing;
+    forget_refused(editor);
+    changed |= refresh_view(editor);
+    editor.saved = editor.live->saved();
+    if (editor.live->take_frame(editor.frame)) {
+        editor.changes.positions = true;
+        changed = true;
+    }
+    if (changed && !editor.drag)
+        if (const Handle* handle = chosen_handle(editor))
+            editor.handle_middle = middle_of(editor, *handle).value_or(glm::dvec3(0.0));
+    for (Notice& notice : editor.live->take_notices()) {
+        editor.notices.push_back(std::move(notice));
+        changed = true;
+    }
+    for (HeldSave& held : editor.live->take_held_saves()) {
+        editor.held_saves.push_back(std::move(held));
+        changed = true;
+    }
+    return changed;
+}
+
+} // namespace knead

@@ -1,0 +1,113 @@
+// The editor's commands that select points and hide them.
+
+#include "edit/editor_steps.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace knead {
+
+namespace {
+
+// Changes the marks as one step of undo; no step where nothing changed.
+template<typename Change>
+void change_marks(Editor& editor, Change&& change) {
+    auto before = snapshot(editor);
+    std::forward<Change>(change)();
+    if (*before == *snapshot(editor)) return;
+    marks_changed(editor);
+    add_step(editor, 0, std::move(before));
+}
+
+// The hidden bits as bytes of their own; empty where nothing is hidden.
+std::vector<std::uint8_t> hidden_points(const Editor& editor) {
+    std::vector<std::uint8_t> hidden;
+    if (editor.hidden == 0) return hidden;
+    hidden.resize(editor.marks.size());
+    std::ranges::transform(editor.marks, hidden.begin(),
+                           [](std::uint8_t mark) { return (mark & mark_hidden) ? 1 : 0; });
+    return hidden;
+}
+
+constexpr double click_radius = 8; // pixels
+
+} // namespace
+
+Index point_clicked(Editor& editor, glm::dvec2 pixel) {
+    return point_under(editor.camera, editor.viewport, editor.frame.positions, hidden_points(editor), pixel,
+                       click_radius, editor.workers);
+}
+
+void carry_out(Editor& editor, const SelectRegion& command) {
+    if (!needs_document(editor)) return;
+    std::vector<std::uint8_t> inside(editor.marks.size());
+    const std::vector<std::uint8_t> hidden = hidden_points(editor);
+    points_in_region(editor.camera, editor.viewport, editor.frame.positions, hidden, command.region, inside,
+                     editor.workers);
+    if (!command.through) {
+        const VisibleSurface surface = visible_surface(editor.camera, editor.viewport, editor.frame.positions,
+                                                       hidden, editor.opened.spacing, editor.workers);
+        keep_visible(editor.camera, editor.viewport, editor.frame.positions, surface, inside, editor.workers);
+    }
+    change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });
+}
+
+// A click chooses the handle that it hits; elsewhere it selects the one point, or nothing, or what is around
+// it.
+void carry_out(Editor& editor, const SelectPointUnder& command) {
+    if (!editor.document) return;
+    const Index hit = point_clicked(editor, command.pixel);
+    if (hit != no_index && command.mode == SelectMode::replace && (editor.marks[hit] & mark_handle)) {
+        const Index point = editor.opened.order->file_index[hit];
+        const auto& handles = editor.document->handles;
+        for (std::size_t h = handles.size(); h-- > 0;)
+            if (handle_mark(h) == (editor.marks[hit] & mark_handle) &&
+                std::ranges::binary_search(*handles[h].points, point))
+                return carry_out(editor, ChooseHandle{handles[h].name});
+    }
+    if (command.radius > 0)
+        return carry_out(editor, SelectRegion{ScreenStroke{{command.pixel}, command.radius}, command.mode,
+                                              command.through});
+    std::vector<std::uint8_t> inside(editor.marks.size());
+    if (hit != no_index) inside[hit] = 1;
+    change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });
+}
+
+void carry_out(Editor& editor, const ChangeSelection& command) {
+    if (!needs_document(editor)) return;
+    const bool needs_graph = command.step == SelectionStep::grow || command.step == SelectionStep::shrink ||
+                             command.step == SelectionStep::connected;
+    if (needs_graph && !editor.document->graph)
+        return say(editor, Notice::Kind::information,
+                   "The neighbours of the points are still being found; try again in a moment.");
+    const PointOrder& order = *editor.opened.order;
+    change_marks(editor, [&] {
+        switch (command.step) {
+        case SelectionStep::all:
+            return select_all(editor.marks, editor.workers);
+        case SelectionStep::none:
+            return select_none(editor.marks, editor.workers);
+        case SelectionStep::invert:
+            return invert_selection(editor.marks, editor.workers);
+        case SelectionStep::grow:
+            return grow_selection(editor.marks, order, *editor.document->graph, editor.workers);
+        case SelectionStep::shrink:
+            return shrink_selection(editor.marks, order, *editor.document->graph, editor.workers);
+        case SelectionStep::connected:
+            return select_connected(editor.marks, order, *editor.document->components, editor.workers);
+        }
+    });
+}
+
+void carry_out(Editor& editor, const ChangeHidden& command) {
+    if (!needs_document(editor)) return;
+    if (command.step == HideStep::hide_unselected && editor.selected == 0)
+        return say(editor, Notice::Kind::information,
+                   "Select what is to stay visible first: with nothing selected all would be hidden.");
+    change_marks(editor, [&] {
+        if (command.step == HideStep::show_all) return show_all(editor.marks, editor.workers);
+        hide(editor.marks, command.step == HideStep::hide_selected, editor.workers);
+    });
+}
+
+} // namespace knead

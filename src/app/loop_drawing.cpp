@@ -1,0 +1,189 @@
+// Where things are in the window, and how they are drawn.
+
+#include "app/loop.h"
+#include "app/timeline.h"
+
+#include <epoxy/gl.h>
+
+#include <imgui_internal.h>
+
+#include <cmath>
+#include <utility>
+
+namespace knead {
+
+namespace {
+
+// How long nothing has to move until the picture is drawn as finely as it can be.
+constexpr double rest_seconds = 0.15;
+
+// How long the processor fills the picture of something that rests with points that are missing, until events
+// are looked at again.
+constexpr double filling_seconds = 0.02;
+
+float status_height(const Loop& loop) {
+    return loop.editor.document ? std::round(28 * loop.state.scale) : 0;
+}
+
+float timeline_height(const Loop& loop) {
+    return loop.editor.document && loop.state.playback.shown ? std::round(42 * loop.state.scale) : 0;
+}
+
+void carry_out_wishes(Loop& loop) {
+    for (const Command& command : std::exchange(loop.commands, {})) apply(loop.editor, command);
+    if (!loop.wishes.empty()) bring_cursor(loop);
+    for (const Wish& wish : std::exchange(loop.wishes, {})) grant(loop.work, wish);
+    go_on_after_saving(loop.work);
+}
+
+void show_title(Loop& loop) {
+    const Editor& editor = loop.editor;
+    if (!editor.document) return loop.window.set_title("knead");
+    const std::filesystem::path& session = editor.document->session; // two may be of one cloud
+    const std::string name = (session.empty() ? editor.opened.file : session).filename().string();
+    loop.window.set_title(name + (has_unsaved_session(editor) ? "*" : "") + " — knead");
+}
+
+void draw_panels(Loop& loop) {
+    const Ui& ui = loop.ui;
+    const Rectangle& view = loop.state.view;
+    if (std::exchange(loop.close_menus, false)) ImGui::ClosePopupToLevel(0, false);
+    draw_menu_bar(ui);
+    draw_overlay(ui);
+    draw_legend(ui);
+    if (loop.editor.document) {
+        const auto window = loop.window.size();
+        const auto width = static_cast<float>(window.width), height = static_cast<float>(window.height);
+        const float below = view.y + view.height;
+        draw_tool_column(ui, {0, view.y, view.x, view.height});
+        if (loop.state.show_panels)
+            draw_side_panels(ui, {view.x + view.width, view.y, width - view.x - view.width, view.height});
+        draw_timeline(ui, {0, below, width, timeline_height(loop)});
+        draw_status_line(ui, {0, height - status_height(loop), width, status_height(loop)});
+    }
+    draw_recovery(ui);
+    draw_welcome(ui); // below that
+    draw_opening(ui);
+    draw_toasts(ui);
+    draw_help(ui);
+    draw_about(ui);
+    draw_file_browser(ui);
+    draw_label_dialog(ui);
+    draw_dialogs(ui);
+}
+
+void clear_to(ImU32 color) {
+    const ImVec4 c = as_vector(color);
+    glClearColor(c.x, c.y, c.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+}
+
+// What the panels lie on; they draw no background of their own.
+void clear_window(const Loop& loop, const Window::Size& size) {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, size.width, size.height);
+    glDisable(GL_SCISSOR_TEST);
+    clear_to(loop.editor.document ? palette::panel : palette::window);
+    if (loop.editor.document) return;
+    const auto menu = static_cast<int>(std::lround(loop.state.view.y * loop.state.pixel_ratio));
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, size.height - menu, size.width, menu);
+    clear_to(palette::panel);
+    glDisable(GL_SCISSOR_TEST);
+}
+
+// Whether the picture to be drawn differs from the one before by a motion, or did a moment ago.
+bool moves(Loop& loop) {
+    const Editor& editor = loop.editor;
+    const double now = ImGui::GetTime();
+    if (!(editor.camera == loop.shown_camera) || editor.frame.version != loop.shown_version)
+        loop.moved_last = now;
+    loop.shown_camera = editor.camera;
+    loop.shown_version = editor.frame.version;
+    return now - loop.moved_last < rest_seconds;
+}
+
+DrawBudget& budget_of(Loop& loop) {
+    return loop.editor.status.solving ? loop.dragging : loop.orbiting;
+}
+
+DrawResult draw_scene(Loop& loop, int window_height) {
+    if (!loop.editor.document) return {.complete = true};
+    loop.scene.take_in(loop.editor, loop.state);
+    PointLook look = loop.state.display.look;
+    look.pixel_scale = loop.state.scale * loop.state.pixel_ratio;
+    const DrawBudget& budget = budget_of(loop);
+    const bool moving = moves(loop);
+    loop.is_coarse = moving && budget.coarse();
+    const Rectangle& view = loop.state.view;
+    const auto left = static_cast<int>(view.x * loop.state.pixel_ratio);
+    const auto top = static_cast<int>(view.y * loop.state.pixel_ratio);
+    const Stopwatch clock;
+    DrawResult result;
+    do
+        result = loop.scene.draw(loop.editor, look, budget.points(), loop.is_coarse, left,
+                                 window_height - top - loop.editor.viewport.height);
+    while (!moving && !result.complete && loop.scene.is_drawn_in_software() &&
+           clock.seconds() < filling_seconds);
+    return result;
+}
+
+void measure(Loop& loop, const DrawResult& result, double seconds) {
+    Measured& measured = loop.state.measured;
+    measured.drawn =
+        result.complete ? result.in_view : result.in_view / std::max<std::size_t>(1, result.one_in);
+    measured.in_view = result.in_view;
+    if (result.complete && !measured.complete) // the status line is to say so
+        loop.frames_to_draw = std::max(loop.frames_to_draw, 2);
+    measured.complete = result.complete;
+    measured.solve = loop.editor.frame.solve;
+    measured.upsample = loop.editor.frame.upsample;
+    // Only pictures of something that moves: the others have all the time in the world.
+    if (result.drawn == 0 || loop.moved_last < ImGui::GetTime()) return;
+    // A graphics card draws while the processor goes on: all of its time is taken for that of the points.
+    const bool in_software = loop.scene.is_drawn_in_software();
+    budget_of(loop).learn(result.drawn, in_software ? result.seconds : seconds, seconds);
+    measured.frame = measured.frame > 0 ? 0.8 * measured.frame + 0.2 * seconds : seconds;
+}
+
+} // namespace
+
+void lay_out(Loop& loop) {
+    const Window::Size window = loop.window.size(), inner = loop.window.framebuffer();
+    UiState& state = loop.state;
+    state.pixel_ratio =
+        window.width > 0 ? static_cast<float>(inner.width) / static_cast<float>(window.width) : 1.0f;
+    const float scale = state.scale;
+    const float top = state.fonts.text->FontSize + 2 * std::floor(7 * scale);
+    const float left = loop.editor.document ? std::round(52 * scale) : 0;
+    const float right = loop.editor.document && state.show_panels ? std::round(310 * scale) : 0;
+    const float bottom = status_height(loop) + timeline_height(loop);
+    const auto width = static_cast<float>(window.width), height = static_cast<float>(window.height);
+    state.view = {left, top, std::max(1.0f, width - left - right), std::max(1.0f, height - top - bottom)};
+    loop.editor.viewport = {std::max(1, static_cast<int>(state.view.width * state.pixel_ratio)),
+                            std::max(1, static_cast<int>(state.view.height * state.pixel_ratio))};
+}
+
+void draw(Loop& loop) {
+    const Window::Size size = loop.window.framebuffer();
+    if (size.width == 0 || size.height == 0) return;
+    const Stopwatch clock;
+    loop.window.begin_frame(loop.press_is_hands || hand_is_full(loop));
+    loop.press_is_hands &= loop.button_is_ours;
+    draw_panels(loop);
+    const bool played = loop.state.playback.playing;
+    play_on(loop.ui);
+    if (played && !loop.state.playback.playing) // the panels have said otherwise
+        loop.frames_to_draw = std::max(loop.frames_to_draw, 2);
+    carry_out_wishes(loop);
+    clear_window(loop, size);
+    const bool another_cloud = loop.editor.changes.cloud;
+    const DrawResult result = draw_scene(loop, size.height);
+    loop.window.end_frame();
+    glFinish(); // so that what is measured is the drawing, and not the wait for the display
+    if (!another_cloud) measure(loop, result, clock.seconds());
+    loop.window.swap();
+    show_title(loop);
+}
+
+} // namespace knead

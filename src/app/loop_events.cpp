@@ -1,0 +1,123 @@
+// Where the hand's events go.
+
+#include "app/actions.h"
+#include "app/loop.h"
+#include "app/timeline.h"
+
+#include <imgui_internal.h>
+
+namespace knead {
+
+namespace {
+
+// Whether a panel, a card or a menu lies there. Asked of ImGui's windows as they were drawn last, so that it
+// is right for every event of a frame and not only for the last one.
+bool panel_at(ImVec2 place) {
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+        if (window->WasActive && !window->Hidden && !(window->Flags & ImGuiWindowFlags_Tooltip) &&
+            !(window->Flags & ImGuiWindowFlags_NoMouseInputs) && window->Rect().Contains(place))
+            return true;
+    return false;
+}
+
+bool popup_is_open() {
+    return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
+glm::dvec2 in_view(const Loop& loop, glm::dvec2 cursor) {
+    const UiState& state = loop.state;
+    const glm::dvec2 corner(static_cast<double>(state.view.x), static_cast<double>(state.view.y));
+    return (cursor - corner) * static_cast<double>(state.pixel_ratio);
+}
+
+bool over_cloud(const Loop& loop, glm::dvec2 cursor) {
+    const Rectangle& view = loop.state.view;
+    const ImVec2 place(static_cast<float>(cursor.x), static_cast<float>(cursor.y));
+    return loop.editor.document &&
+           ImRect(view.x, view.y, view.x + view.width, view.y + view.height).Contains(place) &&
+           !popup_is_open() && !panel_at(place);
+}
+
+} // namespace
+
+void bring_cursor(Loop& loop) {
+    Tools& tools = loop.editor.tools;
+    if (tools.doing == Tools::Doing::nothing) tools.cursor = in_view(loop, loop.cursor);
+}
+
+bool hand_is_full(const Loop& loop) {
+    return loop.editor.tools.drag && loop.editor.tools.modal;
+}
+
+namespace {
+
+void take(Loop& loop, MouseMove event) {
+    loop.cursor = event.cursor;
+    loop.state.cursor_in_view = over_cloud(loop, event.cursor);
+    if (!loop.state.cursor_in_view && !loop.button_is_ours && !hand_is_full(loop)) return;
+    event.cursor = in_view(loop, event.cursor);
+    handle_input(loop.editor, event);
+}
+
+void take(Loop& loop, MousePress event) {
+    if (!over_cloud(loop, event.cursor) && !loop.button_is_ours && !hand_is_full(loop)) {
+        loop.editor.tools.refused = Tools::Refused::no; // the hand works on a panel
+        return;
+    }
+    loop.button_is_ours = true;
+    loop.press_is_hands |= hand_is_full(loop);
+    event.cursor = in_view(loop, event.cursor);
+    handle_input(loop.editor, event);
+}
+
+void take(Loop& loop, MouseRelease event) {
+    if (!loop.button_is_ours) return;
+    loop.button_is_ours = false;
+    event.cursor = in_view(loop, event.cursor);
+    handle_input(loop.editor, event);
+}
+
+void take(Loop& loop, Wheel event) {
+    if (!over_cloud(loop, event.cursor)) return;
+    event.cursor = in_view(loop, event.cursor);
+    handle_input(loop.editor, event);
+}
+
+void take(Loop& loop, const KeyPress& event) {
+    // ImGui closes menus by Escape only where the keyboard walks through them. Questions see to it
+    // themselves.
+    if (event.key == Key::escape && popup_is_open() && !ImGui::GetTopMostPopupModal())
+        loop.close_menus = true;
+    if (ImGui::GetIO().WantTextInput || popup_is_open()) return;
+    if (event.key == Key::escape && loop.state.show_help) return; // closes that
+    if (event.key == Key::escape && loop.state.playback.shown && !loop.editor.tools.drag)
+        return close_timeline(loop.ui);
+    bring_cursor(loop);
+    if (loop.editor.document && handle_input(loop.editor, event)) return;
+    press_shortcut(loop.ui, event);
+}
+
+void take(Loop& loop, const Character& event) {
+    if (ImGui::GetIO().WantTextInput || popup_is_open() || !loop.editor.document) return;
+    handle_input(loop.editor, event);
+}
+
+} // namespace
+
+bool take_events(Loop& loop) {
+    const std::vector<WindowEvent> events = loop.window.take_events();
+    for (const WindowEvent& event : events) {
+        if (const auto* input = std::get_if<Input>(&event))
+            std::visit([&](const auto& one) { take(loop, one); }, *input);
+        else if (const auto* dropped = std::get_if<DroppedFiles>(&event)) {
+            if (!dropped->files.empty()) loop.wishes.emplace_back(WishOpen{dropped->files.front()});
+            if (dropped->files.size() > 1)
+                add_toast(loop.state,
+                          {Notice::Kind::information, "One file at a time: the first is opened."});
+        } else if (std::holds_alternative<CloseAsked>(event))
+            loop.wishes.emplace_back(WishClose{});
+    }
+    return !events.empty();
+}
+
+} // namespace knead

@@ -195,7 +195,7 @@ Mat3d gradient_at(const SampleSystem& system, const SampleState& state, std::siz
                        turn_of(state.rotation[system.free_sample[row]]));
 }
 
-// S and U of every row, as far as they are asked for, of the shape as it is.
+// S and U of every row, as far as they are asked for, of the shape as it is, by its links.
 void find_stretches(SampleSystem& system, const SampleState& state, Workers& workers) {
     const bool targets = !system.target.empty(), stretches = !system.stretch.empty();
     if (!targets && !stretches) return;
@@ -225,6 +225,18 @@ void find_turns(SampleSystem& system, const SampleState& state, Workers& workers
 // A - I of a sample that turns by itself.
 Mat3d stretched_turn(const SampleSystem& system, const SampleState& state, std::size_t s) {
     return turn_of(state.rotation[s]) + state.rotation[s] * system.stretch[system.unknown[s]];
+}
+
+// S of every row by its links and points.
+void find_targets_of_points(SampleSystem& system, const SampleState& state, Workers& workers) {
+    const std::size_t rows = system.free_sample.size();
+    workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
+        const Index i = system.free_sample[row];
+        const Mat3d displaced = displaced_spread(system, state, row) +
+                                local_sum_of(bodies_around(system.rest.energy, system.body, i), 0);
+        const Mat3d gradient = gradient_of(system.with_points[row], displaced, turn_of(state.rotation[i]));
+        system.target[row] = elastic_target(system.with_points[row], gradient, system.rest.poisson);
+    });
 }
 
 // How the samples of each handle that leaves rotation free turned, all together.
@@ -264,6 +276,18 @@ void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, co
                 set_columns(turn_of(system.free_turn[handle]), body.turn);
         }
     });
+}
+
+// How the material answers the shape as it is, and what all bodies do.
+void find_answers(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state,
+                  Workers& workers) {
+    find_stretches(system, state, workers);
+    if (!system.with_points.empty() && system.rest.poisson > 0) {
+        find_bodies(system, handles, state, workers); // whose maps and ways alone count for this
+        find_targets_of_points(system, state, workers);
+    }
+    find_turns(system, state, workers);
+    find_bodies(system, handles, state, workers);
 }
 
 // What handles with a falloff add to the right-hand sides.
@@ -345,11 +369,7 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
     place_handles(system, handles, state);
     find_free_turns(system, state);
     // Of the state alone, whatever was computed before: what is undone and done again has the same bits.
-    if (system.midway > 0) {
-        find_stretches(system, state, workers);
-        find_turns(system, state, workers);
-        find_bodies(system, handles, state, workers);
-    }
+    if (system.midway > 0) find_answers(system, handles, state, workers);
     const auto given = [&](Index s) -> const Quatd& {
         return system.unknown[s] == no_index ? state.rotation[s] : system.free_turn[system.rest.handle[s]];
     };
@@ -360,7 +380,7 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
     system.rotations.solve(system.sides, 4, workers);
     for_solved_rotations(
         system, [&](Index s, const Quatd& rotation) { state.rotation[s] = rotation; }, workers);
-    if (system.midway == 0) find_stretches(system, state, workers);
+    if (system.midway == 0) find_answers(system, handles, state, workers);
     return solve_positions(system, handles, state, workers);
 }
 

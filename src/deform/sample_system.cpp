@@ -264,6 +264,8 @@ void find_surroundings(SampleSystem& system, std::size_t row) {
     }
     system.spread[row] = spread;
     system.surroundings[row] = surroundings_of(spread);
+    if (!system.with_points.empty())
+        system.with_points[row] = surroundings_of(spread + rest.energy.spread[i]);
 }
 
 // θ, where points have an energy.
@@ -294,6 +296,7 @@ OrderedLaplacian order_and_find_surroundings(SampleSystem& system, Workers& work
     const std::size_t rows = system.free_sample.size();
     system.spread.resize(rows);
     system.surroundings.resize(rows);
+    system.with_points.resize(system.rest.energy.first.empty() ? 0 : rows);
     OrderedLaplacian result;
     workers.for_each(1 + (rows + rows_a_task - 1) / rows_a_task, 1, [&](std::size_t task) {
         if (task == 0) {

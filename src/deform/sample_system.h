@@ -42,6 +42,12 @@
 // θ = min(1, 2.2/(ϱ_s Σ_j |Σ⁺ w e|))³, with ϱ_s the distance of these points, rms; Σ⁺ is that of
 // deform/stretch.h.
 //
+// S is by links, too, for ν < 0: they see best how a tube of few samples widens. For ν > 0 it follows shears,
+// and would drive those that links see and points hardly make: with 200 samples, tubes of points that lie
+// anywhere swell into lumps (tests/edit/rubber_test.cpp). There S is by what pulls, links and points
+// together, F = (A + Σ 2ω v_t D) (Σ w e eᵀ + Σ 2ω v_t P)⁺ in the place of A Σ⁺: a mean of what points do,
+// weighted as they answer to it, can drive nothing by more than ν < 1.
+//
 // With more samples both count, points by their share and links by the rest, all sums and matrices being
 // sums of both. So they do where turns spread over half a link, β from ℓ²/4 to 0.3 ℓ²: the blends are too
 // wide for a sheet that is softer, and links hold it.
@@ -127,7 +133,9 @@ struct SampleSystem {
 
     std::vector<Vec3d> weighted_edge;       // w e of each link of the graph
     std::vector<Mat3d> spread;              // Σ w e eᵀ of each row, symmetric to the last bit
-    std::vector<Surroundings> surroundings; // of each row
+    std::vector<Surroundings> surroundings; // of each row, by its links
+    std::vector<Surroundings>
+        with_points; // the same by links and points; empty where there is no rest.energy
 
     std::vector<Mat3d> turn;      // M - I, of each sample
     std::vector<Body> body;       // of rest.energy, samples and then handles

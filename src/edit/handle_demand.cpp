@@ -3,7 +3,9 @@
 #include "base/types.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -14,6 +16,7 @@ namespace {
 
 constexpr double longest_plausible = 2.5;
 constexpr double shortest_plausible = 1.0 / 3;
+constexpr double most_rounded = 1e-5;
 
 std::string with_digits(const char* format, double value) {
     char text[32];
@@ -47,6 +50,14 @@ Parting parting_of(const Graph& graph, const HandleLabels& labels, const PointOr
     return worst;
 }
 
+double rounding_of(std::span<const float> posed, double size) {
+    float farthest = 0;
+    for (const float coordinate : posed) farthest = std::max(farthest, std::abs(coordinate));
+    return size > 0
+               ? static_cast<double>(farthest) * std::ldexp(1.0, -std::numeric_limits<float>::digits) / size
+               : 0;
+}
+
 std::string words_about_demand(const HandleDemand& demand) {
     const bool pulled = demand.strain.longest > longest_plausible;
     const bool pressed = demand.strain.shortest < shortest_plausible;
@@ -65,6 +76,12 @@ std::string words_about_demand(const HandleDemand& demand) {
         if (!words.empty()) words += "; ";
         words += "the cloud tears between " + demand.one + " and " + demand.other +
                  ", which touch and are moved apart; leave some of it free between them";
+    }
+    if (demand.rounded > most_rounded) {
+        if (!words.empty()) words += "; ";
+        words += "the handles send the cloud so far away that its points there are rounded to " +
+                 with_digits("%.2g", 100 * demand.rounded) +
+                 " % of its size; leave it near where it was opened, and move the finished file";
     }
     return words;
 }

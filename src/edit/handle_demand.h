@@ -1,7 +1,8 @@
 #pragma once
 // Whether handles ask for more than a shape can give: when they pull the cloud apart, press it together, or
 // tear it where one lies next to another. All of them are met exactly, whatever they ask; it is the cloud
-// between them that pays (pulled, evenly; pressed, in folds), and the user is to know.
+// between them that pays (pulled, evenly; pressed, in folds), and the user is to know. So it is where they
+// send the cloud so far that floats there lie apart.
 
 #include "deform/strain.h"
 #include "edit/handles.h"
@@ -28,12 +29,17 @@ struct HandleDemand {
     Strain strain;
     double parted = 1;      // the factor of a Parting
     std::string one, other; // the names of its handles
+    double rounded = 0;     // of rounding_of()
 };
 
+// By how much of the cloud's size `size` the positions (3 floats a point) are rounded where they lie farthest
+// from the origin of the floats, which is where the cloud was opened; 0 for a cloud without a size.
+double rounding_of(std::span<const float> posed, double size);
+
 // What the user should hear about it; empty as long as the shape can follow: no more than one link of a
-// hundred is pulled to more than 2.5 times its length, or pressed to less than a third of it, and no two
-// handles that touch part by more than that. (In the sessions of data/regression that ask for nothing
-// impossible, links stay within 0.6 … 1.7 times theirs.)
+// hundred is pulled to more than 2.5 times its length, or pressed to less than a third of it, no two handles
+// that touch part by more than that, and nothing is rounded by more than 10⁻⁵ of the cloud's size. (In the
+// sessions of data/regression that ask for nothing impossible, links stay within 0.6 … 1.7 times theirs.)
 std::string words_about_demand(const HandleDemand& demand);
 
 } // namespace knead

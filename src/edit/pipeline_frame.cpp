@@ -136,7 +136,8 @@ void Pipeline::put_exactly(Index sample, const Vec3d& displacement) {
 HandleDemand Pipeline::demand(const SampleState& state) const {
     const RestShape& rest = input_.rest ? *input_.rest : opened_;
     const Parting parting = parting_of(*graph_, labels_, order_, rest.positions, posed_.positions);
-    HandleDemand demand{strain_of(system_, state), parting.factor, {}, {}};
+    HandleDemand demand{
+        strain_of(system_, state), parting.factor, {}, {}, rounding_of(posed().positions, cloud_size_)};
     const auto name_of = [&](Index label) {
         const Index handle = handle_of(label);
         return handle < input_.handles.size() ? '"' + input_.handles[handle].name + '"'

@@ -161,8 +161,9 @@ private:
         checked_ = false;
         if (options_.rehearse) return;
         warn_of_strays(document);
-        if (const std::string words = words_about_swallowed(document, line.handle); !words.empty())
-            add_warning(session_.place(number) + ": " + words);
+        for (const std::string& words :
+             {words_about_swallowed(document, line.handle), words_about_loose(document, line.handle)})
+            if (!words.empty()) add_warning(session_.place(number) + ": " + words);
     }
     void act(Document& document, const SettleLine& line, std::size_t /*number*/,
              const std::string& /*place*/) {

@@ -66,8 +66,8 @@ const std::map<std::string, std::vector<std::string>> said_by{
     {"impossible-push", {"together to"}},
     {"impossible-side-by-side", {"tears between \"lower\" and \"upper\""}},
     {"strays-bridge", {"too far"}},
-    {"strays-carry", {"follows the nearest part"}},
-    {"strays-freeze", {"stays where it is"}}};
+    {"strays-carry", {"follows the nearest part", "has nothing that stays"}},
+    {"strays-freeze", {"stays where it is", "has nothing that stays"}}};
 
 TEST(Sessions, OfTheRegressionSuiteHoldAndSayWhatTheyShould) {
     ASSERT_GE(sessions_in("data/regression").size(), 27U);

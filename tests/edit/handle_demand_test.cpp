@@ -68,6 +68,16 @@ TEST(HandleDemand, KnowsTheBorderOfARegion) {
               "");
 }
 
+TEST(HandleDemand, TellsWhereFloatsLieApart) {
+    const std::string whole = R"({"op":"handle","name":"top","role":"moving","region":"all"})"
+                              "\n";
+    Desk desk(bar());
+    desk.play(whole + drag(R"({"translate":[100,0,0]})"));
+    EXPECT_EQ(words_of(desk), "");
+    desk.play(drag(R"({"translate":[0,1e5,0]})"));
+    EXPECT_SAYS(words_of(desk), "its points there are rounded to");
+}
+
 TEST(HandleDemand, OfNothingPosedIsNothing) {
     Desk desk(bar());
     EXPECT_EQ(words_of(desk), "");

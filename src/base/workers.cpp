@@ -102,11 +102,12 @@ struct Workers::State {
 
 Workers::Workers(unsigned threads) : state_(std::make_unique<State>()) {
     if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+    state_->threads.reserve(threads - 1);
     try {
         for (unsigned i = 1; i < threads; ++i)
             state_->threads.emplace_back([this] { state_->worker_loop(); });
-    } catch (const std::system_error&) {
-        // The system has no more of them: those that there are do.
+    } catch (const std::exception&) {
+        // The system has no more of them, or no memory for one: those that there are do.
     }
 }
 

@@ -87,7 +87,7 @@ public:
                       Points points = Points::now);
     // The last frame of the drag, where its points were left for later; else null.
     const std::shared_ptr<const DeviceFrame>& drawn_frame() const { return drawn_frame_; }
-    void end_drag();
+    DragLine end_drag(); // the line that does the same; one without frames did nothing
 
     void begin_settling(Progress& progress);
     // Up to so many iterations more, and one upsampling. Returns whether the samples have come to rest.

@@ -169,14 +169,14 @@ double Document::drag_frame(const HandlePose& pose, const std::string& place, Pr
     return way;
 }
 
-void Document::end_drag() {
+DragLine Document::end_drag() {
     require(under_way_ && under_way_->handle != no_index, "a drag that ends was begun");
     UnderWay drag = std::move(*under_way_);
     under_way_.reset();
     drawn_frame_.reset();
-    if (drag.line.frames.empty()) return;
     DragLine line = std::move(drag.line);
-    end(std::move(drag), std::move(line));
+    if (!line.frames.empty()) end(std::move(drag), line);
+    return line;
 }
 
 // What was begun becomes the present state, of which `line` says how it came about.

@@ -7,7 +7,6 @@
 #include "view/framing.h"
 
 #include <algorithm>
-#include <new>
 #include <utility>
 
 namespace knead {
@@ -176,10 +175,8 @@ void apply(Editor& editor, const Command& command) {
         if (is_act(command) && !may_act(editor)) return;
         if (takes_pose(command) && !may_take_pose(editor)) return;
         std::visit([&](const auto& c) { carry_out(editor, c); }, command);
-    } catch (const Error& error) {
-        say(editor, Notice::Kind::error, words_in_window(error));
-    } catch (const std::bad_alloc&) {
-        say(editor, Notice::Kind::error, "There is not enough memory for this.");
+    } catch (const std::exception&) {
+        say(editor, Notice::Kind::error, words_about_exception());
     }
 }
 

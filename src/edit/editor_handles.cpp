@@ -39,13 +39,18 @@ bool is_free(const Editor& editor, const std::string& name) {
     });
 }
 
+void post_edit(Editor& editor, HandleEdit edit, std::shared_ptr<const KeptMarks> marks_before) {
+    EditorStep step = coming_step(editor, ++editor.last_step, std::move(marks_before));
+    editor.live->edit_handle(step.document, std::move(edit));
+    add_step(editor, std::move(step));
+}
+
 // The document knows best what there is to change: earlier acts may be on their way to it, of which nothing
 // is seen here yet.
 void edit_handle(Editor& editor, HandleEdit edit) {
     const bool is_known = number_of(editor, edit.handle).has_value();
     if (!is_known || (!has_pending_steps(editor) && !changes(editor.document->handles, edit))) return;
-    editor.live->edit_handle(++editor.last_step, std::move(edit));
-    add_step(editor, editor.last_step, nullptr);
+    post_edit(editor, std::move(edit), nullptr);
 }
 
 // What is selected, which a handle's tint takes the place of: nothing is selected any more.
@@ -56,18 +61,26 @@ auto take_selection(Editor& editor) {
     return before;
 }
 
-// How many points follow a handle, and how many of them are selected. Of what several hold the last one has
-// it, which is what the marks say.
+// How many points follow a handle, and how many of them are selected.
 struct Held {
     std::size_t points = 0, selected = 0;
 };
-Held held_by(const Editor& editor, std::size_t number) {
-    Held held;
-    for (const Index i : *editor.document->handles[number].points) {
-        const std::uint8_t mark = editor.ordered[i] == no_index ? 0 : editor.marks[editor.ordered[i]];
-        if ((mark & mark_handle) != handle_mark(number)) continue;
-        ++held.points;
-        held.selected += (mark & mark_selected) != 0;
+
+// Of every handle. Of what several hold the last one has it; regions take nothing from others.
+std::vector<Held> held_by_each(const Editor& editor) {
+    const std::vector<Handle>& handles = editor.document->handles;
+    std::vector<Index> follows(editor.marks.size(), no_index);
+    for (const bool region_pass : {true, false})
+        for (std::size_t h = 0; h < handles.size(); ++h) {
+            if ((handles[h].role == HandleRole::region_of_interest) != region_pass) continue;
+            for (const Index i : *handles[h].points)
+                if (editor.ordered[i] != no_index) follows[editor.ordered[i]] = static_cast<Index>(h);
+        }
+    std::vector<Held> held(handles.size());
+    for (std::size_t point = 0; point < follows.size(); ++point) {
+        if (follows[point] == no_index) continue;
+        ++held[follows[point]].points;
+        held[follows[point]].selected += (editor.marks[point] & mark_selected) != 0;
     }
     return held;
 }
@@ -77,10 +90,11 @@ Held held_by(const Editor& editor, std::size_t number) {
 void tell_who_is_robbed(Editor& editor, HandleRole role, const std::string& name) {
     if (role == HandleRole::region_of_interest) return;
     std::string words;
+    const std::vector<Held> each = held_by_each(editor);
     for (std::size_t h = 0; h < editor.document->handles.size(); ++h) {
         const Handle& handle = editor.document->handles[h];
         if (handle.role == HandleRole::region_of_interest || handle.name == name) continue;
-        const Held held = held_by(editor, h);
+        const Held& held = each[h];
         if (held.selected == 0) continue;
         words += (words.empty() ? " takes " : ", and ") + counted(held.selected, "point") + " from \"" +
                  handle.name + "\"";
@@ -155,14 +169,13 @@ void carry_out(Editor& editor, const AssignPoints& command) {
         const bool takes_away = command.mode == SelectMode::remove;
         return say(editor, Notice::Kind::information,
                    "\"" + handle.name + "\" " +
-                       (!takes_away                             ? "holds just these points already."
-                        : held_by(editor, *number).selected > 0 ? "would hold no point any more: delete it."
-                                                                : "holds none of the selected points."));
+                       (!takes_away ? "holds just these points already."
+                        : held_by_each(editor)[*number].selected > 0
+                            ? "would hold no point any more: delete it."
+                            : "holds none of the selected points."));
     }
     if (command.mode != SelectMode::remove) tell_who_is_robbed(editor, handle.role, handle.name);
-    auto before = take_selection(editor);
-    editor.live->edit_handle(++editor.last_step, std::move(edit));
-    add_step(editor, editor.last_step, std::move(before));
+    post_edit(editor, std::move(edit), take_selection(editor));
 }
 
 void carry_out(Editor& editor, const ChangeRole& command) {
@@ -190,11 +203,7 @@ void carry_out(Editor& editor, const SelectHandlePoints& command) {
     std::vector<std::uint8_t> inside(editor.marks.size(), 0);
     for (const Index i : *editor.document->handles[*number].points)
         if (editor.ordered[i] != no_index) inside[editor.ordered[i]] = 1;
-    auto before = snapshot(editor);
-    select(editor.marks, inside, command.mode, editor.workers);
-    if (*before == *snapshot(editor)) return;
-    marks_changed(editor);
-    add_step(editor, 0, std::move(before));
+    change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });
 }
 
 // --- Poses that are not dragged ----------------------------------------------------------------------------
@@ -231,8 +240,9 @@ void carry_out(Editor& editor, const ResetPose& command) {
     const auto number = number_of(editor, command.handle);
     if (!number || editor.document->handles[*number].role != HandleRole::moving) return;
     if (!editor.document->posed) return;
-    editor.live->reset_pose(++editor.last_step, command.handle);
-    add_step(editor, editor.last_step, nullptr);
+    EditorStep step = coming_step(editor, ++editor.last_step);
+    editor.live->reset_pose(step.document, command.handle);
+    add_step(editor, std::move(step));
     if (const auto pivot = pivot_of(editor, command.handle)) {
         const HandleMotion& motion = editor.document->motions[*number];
         const Vec3d at_rest = motion.linear.inverse() * (to_eigen(*pivot) - motion.offset);
@@ -265,8 +275,9 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     if (handle.role == HandleRole::moving && is_posed) {
         PoseOfAnother pose{handle.name,
                            [=](const HandleMotion& motion) { return mirrored(motion, plane, across.shift); }};
-        editor.live->make_posed(++editor.last_step, std::move(line), std::move(pose));
-        add_step(editor, editor.last_step, nullptr);
+        EditorStep step = coming_step(editor, ++editor.last_step);
+        editor.live->make_posed(step.document, std::move(line), std::move(pose));
+        add_step(editor, std::move(step));
     } else {
         post_step(editor, {std::move(line)});
         if (handle.role == HandleRole::moving)
@@ -291,11 +302,11 @@ void carry_out(Editor& editor, const BeginDrag& command) {
     if (editor.drag) // the last one is not answered yet
         drag.local_axes = glm::angleAxis(editor.drag->transform.angle, editor.drag->transform.axis) *
                           editor.drag->local_axes;
+    EditorStep step = coming_step(editor, drag.step);
+    editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin);
     drag.future = std::move(editor.future);
     editor.drag = std::move(drag);
-    editor.live->begin_drag(editor.last_step, editor.chosen,
-                            to_eigen(command.pivot) + editor.opened.cloud->origin);
-    add_step(editor, editor.last_step, nullptr);
+    add_step(editor, std::move(step));
 }
 
 void carry_out(Editor& editor, const DragTo& command) {

@@ -17,21 +17,35 @@ std::shared_ptr<const KeptMarks> snapshot(const Editor& editor) {
     return std::make_shared<const KeptMarks>(std::move(marks));
 }
 
-void add_step(Editor& editor, StepNumber document, std::shared_ptr<const KeptMarks> before) {
-    editor.future.clear();
-    editor.looks_from.reset(); // whoever acts goes on from here
+EditorStep coming_step(Editor& editor, StepNumber document, std::shared_ptr<const KeptMarks> before) {
     const auto after = before ? snapshot(editor) : nullptr;
     EditorStep step{document, std::move(before), after};
     if (document) step.chosen_before = step.chosen_after = editor.chosen;
+    std::vector<EditorStep>& past = editor.past;
+    if (past.size() == past.capacity()) past.reserve(2 * past.size() + 1);
+    return step;
+}
+
+void add_step(Editor& editor, EditorStep step) noexcept {
+    editor.future.clear();
+    editor.looks_from.reset(); // whoever acts goes on from here
     editor.past.push_back(std::move(step));
+}
+
+void change_marks(Editor& editor, const std::function<void()>& change) {
+    auto before = snapshot(editor);
+    change();
+    if (*before == *snapshot(editor)) return;
+    marks_changed(editor);
+    add_step(editor, coming_step(editor, 0, std::move(before)));
 }
 
 StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
                      std::shared_ptr<const KeptMarks> marks_before) {
-    const StepNumber step = ++editor.last_step;
-    editor.live->post(step, std::move(lines));
-    add_step(editor, step, std::move(marks_before));
-    return step;
+    EditorStep step = coming_step(editor, ++editor.last_step, std::move(marks_before));
+    editor.live->post(step.document, std::move(lines));
+    add_step(editor, std::move(step));
+    return editor.last_step;
 }
 
 void choose(Editor& editor, const std::string& handle) {

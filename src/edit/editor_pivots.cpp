@@ -39,10 +39,10 @@ void carry_out(Editor& editor, const SetPivot& command) {
     put_pivot(editor, move.handle, move.after);
     if (command.stage == SetPivot::Stage::moving) return;
     if (move.after != move.before) {
-        add_step(editor, 0, nullptr);
-        EditorStep& step = editor.past.back();
+        EditorStep step = coming_step(editor, 0);
         step.chosen_before = step.chosen_after = move.handle;
         step.pivots.push_back(move);
+        add_step(editor, std::move(step));
     }
     editor.moved_pivot.reset();
 }

@@ -3,21 +3,12 @@
 #include "edit/editor_steps.h"
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 namespace knead {
 
 namespace {
-
-// Changes the marks as one step of undo; no step where nothing changed.
-template<typename Change>
-void change_marks(Editor& editor, Change&& change) {
-    auto before = snapshot(editor);
-    std::forward<Change>(change)();
-    if (*before == *snapshot(editor)) return;
-    marks_changed(editor);
-    add_step(editor, 0, std::move(before));
-}
 
 // The hidden bits as bytes of their own; empty where nothing is hidden.
 std::vector<std::uint8_t> hidden_points(const Editor& editor) {
@@ -27,6 +18,21 @@ std::vector<std::uint8_t> hidden_points(const Editor& editor) {
     std::ranges::transform(editor.marks, hidden.begin(),
                            [](std::uint8_t mark) { return (mark & mark_hidden) ? 1 : 0; });
     return hidden;
+}
+
+// The handle that a point of the file follows: the last one that holds it, and a region only where no other
+// does; null: none.
+const Handle* handle_of(const Editor& editor, Index point) {
+    const auto holds_it = [&](const Handle& handle) {
+        return std::ranges::binary_search(*handle.points, point);
+    };
+    const Handle* region = nullptr;
+    for (const Handle& handle : editor.document->handles | std::views::reverse) {
+        if (!holds_it(handle)) continue;
+        if (handle.role != HandleRole::region_of_interest) return &handle;
+        if (!region) region = &handle;
+    }
+    return region;
 }
 
 constexpr double click_radius = 8; // pixels
@@ -57,14 +63,9 @@ void carry_out(Editor& editor, const SelectRegion& command) {
 void carry_out(Editor& editor, const SelectPointUnder& command) {
     if (!editor.document) return;
     const Index hit = point_clicked(editor, command.pixel);
-    if (hit != no_index && command.mode == SelectMode::replace && (editor.marks[hit] & mark_handle)) {
-        const Index point = editor.opened.order->file_index[hit];
-        const auto& handles = editor.document->handles;
-        for (std::size_t h = handles.size(); h-- > 0;)
-            if (handle_mark(h) == (editor.marks[hit] & mark_handle) &&
-                std::ranges::binary_search(*handles[h].points, point))
-                return carry_out(editor, ChooseHandle{handles[h].name});
-    }
+    if (hit != no_index && command.mode == SelectMode::replace && (editor.marks[hit] & mark_handle))
+        if (const Handle* handle = handle_of(editor, editor.opened.order->file_index[hit]))
+            return carry_out(editor, ChooseHandle{handle->name});
     if (command.radius > 0)
         return carry_out(editor, SelectRegion{ScreenStroke{{command.pixel}, command.radius}, command.mode,
                                               command.through});

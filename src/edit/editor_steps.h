@@ -4,6 +4,8 @@
 
 #include "edit/editor.h"
 
+#include <functional>
+
 namespace knead {
 
 glm::dvec3 to_glm(const Vec3d& v);
@@ -15,9 +17,14 @@ void say(Editor& editor, Notice::Kind kind, std::string words);
 // A copy of the marks of selection and hiding, to go back to; that of the last step where it is the same.
 std::shared_ptr<const KeptMarks> snapshot(const Editor& editor);
 
-// Puts a step on the history; what could be redone is forgotten. `before`: the marks before it, if it changed
-// them.
-void add_step(Editor& editor, StepNumber document, std::shared_ptr<const KeptMarks> before);
+// A step as it will stand on the history, which has room for it then. `document`: the step of the document
+// that is to be posted, which can fail, between this and add_step(), which cannot; 0: none. `before`: the
+// marks before it, if it changed them.
+EditorStep coming_step(Editor& editor, StepNumber document,
+                       std::shared_ptr<const KeptMarks> before = nullptr);
+
+// Puts the step that was coming on the history; what could be redone is forgotten.
+void add_step(Editor& editor, EditorStep step) noexcept;
 
 // Posts lines as one step of undo; returns its number.
 StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
@@ -43,6 +50,9 @@ void restore_selection(Editor& editor, const KeptMarks& from);
 
 // Counts again what is selected and tells the renderer.
 void marks_changed(Editor& editor);
+
+// Changes the marks as one step of undo; no step where nothing changed.
+void change_marks(Editor& editor, const std::function<void()>& change);
 
 // The bits that say which handle a point belongs to, from the document's handles.
 void mark_handles(Editor& editor);

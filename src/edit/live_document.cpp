@@ -1,5 +1,6 @@
 #include "edit/live_document.h"
 
+#include "edit/cures.h"
 #include "edit/live_shared.h"
 
 #include <utility>
@@ -13,8 +14,9 @@ void changed_since(std::uint64_t version, const PosedFrame& frame, std::vector<P
 }
 
 LiveDocument::LiveDocument(OpenRequest request) : shared_(std::make_unique<Locked<LiveShared>>()) {
-    thread_ = std::make_unique<Background>(
-        [request = std::move(request), &shared = *shared_] { run_live_document(request, shared); });
+    thread_ = std::make_unique<Background>([request = std::move(request), &shared = *shared_]() mutable {
+        run_live_document(std::move(request), shared);
+    });
 }
 
 LiveDocument::~LiveDocument() {
@@ -169,7 +171,11 @@ bool LiveDocument::take_frame(PosedFrame& frame) {
 }
 
 std::vector<Notice> LiveDocument::take_notices() {
-    return shared_->with([](LiveShared& shared) { return std::exchange(shared.notices, {}); });
+    return shared_->with([](LiveShared& shared) {
+        if (shared.lacked_memory) shared.notices.push_back({.kind = Notice::Kind::error, .words = no_memory});
+        shared.lacked_memory = false;
+        return std::exchange(shared.notices, {});
+    });
 }
 
 std::vector<StepNumber> LiveDocument::take_refused() {

@@ -51,7 +51,7 @@ struct DocumentView {
     std::size_t samples = 0;      // 0: not chosen yet
     bool chooses_samples = false; // by itself
     SampleChoice suited;          // what it would choose, or does
-    Pipeline::Strays strays;
+    Pipeline::LooseParts strays;
     std::shared_ptr<const RestShape> rest;        // of this edit; null: as opened, or it was let go of
     std::shared_ptr<const Graph> graph;           // of the vertices; null until it was built
     std::shared_ptr<const Components> components; // and what hangs together in it; null as long

@@ -7,11 +7,14 @@ namespace knead {
 
 struct LiveDrag {
     StepNumber step = 0;
-    DragLine line;                         // what was computed so far
+    std::string handle;
+    Vec3d pivot = Vec3d::Zero();           // in the file's coordinates
     HandleMotion base;                     // the pose when it began
     Vec3d origin = Vec3d::Zero();          // the cloud's
     std::optional<WantedPose> wanted = {}; // the newest pose of the hand
     Transform shown = {};                  // how far it was followed
+    std::size_t frames = 0;                // computed so far
+    bool is_coarse = false;                // the newest of them shows what few samples answered
     std::size_t repeats = 0;               // frames since the last new pose
     bool rests = true;                     // nothing changes until the hand moves
     std::vector<double> solving = {};      // seconds of every frame but the coarse ones
@@ -19,8 +22,6 @@ struct LiveDrag {
 
     // Whether frames only repeat a pose, and the shape converges.
     bool repeats_pose() const { return wanted && shown == wanted->transform; }
-    // Whether the newest frame shows what few samples answered.
-    bool is_coarse() const { return !line.frames.empty() && line.frames.back().coarse; }
 };
 
 // The transform of the next frame on the way from what is shown to what is wanted: the wanted one, but for

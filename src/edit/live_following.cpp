@@ -38,8 +38,7 @@ void LiveWork::carry_out(task::BeginDrag& task) {
         document_->begin_drag(task.handle, task.pivot, "", progress_);
         const auto& handles = document_->handles();
         const auto handle = std::ranges::find(handles, task.handle, &Handle::name) - handles.begin();
-        drag_.emplace(LiveDrag{task.step,
-                               {task.handle, task.pivot, {}},
+        drag_.emplace(LiveDrag{task.step, task.handle, task.pivot,
                                document_->motions()[static_cast<std::size_t>(handle)],
                                document_->cloud().origin});
     } catch (...) {
@@ -67,7 +66,7 @@ void LiveWork::carry_out(task::EndDrag& task) {
     } catch (...) { // also what nobody foresaw: a drag that never ends would keep everything after it waiting
         trouble = std::current_exception();
     }
-    if (drag_->line.frames.empty())
+    if (drag_->frames == 0)
         drop_drag();
     else
         take_drag();
@@ -77,8 +76,8 @@ void LiveWork::carry_out(task::EndDrag& task) {
 // What was followed becomes an act, or nothing of it stays: in either case the drag is over.
 void LiveWork::take_drag() {
     try {
-        auto coming = recording_->coming(std::move(drag_->line), false);
-        document_->end_drag();
+        auto coming = recording_->coming(DragLine{drag_->handle, drag_->pivot, {}}, false);
+        coming.line = document_->end_drag();
         record([&] { recording_->add(std::move(coming)); });
     } catch (...) {
         drop_drag();
@@ -139,27 +138,28 @@ void LiveWork::follow() {
     const HandleMotion motion = followed_by(drag.base, next);
     double way = 0;
     try {
-        HandlePose pose = pose_of(motion, drag.line.pivot, drag.origin);
+        HandlePose pose = pose_of(motion, drag.pivot, drag.origin);
         pose.coarse = new_pose && is_too_slow();
         const bool later = upsampler_->shares_with_opengl() &&
                            shared_.with([](const LiveShared& s) { return s.draws_on_device; });
         way = document_->drag_frame(pose, "", progress_,
                                     later ? Document::Points::later : Document::Points::now);
-        drag.line.frames.push_back(pose);
+        drag.is_coarse = pose.coarse;
     } catch (...) {
         drag.wanted.reset();
         drag.rests = true;
         show_what_was_drawn();
         throw;
     }
+    ++drag.frames;
     drag.shown = next;
     drag.repeats = new_pose ? 0 : drag.repeats + 1;
     drag.rests =
-        next == drag.wanted->transform && !drag.is_coarse() && (way < still || drag.repeats >= most_repeats);
+        next == drag.wanted->transform && !drag.is_coarse && (way < still || drag.repeats >= most_repeats);
     solve_seconds_ = clock.seconds();
     const double upsampling = document_->log().upsample.back();
     if (!document_->drawn_frame()) drag.upsampling.push_back(upsampling);
-    if (!drag.is_coarse()) drag.solving.push_back(solve_seconds_ - upsampling);
+    if (!drag.is_coarse) drag.solving.push_back(solve_seconds_ - upsampling);
     publish_drag();
 }
 

@@ -123,7 +123,7 @@ void LivePublisher::tell(Notice::About about, std::string words, std::string& to
     });
 }
 
-void LivePublisher::strays(const Pipeline::Strays& strays) {
+void LivePublisher::strays(const Pipeline::LooseParts& strays) {
     std::string words = words_about(strays);
     if (!words.empty() && strays.fate == Strays::freeze)
         words +=

@@ -38,7 +38,7 @@ public:
 
     // Parts that follow no handle, and handles that ask for too much: said once for every change, and taken
     // back where it is no longer so.
-    void strays(const Pipeline::Strays& strays);
+    void strays(const Pipeline::LooseParts& strays);
     void demand(const HandleDemand& demand);
     // And a handle that is dragged and has no points left to move.
     void swallowed(const Document& document, const std::string& handle);

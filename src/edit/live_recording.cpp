@@ -141,9 +141,7 @@ void LiveRecording::make_room() {
 
 LiveRecording::Coming LiveRecording::coming(SessionAction act, bool joins_step) {
     make_room();
-    const auto* drag = std::get_if<DragLine>(&act);
-    Act made{joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), 0, words_about(act),
-             drag ? drag->frames.size() : 0};
+    Act made{joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), 0, words_about(act)};
     return {std::move(act), std::move(made)};
 }
 
@@ -155,6 +153,7 @@ LiveRecording::Coming LiveRecording::coming_to_last(SessionAction act) {
 
 void LiveRecording::add(Coming act) {
     act.act.number = ++last_number_;
+    if (const auto* drag = std::get_if<DragLine>(&act.line)) act.act.frames = drag->frames.size();
     past_.push_back(std::move(act.act));
     future_.clear();
     looked_forward_ = 0;

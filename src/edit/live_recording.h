@@ -46,7 +46,8 @@ public:
     // document carries it out. Where what records it afterwards throws, only the journal lacks it, until the
     // next line is written.
 
-    // An act as it will stand here, of the step before it, or the first of a new one.
+    // An act as it will stand here, of the step before it, or the first of a new one. The frames of a drag
+    // may still be put into its line.
     class Coming;
     Coming coming(SessionAction act, bool joins_step);
     // One that follows from the step before it, and goes by its name: what settles, and what is chosen by

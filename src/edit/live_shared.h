@@ -3,7 +3,7 @@
 
 #include "edit/live_document.h"
 
-#include <deque>
+#include <list>
 #include <variant>
 
 namespace knead {
@@ -79,7 +79,7 @@ struct PlayPace {
 
 struct LiveShared {
     // To the document.
-    std::deque<LiveTask> inbox;
+    std::list<LiveTask> inbox;        // a list: what is taken from it, or put off, needs no memory
     std::optional<WantedPose> wanted; // the newest pose of the drag that was begun last
     PlayPace pace;
     std::size_t saves = 0;        // that were asked for and are not done with
@@ -94,12 +94,16 @@ struct LiveShared {
     PosedFrame frame;
     PosedFrame drawn; // without points, if it is newer than `frame`
     std::vector<Notice> notices;
+    bool lacked_memory = false; // even for words about it
     std::vector<StepNumber> refused;
     std::vector<HeldSave> held_saves;
     LiveDocument::Saved saved;
 };
 
-// The document's thread from its first to its last moment. Never throws.
-void run_live_document(OpenRequest request, Locked<LiveShared>& shared);
+// Tells the user of the exception that is being handled.
+void tell_of_exception(Locked<LiveShared>& shared) noexcept;
+
+// The document's thread from its first to its last moment.
+void run_live_document(OpenRequest request, Locked<LiveShared>& shared) noexcept;
 
 } // namespace knead

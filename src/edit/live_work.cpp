@@ -135,20 +135,14 @@ void LiveWork::guarded(Do&& work) {
         std::forward<Do>(work)();
     } catch (const Cancelled&) {
         // The window is closing; turn() sees it.
-    } catch (const std::bad_alloc&) {
-        say(Notice::Kind::error, "There is not enough memory for this.");
-    } catch (const BrokenInvariant& bug) {
-        say(Notice::Kind::error, std::string("This is a mistake in knead, and what is shown may be wrong: ") +
-                                     bug.what() +
-                                     ". Save the session under another name, and open that one again.");
-    } catch (const std::exception& error) {
-        say(Notice::Kind::error, words_in_window(error));
+    } catch (...) {
+        tell_of_exception(shared_);
     }
 }
 
 bool LiveWork::turn() {
     wait_for_next_frame();
-    std::optional<LiveTask> task;
+    std::list<LiveTask> task; // one, or none
     const bool more = shared_.when(
         [&](const LiveShared& s) {
             return s.stop || !s.inbox.empty() || (play_ ? plays_on(s) : s.wanted || something_to_do());
@@ -156,11 +150,9 @@ bool LiveWork::turn() {
         [&](LiveShared& s) {
             s.status.busy = true;
             if (!drag_ && !after_drag_.empty()) {
-                task = std::move(after_drag_.front());
-                after_drag_.pop_front();
+                task.splice(task.end(), after_drag_, after_drag_.begin());
             } else if (!s.inbox.empty()) {
-                task = std::move(s.inbox.front());
-                s.inbox.pop_front();
+                task.splice(task.end(), s.inbox, s.inbox.begin());
             } else if (s.wanted) {
                 if (drag_) take_wanted(*s.wanted);
                 s.wanted.reset();
@@ -168,18 +160,23 @@ bool LiveWork::turn() {
             return !s.stop;
         });
     if (!more) return false;
-    if (task && drag_ && !ends_drag(*task))
-        after_drag_.push_back(std::move(*task)); // acts do not come in between
-    else if (task) {
-        // A cloud is saved as it is seen; whatever else comes, comes after the whole step.
-        if (!std::holds_alternative<task::SaveCloud>(*task)) guarded([&] { finish_playing(); });
-        guarded([&] { std::visit([&](auto& t) { carry_out(t); }, *task); });
-        if (is_save(*task)) shared_.with([](LiveShared& s) { --s.saves; });
-        if (since_look_.seconds() > between_looks) look_for_others();
-    } else
-        guarded([&] { go_on(); });
-    rest_if_idle();
+    if (!task.empty() && drag_ && !ends_drag(task.front()))
+        after_drag_.splice(after_drag_.end(), task); // acts do not come in between
+    else
+        take_turn(task);
+    guarded([&] { rest_if_idle(); });
     return true;
+}
+
+// Carries out a task, or goes on with what is under way.
+void LiveWork::take_turn(std::list<LiveTask>& task) {
+    if (task.empty()) return guarded([&] { go_on(); });
+    LiveTask& one = task.front();
+    // A cloud is saved as it is seen; whatever else comes, comes after the whole step.
+    if (!std::holds_alternative<task::SaveCloud>(one)) guarded([&] { finish_playing(); });
+    guarded([&] { std::visit([&](auto& t) { carry_out(t); }, one); });
+    if (is_save(one)) shared_.with([](LiveShared& s) { --s.saves; });
+    if (since_look_.seconds() > between_looks) guarded([&] { look_for_others(); });
 }
 
 void LiveWork::end() {
@@ -206,7 +203,7 @@ void LiveWork::wait_for_next_frame() {
             left, [&](const LiveShared& s) { return s.stop || !s.inbox.empty() || s.wanted || enough(s); });
     };
     wait(shortest_frame, [](const LiveShared&) { return false; });
-    if (drag_ && drag_->repeats_pose() && drag_->is_coarse())
+    if (drag_ && drag_->repeats_pose() && drag_->is_coarse)
         wait(hand_rests, [](const LiveShared&) { return false; });
     if (drag_ && drag_->repeats_pose())
         wait(longest_frame, [&](const LiveShared& s) {
@@ -305,13 +302,17 @@ void LiveWork::refuse(StepNumber step) {
     publisher_.refuse(step);
 }
 
-void run_live_document(OpenRequest request, Locked<LiveShared>& shared) {
-    const auto fail = [&](const std::string& words) {
-        shared.with([&](LiveShared& s) {
-            s.status.stage = Stage::failed;
-            if (!words.empty()) s.notices.push_back({.kind = Notice::Kind::error, .words = words});
-        });
-    };
+void tell_of_exception(Locked<LiveShared>& shared) noexcept {
+    try {
+        Notice notice{.kind = Notice::Kind::error, .words = words_about_exception()};
+        shared.with([&](LiveShared& s) { s.notices.push_back(std::move(notice)); });
+    } catch (const std::exception&) {
+        shared.with([](LiveShared& s) { s.lacked_memory = true; });
+    }
+}
+
+void run_live_document(OpenRequest request, Locked<LiveShared>& shared) noexcept {
+    const auto fail = [&] { shared.with([](LiveShared& s) { s.status.stage = Stage::failed; }); };
     try {
         LiveWork work(std::move(request), shared);
         work.open();
@@ -319,11 +320,10 @@ void run_live_document(OpenRequest request, Locked<LiveShared>& shared) {
         }
         work.end();
     } catch (const Cancelled&) {
-        fail("");
-    } catch (const std::bad_alloc&) {
-        fail("There is not enough memory for this.");
-    } catch (const std::exception& error) {
-        fail(words_in_window(error));
+        fail();
+    } catch (...) {
+        tell_of_exception(shared); // first: who sees that it failed looks for why
+        fail();
     }
 }
 

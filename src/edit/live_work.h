@@ -24,7 +24,7 @@ public:
     LiveWork(OpenRequest request, Locked<LiveShared>& shared);
 
     void open();
-    bool turn(); // one turn of the loop; false when it is time to stop
+    bool turn(); // one turn of the loop; false when it is time to stop; what goes wrong in it is told
     void end();
 
 private:
@@ -37,6 +37,7 @@ private:
     void wait_for_next_frame();
     bool something_to_do() const;
     void go_on();
+    void take_turn(std::list<LiveTask>& task);
     void rest_if_idle();
     void tell_what_is_open();
     bool look_for_others(const std::filesystem::path& file);
@@ -141,7 +142,7 @@ private:
     double solve_seconds_ = 0;
     StepNumber last_step_ = 0;
     std::set<StepNumber> refused_;
-    std::deque<LiveTask> after_drag_; // what came while a drag went on
+    std::list<LiveTask> after_drag_; // what came while a drag went on
     bool told_of_journal_ = false;
     LiveDocument::Saved saved_;
     std::filesystem::path session_file_;

@@ -92,7 +92,7 @@ void Pipeline::note_changes(const Settings& settings) {
     const Settings& before = input_.settings;
     stale_.points |= settings.neighbors != before.neighbors;
     stale_.samples |= settings.samples != before.samples;
-    stale_.bridges |= (settings.strays == knead::Strays::bridge) != (before.strays == knead::Strays::bridge);
+    stale_.bridges |= (settings.strays == Strays::bridge) != (before.strays == Strays::bridge);
     stale_.influences |= settings.weights != before.weights || settings.strays != before.strays;
     if (settings.weights != before.weights && !energy_.first.empty()) stale_.energy = stale_.systems = true;
     stale_.systems |= settings.stiffness != before.stiffness;
@@ -169,7 +169,7 @@ void Pipeline::prepare_bridges(Progress& progress) {
     held_blocks_.clear();
     mover_numbers_ = {};
     std::optional<JoinedGraph> joined =
-        input_.settings.strays == knead::Strays::bridge
+        input_.settings.strays == Strays::bridge
             ? bridged(*neighbors_, vertex_positions(), workers_, progress)
             : with_hanging_outliers(*neighbors_, vertex_positions(), workers_, progress);
     if (joined) {
@@ -373,7 +373,7 @@ void Pipeline::prepare_upsampler() {
     seconds_.device += clock.lap();
 }
 
-std::string words_about(const Pipeline::Strays& strays) {
+std::string words_about(const Pipeline::LooseParts& strays) {
     if (strays.parts == 0) return {};
     const bool one = strays.parts == 1;
     std::string words =

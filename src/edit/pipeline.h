@@ -155,12 +155,12 @@ public:
     double cloud_size() const { return cloud_size_; }
 
     // Parts of the cloud that hold no handle, and what becomes of them.
-    struct Strays {
+    struct LooseParts {
         std::size_t parts = 0;
         std::size_t points = 0;
-        knead::Strays fate = knead::Strays::freeze;
+        Strays fate = Strays::freeze;
     };
-    Strays strays() const { return strays_; }
+    LooseParts strays() const { return strays_; }
 
     // Whether a handle of the list moves any point: not where others that were declared later hold all that
     // it holds. Of what is prepared.
@@ -253,7 +253,7 @@ private:
     HandleLabels labels_;
     std::vector<HeldBlock> held_blocks_; // of those
     std::vector<Pulled> pulled_;
-    Strays strays_;
+    LooseParts strays_;
     std::vector<bool> held_component_;
     SampleGraph sample_graph_;
     std::vector<double> link_weights_; // of the links of that
@@ -282,6 +282,6 @@ private:
 };
 
 // What the user should hear about parts that hold no handle; empty when there are none.
-std::string words_about(const Pipeline::Strays& strays);
+std::string words_about(const Pipeline::LooseParts& strays);
 
 } // namespace knead

@@ -275,7 +275,7 @@ void Pipeline::prepare_influences() {
 void Pipeline::prepare_carried(std::span<const Index> mover_of_label) {
     strays_.fate = input_.settings.strays;
     carried_ = {};
-    if (strays_.fate == knead::Strays::freeze || strays_.parts == 0) return;
+    if (strays_.fate == Strays::freeze || strays_.parts == 0) return;
     if (stale_.contacts)
         contacts_ = find_contacts(vertex_positions(), *components_, held_component_, workers_);
     stale_.contacts = false;
@@ -283,7 +283,7 @@ void Pipeline::prepare_carried(std::span<const Index> mover_of_label) {
     for (Index v = 0; v < mover_of_vertex.size(); ++v)
         mover_of_vertex[v] = labels_.vertex[v] == no_index ? v : mover_of_label[labels_.vertex[v]];
     carried_ = carried_parts(contacts_, nearest_, input_.settings.weights, mover_of_vertex);
-    if (carried_.size() == 0) strays_.fate = knead::Strays::freeze; // there is nothing to carry them
+    if (carried_.size() == 0) strays_.fate = Strays::freeze; // there is nothing to carry them
 }
 
 } // namespace knead

@@ -4,10 +4,10 @@
 // A tool knows no document and no window. It gets the input, what it needs to know of the present state, and
 // appends commands. Carry them out before the next input: its context is to know their effect.
 //
-// Camera. Middle drag orbits, Shift+middle pans, Ctrl+middle zooms, the wheel zooms to the cursor; Alt+left
-// is
-//   a middle button. All of it also works in the middle of a transform, which stays as it is meanwhile. 1/3/7
-//   front, right, top (Ctrl: the opposite), 5 orthographic, F frames the selection, Home all.
+// Camera. Middle drag orbits, Shift+middle pans, Ctrl+middle zooms, the wheel zooms to the cursor;
+//   Alt+left is a middle button. All of it also works in the middle of a transform, which stays as it is
+//   meanwhile. 1/3/7 front, right, top (Ctrl: the opposite), 5 orthographic, F frames the selection, Home
+//   all.
 // Choosing. A press and release without motion chooses the handle under the cursor, or the point, or what is
 //   in the brush's circle, with every tool but the polygon's, whose clicks add corners (double click, Enter
 //   or right click closes, Backspace or Ctrl+Z takes the last back). Shift adds, Ctrl takes away. Esc or
@@ -16,13 +16,12 @@
 //   shrink, L connected, V hides (Shift: the others, Alt: shows all). Tools: C click, B box, Q lasso, P
 //   polygon, K brush, [ ] (as Characters) its size, T through.
 // Handles. H makes a moving one, Shift+H a fixed one, Ctrl+H the region of interest.
-// Moving. A press on the gizmo drags its part until the release; G, R, S follow the hand until a click or
-// Enter.
-//   X, Y, Z constrain (press_axis() in view/transform.h), Ctrl snaps, Shift slows, digits and . - arrive as
-//   Characters, Tab goes to the next length. Esc, Ctrl+Z or right click cancels; another of G, R, S goes on
-//   as that. R and S of what they would not change are refused, and all three without a gizmo; an amount that
-//   is typed on then means nothing. No other key is taken in a drag, which is BeginDrag, DragTo whenever the
-//   transform changed, and EndDrag; or CancelDrag, also where it ends with nothing moved.
+// Moving. A press on the gizmo drags its part until the release; G, R, S follow the hand until a click
+//   or Enter. X, Y, Z constrain (press_axis() in view/transform.h), Ctrl snaps, Shift slows, digits and . -
+//   arrive as Characters, Tab goes to the next length. Esc, Ctrl+Z or right click cancels; another of G, R, S
+//   goes on as that. R and S of what they would not change are refused, and all three without a gizmo; an
+//   amount that is typed on then means nothing. No other key is taken in a drag, which is BeginDrag, DragTo
+//   whenever the transform changed, and EndDrag; or CancelDrag, also where it ends with nothing moved.
 // Enter commits the pose; Ctrl+Z undoes, Ctrl+Shift+Z and Ctrl+Y redo.
 
 #include "edit/command.h"

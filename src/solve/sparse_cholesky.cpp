@@ -116,6 +116,16 @@ SparseFactor::SparseFactor(SparseFactor&&) noexcept = default;
 SparseFactor& SparseFactor::operator=(SparseFactor&&) noexcept = default;
 
 FactorOutcome SparseFactor::factorize(const SparseMatrix& matrix, std::span<const int> order) {
+    try {
+        return factorize_in_memory(matrix, order);
+    } catch (const std::bad_alloc&) {
+        FactorOutcome outcome = too_large(order.size());
+        outcome.lacks_memory = true;
+        return outcome;
+    }
+}
+
+FactorOutcome SparseFactor::factorize_in_memory(const SparseMatrix& matrix, std::span<const int> order) {
     factors_ = std::make_unique<Factors>();
     Factors& factors = *factors_;
     const int size = matrix.size();
@@ -126,17 +136,11 @@ FactorOutcome SparseFactor::factorize(const SparseMatrix& matrix, std::span<cons
     for (std::size_t row = 0; row < diagonal.size(); ++row)
         if (!(diagonal[row] > 0)) return singular_at(static_cast<int>(row), size);
 
-    try {
-        const Matrix upper = reordered_upper(matrix, order);
-        factors.ldlt.analyzePattern(upper);
-        if (factors.ldlt.entries() > std::numeric_limits<int>::max()) return too_large(order.size());
-        factors.ldlt.factorize(upper);
-        factors.permuted.reserve(columns_at_once * static_cast<std::size_t>(size));
-    } catch (const std::bad_alloc&) {
-        FactorOutcome outcome = too_large(order.size());
-        outcome.lacks_memory = true;
-        return outcome;
-    }
+    const Matrix upper = reordered_upper(matrix, order);
+    factors.ldlt.analyzePattern(upper);
+    if (factors.ldlt.entries() > std::numeric_limits<int>::max()) return too_large(order.size());
+    factors.ldlt.factorize(upper);
+    factors.permuted.reserve(columns_at_once * static_cast<std::size_t>(size));
     // Where a pivot is exactly zero, Eigen stops there.
     factors.order.assign(order.begin(), order.end());
     std::vector<double> inverse(order.size());

@@ -68,6 +68,8 @@ public:
     std::size_t fill() const;
 
 private:
+    FactorOutcome factorize_in_memory(const SparseMatrix& matrix, std::span<const int> order);
+
     struct Factors;
     std::unique_ptr<Factors> factors_;
 };

@@ -3,6 +3,7 @@
 #include "app/ui.h"
 #include "app/widgets.h"
 #include "base/counts.h"
+#include "edit/known_files.h"
 
 #include <algorithm>
 #include <cctype>
@@ -84,7 +85,7 @@ OverwritingWords words_about(const Ui& ui, const WishSaveTo& target) {
             "Somebody else wrote to it after knead last read or saved it. Saving here puts what you did in "
             "its place, and theirs is gone for good.",
             "Save anyway", "Save as…"};
-    if (ui.has_cloud() && target.file == ui.editor.opened.file)
+    if (ui.has_cloud() && real_name(target.file) == real_name(ui.editor.opened.file))
         return {
             "Overwrite the input?",
             "This is the cloud that you opened. Sessions recorded on it will no longer fit, and the points "

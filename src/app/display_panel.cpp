@@ -59,14 +59,22 @@ void range_fields(const Ui& ui) {
     }
     explain("The scale goes from the 1st to the 99th percentile of the values");
     if (automatic) return;
-    const double step = std::max(1e-9, 0.005 * (display.range.high - display.range.low));
-    std::array<float, 2> ends{static_cast<float>(display.range.low), static_cast<float>(display.range.high)};
-    ImGui::PushID("##range");
-    for (const char* end : {"##min", "##max"}) take_decimal_commas(ImGui::GetID(end));
-    ImGui::PopID();
-    if (ImGui::DragFloatRange2("##range", &ends[0], &ends[1], static_cast<float>(step), 0, 0, "%.4g", "%.4g"))
-        display.range = {static_cast<double>(ends[0]), static_cast<double>(ends[1])};
-    explain("The lowest and the highest value of the scale; drag, or Ctrl+click to type");
+    const auto [low, high] = display.range;
+    const auto step = static_cast<float>(std::max(1e-9, 0.005 * (high - low)));
+    const std::string format = format_between(low, high);
+    const float gap = 2, width = (ImGui::GetContentRegionAvail().x - gap) / 2;
+    const auto field = [&](const char* id, double& end) {
+        take_decimal_commas(ImGui::GetID(id));
+        ImGui::SetNextItemWidth(width);
+        const bool changed =
+            ImGui::DragScalar(id, ImGuiDataType_Double, &end, step, nullptr, nullptr, format.c_str());
+        explain("The lowest and the highest value of the scale; drag, or Ctrl+click to type");
+        return changed;
+    };
+    // The one that is moved goes no farther than the other.
+    if (field("##lowest", display.range.low)) display.range.low = std::min(display.range.low, high);
+    ImGui::SameLine(0, gap);
+    if (field("##highest", display.range.high)) display.range.high = std::max(display.range.high, low);
 }
 
 void size_slider(const Ui& ui) {
@@ -131,7 +139,7 @@ void up_choice(const Ui& ui) {
     inline_caption("Upwards", ui.scaled(92));
     constexpr std::array axes = {UpAxis::z, UpAxis::y, UpAxis::minus_y};
     const auto now = std::ranges::find(axes, ui.editor.camera.up) - axes.begin();
-    const int up = segmented("up", {"Z", "Y", "-Y"}, static_cast<int>(now));
+    const int up = segmented("up", std::array{"Z", "Y", "-Y"}, static_cast<int>(now));
     explain("Which axis of the file points upwards: for the ground, the horizon and the views 1, 3 and 7. A "
             "cloud "
             "that clearly stands on something begins with the right one; of others the choice is remembered");

@@ -304,7 +304,10 @@ void keys(FileBrowser& browser) {
         browser.typed = entry.name;
         browser.name_changed_outside = true;
     }
-    if (browser.typed.empty() && pressed(ImGuiKey_Backspace)) go_to(browser, browser.folder.parent_path());
+    // Not as it repeats: whoever holds it to clear the field means no folders.
+    const int backspace = ImGui::GetKeyIndex(ImGuiKey_Backspace);
+    if (browser.typed.empty() && ImGui::IsKeyPressed(backspace, false))
+        go_to(browser, browser.folder.parent_path());
 }
 
 // What an exported cloud gets beside its own attributes.

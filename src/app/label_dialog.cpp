@@ -44,7 +44,7 @@ void value_rows(const Ui& ui, LabelDialog& dialog, float height) {
         ImGui::SameLine(left + ui.scaled(62));
         caption(counted(column.values[v].points, "point").c_str());
         ImGui::SameLine(left + ui.scaled(190));
-        const int clicked = segmented("role", {"Moving", "Fixed", "Region", "None"},
+        const int clicked = segmented("role", std::array{"Moving", "Fixed", "Region", "None"},
                                       static_cast<int>(role - choices.begin()));
         if (clicked >= 0) dialog.roles[v] = choices[static_cast<std::size_t>(clicked)];
         ImGui::PopID();

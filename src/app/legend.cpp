@@ -1,23 +1,17 @@
 // The scale of the colours, in the corner of the view.
 
 #include "app/overlay.h"
+#include "app/widgets.h"
 
-#include <cmath>
 #include <cstdio>
 
 namespace knead {
 
 namespace {
 
-std::string number(double value, double width) {
-    // As many digits as tell the ends apart.
-    const int digits =
-        static_cast<int>(std::clamp(std::ceil(2 - std::log10(std::max(width, 1e-12))), 0.0, 9.0));
+std::string number(double value, const std::string& format) {
     char text[48];
-    if (std::abs(value) >= 1e6 || digits > 7)
-        std::snprintf(text, sizeof text, "%.3g", value);
-    else
-        std::snprintf(text, sizeof text, "%.*f", digits, value);
+    std::snprintf(text, sizeof text, format.c_str(), value);
     return text;
 }
 
@@ -36,11 +30,12 @@ void draw_legend(const Ui& ui) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     ImGui::PushFont(ui.state.fonts.small);
     const double low = legend.range->low, high = legend.range->high;
+    const std::string format = format_between(low, high);
     constexpr int marks = 4; // between which the scale is written
     float text_width = ImGui::CalcTextSize(legend.title.c_str()).x - width;
     for (int i = 0; i <= marks; ++i)
-        text_width = std::max(
-            text_width, ImGui::CalcTextSize(number(low + (high - low) * i / marks, high - low).c_str()).x);
+        text_width = std::max(text_width,
+                              ImGui::CalcTextSize(number(low + (high - low) * i / marks, format).c_str()).x);
     const float line = ImGui::GetTextLineHeight();
     const ImVec2 size(width + text_width + ui.scaled(8) + 2 * margin,
                       height + line + ui.scaled(10) + 2 * margin);
@@ -64,7 +59,7 @@ void draw_legend(const Ui& ui) {
         const float y = top + height * (1 - static_cast<float>(i) / marks);
         list.AddLine({left + width, y}, {left + width + ui.scaled(4), y}, palette::faint);
         list.AddText({left + width + ui.scaled(8), y - line / 2}, palette::text,
-                     number(low + (high - low) * i / marks, high - low).c_str());
+                     number(low + (high - low) * i / marks, format).c_str());
     }
     ImGui::PopFont();
 }

@@ -29,8 +29,7 @@ void item(const Ui& ui, const Action& action) {
     explain(action.words);
 }
 
-// The actions from number `at` on that belong to this menu; a menu within it is opened where its first action
-// stands.
+// The actions that belong to this menu; a menu within it is opened where its first action stands.
 void items(const Ui& ui, std::string_view menu) {
     std::string_view inner; // the one whose actions were all shown last
     for (const Action& action : actions()) {

@@ -126,7 +126,7 @@ void run_editor(const EditorOptions& options) {
     if (!options.file.empty()) loop.wishes.emplace_back(WishOpen{options.file, options.cloud, true});
     bool news = true;
     while (!loop.work.closing) {
-        if (options.told_to_stop && options.told_to_stop()) return;
+        if (options.told_to_stop && options.told_to_stop()) throw Cancelled();
         loop.window.take_in(options.observer ? 0.001 : patience(loop, news));
         lay_out(loop);
         const bool played = be_played(loop);

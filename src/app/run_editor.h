@@ -36,11 +36,12 @@ struct EditorOptions {
     unsigned threads = 0;                       // 0: one a core
     int width = 1440, height = 900;             // of the window, on a display of scale 1
     SettingsChange settings;                    // of a cloud that is opened
-    std::function<bool()> told_to_stop; // by a signal: the window closes and keeps the journal; may be empty
-    EditorObserver* observer = nullptr; // not owned
+    std::function<bool()> told_to_stop;         // by a signal; may be empty
+    EditorObserver* observer = nullptr;         // not owned
 };
 
-// Returns when the user closed the window. Throws Error (usage) where there is no display or no OpenGL 4.1.
+// Returns when the user closed the window. Throws Cancelled where it was told to stop, which keeps the
+// journal, and Error (usage) where there is no display or no OpenGL 4.1.
 void run_editor(const EditorOptions& options);
 
 } // namespace knead

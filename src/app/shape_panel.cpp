@@ -5,6 +5,7 @@
 #include "base/counts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -69,8 +70,9 @@ void material_choice(const Ui& ui, const Settings& settings) {
     int chosen = -1;
     for (int m = 0; m < static_cast<int>(std::size(materials)); ++m)
         if (settings.poisson == materials[m].poisson) chosen = m;
-    const int clicked =
-        segmented("material", {materials[0].name, materials[1].name, materials[2].name}, chosen);
+    std::array<const char*, std::size(materials)> names;
+    std::ranges::transform(materials, names.begin(), &Material::name);
+    const int clicked = segmented("material", names, chosen);
     explain("Auxetic swells across where it is pulled (-0.7), cork keeps its width (0), rubber its volume "
             "(0.49)");
     if (clicked < 0 || clicked == chosen) return;
@@ -113,7 +115,7 @@ void sample_choice(const Ui& ui, const Settings& settings) {
     const bool by_themselves = ui.editor.chooses_samples;
     constexpr int automatic = 0, by_hand = 1, all = 2;
     const int chosen = by_themselves ? automatic : settings.samples ? by_hand : all;
-    const int clicked = segmented("samples", {"Automatic", "By hand", "All"}, chosen);
+    const int clicked = segmented("samples", std::array{"Automatic", "By hand", "All"}, chosen);
     explain("Automatic: as many as show, as the handles ask for, and as this machine can move while it "
             "follows the hand. The number changes between edits only, never commits a pose, and is recorded. "
             "By hand: it stays. (Of these two the choice is remembered for the next cloud.) All: every point "
@@ -171,7 +173,7 @@ void iterations_slider(const Ui& ui, const Settings& settings) {
 void weights_choice(const Ui& ui, const Settings& settings) {
     inline_caption("Weights", ui.scaled(92));
     const int chosen = settings.weights == InfluenceWeights::smooth ? 0 : 1;
-    const int clicked = segmented("weights", {"Smooth", "Paper"}, chosen);
+    const int clicked = segmented("weights", std::array{"Smooth", "Paper"}, chosen);
     explain("How samples share out their influence on the points between them. Smooth: none at the farthest, "
             "so nothing "
             "jumps. Paper: one over the distance squared.");

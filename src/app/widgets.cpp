@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <initializer_list>
 #include <string_view>
 
 namespace knead {
@@ -118,6 +117,15 @@ void draw_bar(const char* name, const char* value, float filled) {
 }
 
 } // namespace
+
+std::string format_between(double low, double high) {
+    const double width = std::max(high - low, 1e-300), largest = std::max(std::abs(low), std::abs(high));
+    const double decimals = std::ceil(2 - std::log10(width));
+    const double digits = std::ceil(std::log10(std::max(largest, width))) + decimals;
+    if (decimals <= 7 && largest < 1e9)
+        return "%." + std::to_string(std::max(0, static_cast<int>(decimals))) + "f";
+    return "%." + std::to_string(static_cast<int>(std::clamp(digits, 3.0, 15.0))) + "g";
+}
 
 void take_decimal_commas(ImGuiID field) {
     if (ImGui::GetActiveID() != field) return;
@@ -252,7 +260,7 @@ void faint_text(const std::string& words) {
     ImGui::PopStyleColor();
 }
 
-int segmented(const char* id, std::initializer_list<const char*> labels, int chosen) {
+int segmented(const char* id, std::span<const char* const> labels, int chosen) {
     ImGui::PushID(id);
     ImGui::BeginGroup(); // what explains it explains each
     const auto count = static_cast<float>(labels.size());

@@ -3,6 +3,7 @@
 
 #include "app/icons.h"
 
+#include <span>
 #include <string>
 
 namespace knead {
@@ -26,6 +27,9 @@ bool bar_slider(const char* name, float& value, float lowest, float highest, con
                 int flags = 0);
 bool bar_slider(const char* name, int& value, int lowest, int highest, const char* format, int flags = 0);
 
+// A printf format with as many digits as tell numbers between the two apart.
+std::string format_between(double low, double high);
+
 // A comma that is being typed into a field for a number becomes its point, as on the keypads of half the
 // world. Call it before the field is laid out; bar_slider() does for numbers that are not whole.
 void take_decimal_commas(ImGuiID field);
@@ -42,7 +46,7 @@ void inline_caption(const char* words, float place);
 void faint_text(const std::string& words);
 
 // One of several side by side; returns the one clicked, or -1.
-int segmented(const char* id, std::initializer_list<const char*> labels, int chosen);
+int segmented(const char* id, std::span<const char* const> labels, int chosen);
 
 // A shortcut as it is shown: letters on small key caps. Returns its width; draws nothing if `list` is null.
 float key_caps(ImDrawList* list, ImVec2 corner, const char* keys);

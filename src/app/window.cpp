@@ -263,14 +263,14 @@ void Window::take_in(double seconds) {
         glfwPollEvents();
 }
 
-// A key that went down and up again between two frames is shown to ImGui as down for one frame. ImGui checks
-// that its modifiers do not change within a frame, so it is let go when the next one begins.
 void Window::renew_fonts() {
     if (!has_fonts_) return;
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
+// A key that went down and up again between two frames is shown to ImGui as down for one frame. ImGui checks
+// that its modifiers do not change within a frame, so it is let go when the next one begins.
 void Window::begin_frame(bool mouse_is_taken) {
     ImGui_ImplOpenGL3_NewFrame(); // the first makes the fonts' texture
     has_fonts_ = true;

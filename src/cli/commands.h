@@ -13,7 +13,10 @@ class App;
 
 namespace knead {
 
-// Does the work and returns the exit code: 0, or 4 when a check failed. All other troubles are thrown.
+inline constexpr int exit_interrupted = 130;
+
+// Does the work and returns the exit code: 0, 4 when a check failed, or 130 where the window was told to
+// stop. All other troubles are thrown.
 using Job = std::function<int(Terminal&)>;
 
 // --device and --threads (left as they are where they are not given), of subcommands that compute.

@@ -5,11 +5,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
 #include <memory>
 
 #ifdef KNEAD_HAS_EDITOR
 #include "app/run_editor.h"
+#include "cli/picture_options.h"
 #endif
 
 namespace knead {
@@ -26,17 +26,15 @@ struct Arguments {
 
 // "1440x900"
 void take_size(const std::string& text, EditorOptions& options) {
-    int width = 0, height = 0;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 640 || height < 420 ||
-        width > 16384 || height > 16384)
+    const Viewport size = parse_size(text, 16384);
+    if (size.width < 640 || size.height < 420)
         throw Error(Trouble::usage, "--size",
                     "must be a width and a height of at least 640x420, as 1440x900, not \"" + text + "\"");
-    options.width = width;
-    options.height = height;
+    options.width = size.width;
+    options.height = size.height;
 }
 
-int run_edit(const Arguments& arguments, const Terminal& terminal) {
+int run_edit(const Arguments& arguments, Terminal& terminal) {
     EditorOptions options;
     options.file = arguments.file;
     if (!arguments.cloud.empty()) options.cloud = arguments.cloud;
@@ -48,13 +46,18 @@ int run_edit(const Arguments& arguments, const Terminal& terminal) {
     if (!arguments.samples.empty())
         options.settings = merged(options.settings, parse_setting("samples=" + arguments.samples));
     options.told_to_stop = [&terminal] { return terminal.cancelled(); };
-    run_editor(options);
+    try {
+        run_editor(options);
+    } catch (const Cancelled&) {
+        terminal.say("knead: stopped; what was done and not saved is offered when it is opened again");
+        return exit_interrupted;
+    }
     return 0;
 }
 
 #else
 
-int run_edit(const Arguments& /*arguments*/, const Terminal& /*terminal*/) {
+int run_edit(const Arguments& /*arguments*/, Terminal& /*terminal*/) {
     throw Error(Trouble::usage, "",
                 "this knead was built without its window (KNEAD_EDITOR=OFF); `knead info` looks at a cloud, "
                 "`knead replay` carries out a session");

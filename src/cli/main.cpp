@@ -22,7 +22,6 @@ namespace {
 constexpr int exit_internal = 1;
 constexpr int exit_usage = static_cast<int>(knead::Trouble::usage);
 constexpr int exit_check_failed = static_cast<int>(knead::Trouble::check_failed);
-constexpr int exit_interrupted = 130;
 
 int run(const knead::Job& job, knead::Terminal& terminal) {
     try {
@@ -31,7 +30,7 @@ int run(const knead::Job& job, knead::Terminal& terminal) {
         return code;
     } catch (const knead::Cancelled&) {
         terminal.say("knead: stopped; nothing was written");
-        return exit_interrupted;
+        return knead::exit_interrupted;
     } catch (const knead::Error& error) {
         terminal.say(std::string("knead: ") + error.what() + knead::advice_for(error.cure()));
         return static_cast<int>(error.trouble());

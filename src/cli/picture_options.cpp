@@ -33,10 +33,12 @@ std::optional<std::pair<Number, Number>> parse_two(const std::string& text, char
     return two;
 }
 
+constexpr const char* picture_group = "Pictures";
+
 } // namespace
 
 void declare_picture_options(CLI::App& command, PictureOptions& options) {
-    const std::string group = "Pictures";
+    const std::string group = picture_group;
     command.add_option("--size", options.size, "Width and height in pixels, 1280x800")->group(group);
     command
         .add_option("--view", options.view,
@@ -67,6 +69,14 @@ void declare_picture_options(CLI::App& command, PictureOptions& options) {
         ->group(group);
     command.add_flag("--orthographic", options.orthographic, "Without perspective")->group(group);
     command.add_flag("--no-eye-dome", options.flat, "Without the shading of edges and hollows")->group(group);
+}
+
+void refuse_picture_options(const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options())
+        if (option->get_group() == picture_group && option->count() > 0)
+            throw Error(
+                Trouble::usage, option->get_name(),
+                "is about pictures, and none is asked for; add --picture FILE.png or --frames FOLDER");
 }
 
 Viewport parse_size(const std::string& text, int largest) {

@@ -34,6 +34,9 @@ struct PictureOptions {
 // Adds --size, --view and the others to a subcommand.
 void declare_picture_options(CLI::App& command, PictureOptions& options);
 
+// Throws Error (usage) where one of them is given, though no picture is asked for.
+void refuse_picture_options(const CLI::App& command);
+
 // Throws Error for a target that is no PNG file (usage) or that cannot be written to (output), so that one
 // who computes for long can ask beforehand. Nothing is left behind.
 void refuse_bad_picture(const std::filesystem::path& path);

@@ -126,6 +126,18 @@ void tell(const ReplayReport& report, const Arguments& arguments, Terminal& term
     if (arguments.out.empty()) terminal.say("The shape was not saved; --out FILE saves it");
 }
 
+// What a rehearsal was asked for and does not do.
+std::string words_about_unused(const Arguments& arguments) {
+    const std::pair<const char*, bool> asked[] = {{"--out", !arguments.out.empty()},
+                                                  {"--record-checks", arguments.record_checks},
+                                                  {"--picture", !arguments.pictures.picture.empty()},
+                                                  {"--frames", !arguments.pictures.frames.empty()}};
+    std::string words;
+    for (const auto& [option, is_asked] : asked)
+        if (is_asked) words += (words.empty() ? ", so not used: " : ", ") + std::string(option);
+    return words;
+}
+
 int run_replay(const Arguments& arguments, Terminal& terminal) {
     ReplayOptions options = options_from(arguments);
     const Session session = read_session(arguments.session);
@@ -160,8 +172,7 @@ int run_replay(const Arguments& arguments, Terminal& terminal) {
     terminal.clear_bar();
     if (arguments.dry_run)
         terminal.say(arguments.session + ": " + counted(session.lines.size() + 1, "line") +
-                     " in order; nothing was computed or written" +
-                     (arguments.out.empty() ? "" : ", so --out was not used"));
+                     " in order; nothing was computed or written" + words_about_unused(arguments));
     else if (!arguments.json)
         tell(report, arguments, terminal);
     for (const CheckResult& check : report.checks)
@@ -198,7 +209,8 @@ void add_replay(CLI::App& app, Job& job) {
         "--frames", arguments->pictures.frames,
         "A folder for a picture of every frame of the drags, and of every shape that settled");
     declare_picture_options(*command, arguments->pictures.look);
-    command->callback([arguments, &job] {
+    command->callback([arguments, command, &job] {
+        if (!arguments->pictures.wanted()) refuse_picture_options(*command);
         job = [arguments](Terminal& terminal) { return run_replay(*arguments, terminal); };
     });
 }

@@ -42,11 +42,11 @@ struct PosedShape {
 // rounded once to the column's type; one that did not move keeps its bytes (its very text in a text file),
 // and so does a normal or a splat that did not turn. Where the cloud came from a file of the target's format,
 // types and encoding stay, and everything else of that file stays as it was, byte for byte; a cloud from
-// elsewhere is written as a new file, in PLY binary_little_endian. Returns what the target does not hold as
-// the cloud had it, and what else the user should hear, one sentence each that begins with the target's name;
-// usually none. The target is replaced whole or not at all. Throws Error (output) when it cannot be written,
-// when its extension names a format that knead does not write, or when a coordinate no longer fits its
-// column's type; Cancelled when told so.
+// elsewhere is written as a new file of the target's format (PLY: binary_little_endian). Returns what the
+// target does not hold as the cloud had it, and what else the user should hear, one sentence each that begins
+// with the target's name; usually none. The target is replaced whole or not at all. Throws Error (output)
+// when it cannot be written, when its extension names a format that knead does not write, or when a
+// coordinate no longer fits its column's type; Cancelled when told so.
 std::vector<std::string> write_cloud(const std::filesystem::path& path, const PointCloud& cloud,
                                      const PosedShape& shape, Progress& progress);
 

@@ -4,10 +4,10 @@
 // number, and vertices keep their order.
 //
 // - v x y z: a point; with a fourth number its weight, a column "weight" that changes nothing.
-// - v x y z r g b: with a colour, as many programs write it: columns red, green and blue of floats as
-// written,
-//   usually from 0 to 1. Seven numbers are x y z weight r g b; of five, or more than seven, those behind x y
-//   z are kept and not understood. A point without a weight or colour gets 1 where others have one.
+// - v x y z r g b: with a colour, as many programs write it: columns red, green and blue of floats
+//   as written, usually from 0 to 1. Seven numbers are x y z weight r g b; of five, or more than seven, those
+//   behind x y z are kept and not understood. A point without a weight or colour gets 1 where others have
+//   one.
 // - vn x y z: normals: columns nx, ny and nz where each belongs to one point alone. That is so if the corners
 //   that name a point all name one normal, which no other point's do (a point of no corner gets 0 0 0); or if
 //   no corner names any, and there are as many normals as points, in the same order. Other normals are kept

@@ -112,7 +112,7 @@ protected:
     }
     void draw() override {
         ImGui::SetCursorPosY(600);
-        segmented("choice", {"one", "two", "three"}, 1);
+        segmented("choice", std::array{"one", "two", "three"}, 1);
         choice_ = ImRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
         explain("First line\nsecond line\nthird line");
     }

@@ -3,6 +3,7 @@
 
 #include "edit/live.h"
 #include "edit/live_work.h"
+#include "edit/replay.h"
 #include "no_memory/failing_new.h"
 
 #include <limits>
@@ -37,6 +38,15 @@ public:
         const WantedPose pose{turned(0.1, {1, 0, 0}), std::chrono::steady_clock::now()};
         failed_ = carry_out(task::EndDrag{pose}, after);
     }
+    // A frame of it.
+    void drag_to(double angle, std::size_t after = never) {
+        shared_.change([&](LiveShared& shared) {
+            shared.wanted = WantedPose{turned(angle, {1, 0, 0}), std::chrono::steady_clock::now()};
+        });
+        const FailingNew failing(after);
+        work_.turn();
+        failed_ = failing.has_failed();
+    }
     void set_iterations(std::size_t after = never) {
         SettingsChange change;
         change.iterations = 7;
@@ -66,6 +76,21 @@ public:
         EXPECT_EQ(now.handles.size(), 2U);
         EXPECT_TRUE(std::ranges::none_of(now.motions, leaves_rest));
         EXPECT_EQ(now.settings, Settings{});
+    }
+
+    // The cloud as it is, and as a replay of what was recorded makes it.
+    void expect_replayed_as_it_is() {
+        const std::filesystem::path cloud = folder_ / "now.ply", session = folder_ / "now.knead";
+        shared_.change([](LiveShared& shared) { shared.saves = 2; });
+        carry_out(task::SaveCloud{cloud, {}, true});
+        carry_out(task::SaveSession{session, true});
+        ReplayOptions options;
+        options.out = folder_ / "replayed.ply";
+        options.device = "reference";
+        options.threads = 1;
+        SilentProgress progress;
+        replay(read_session(session), options, progress, [](const std::string&) {});
+        EXPECT_TRUE(read_text(*options.out) == read_text(cloud));
     }
 
     void expect_nothing_left() {
@@ -124,6 +149,20 @@ TEST_F(LiveNoMemory, LeavesOneHistoryOfADrag) {
     expect_one_history_where_each_fails(
         work_, 2, [&] { work_.begin_drag(); }, [&](std::size_t after) { work_.end_drag(after); });
     work_.expect_nothing_left();
+}
+
+TEST_F(LiveNoMemory, RecordsTheFramesThatADragHas) {
+    for (std::size_t after = 0;; ++after) {
+        SCOPED_TRACE("without allocation " + std::to_string(after));
+        work_.begin_drag();
+        work_.drag_to(0.1);
+        work_.drag_to(0.2, after);
+        const bool has_failed = work_.has_failed();
+        work_.carry_out(task::EndDrag{});
+        work_.expect_replayed_as_it_is();
+        if (!has_failed) break;
+        work_.undo();
+    }
 }
 
 TEST_F(LiveNoMemory, LeavesOneHistoryOfLines) {

@@ -362,7 +362,11 @@ void bottom_row(const Ui& ui) {
     ImGui::BeginDisabled(browser.typed.empty());
     const bool confirmed = main_button(verb_of(browser.purpose), {width, 0});
     ImGui::EndDisabled();
-    if (confirmed || entered) choose(ui);
+    // The lit button is Enter's, whatever was clicked before.
+    const bool pressed = !entered && !ImGui::IsAnyItemActive() &&
+                         (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
+                          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false));
+    if (confirmed || entered || pressed) choose(ui);
 }
 
 } // namespace

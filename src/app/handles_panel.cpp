@@ -168,6 +168,12 @@ void name_field(const Ui& ui, const Handle& handle) {
     state.renaming.clear();
 }
 
+std::string points_of(const Editor& editor, const Handle& handle) {
+    const std::size_t all = handle.points->size(), follow = followers_of(editor, handle);
+    if (follow >= all || handle.role == HandleRole::region_of_interest) return counted(all, "point");
+    return grouped(follow) + " of its " + counted(all, "point") + " (handles made later hold the others)";
+}
+
 // What a row of the list reacts to; returns whether the cursor is on it.
 bool row_button(const Ui& ui, const Handle& handle, ImVec2 size, bool renaming) {
     if (renaming) {
@@ -184,7 +190,7 @@ bool row_button(const Ui& ui, const Handle& handle, ImVec2 size, bool renaming) 
     if (!hovered && ui.state.row_at_rest == handle.name) ui.state.row_at_rest.clear();
     const bool quiet = ui.editor.tools.drag || ui.state.row_at_rest == handle.name; // it would be in the way
     if (hovered && !quiet && !ImGui::IsPopupOpen("menu"))
-        explain(handle.name + ": " + words_for(handle.role) + ", " + counted(handle.points->size(), "point") +
+        explain(handle.name + ": " + words_for(handle.role) + ", " + points_of(ui.editor, handle) +
                 (handle.free_rotation ? ", positions only" : "") +
                 (std::max(handle.falloff, least_falloff(ui.editor, handle)) > 0 ? ", with a falloff" : "") +
                 "\nClick chooses it, a double click renames it, the right button has more.");

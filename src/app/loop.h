@@ -9,6 +9,7 @@
 #include "app/wishes.h"
 #include "base/stopwatch.h"
 
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -33,12 +34,13 @@ struct Loop {
 
     std::set<ImWchar> foreign_letters; // that the fonts were loaded with
 
-    glm::dvec2 cursor{0.0};      // of the window, wherever it is
-    bool close_menus = false;    // in the next frame
-    bool button_is_ours = false; // a press began over the cloud
-    bool press_is_hands = false; // and ended what a full hand was doing: no panel is to see it
-    int frames_to_draw = 3;      // even if nothing happens: ImGui needs some to settle
-    Stopwatch calm;              // since the last event; ImGui's time stands still while nothing is drawn
+    glm::dvec2 cursor{0.0};        // of the window, wherever it is
+    bool close_menus = false;      // in the next frame
+    std::optional<KeyPress> saves; // in the next frame, when what is being typed counts
+    bool button_is_ours = false;   // a press began over the cloud
+    bool press_is_hands = false;   // and ended what a full hand was doing: no panel is to see it
+    int frames_to_draw = 3;        // even if nothing happens: ImGui needs some to settle
+    Stopwatch calm;                // since the last event; ImGui's time stands still while nothing is drawn
 
     // What the picture shows, to tell whether it moves.
     Camera shown_camera;

@@ -1,5 +1,6 @@
 // Where things are in the window, and how they are drawn.
 
+#include "app/actions.h"
 #include "app/loop.h"
 #include "app/timeline.h"
 
@@ -48,6 +49,7 @@ void draw_panels(Loop& loop) {
     const Ui& ui = loop.ui;
     const Rectangle& view = loop.state.view;
     if (std::exchange(loop.close_menus, false)) ImGui::ClosePopupToLevel(0, false);
+    if (loop.saves) ImGui::ClearActiveID(); // what was being typed is taken, and saved as well
     draw_menu_bar(ui);
     draw_overlay(ui);
     draw_legend(ui);
@@ -70,6 +72,7 @@ void draw_panels(Loop& loop) {
     draw_file_browser(ui);
     draw_label_dialog(ui);
     draw_dialogs(ui);
+    if (loop.saves) press_shortcut(ui, *std::exchange(loop.saves, std::nullopt));
 }
 
 void clear_to(ImU32 color) {

@@ -88,6 +88,8 @@ void take(Loop& loop, const KeyPress& event) {
     // themselves.
     if (event.key == Key::escape && popup_is_open() && !ImGui::GetTopMostPopupModal())
         loop.close_menus = true;
+    const bool saves = event.key == key('S') && event.held.ctrl && !event.held.alt && !event.held.shift;
+    if (saves && ImGui::GetIO().WantTextInput && !popup_is_open()) loop.saves = event;
     if (ImGui::GetIO().WantTextInput || popup_is_open()) return;
     if (event.key == Key::escape && loop.state.show_help) return; // closes that
     if (event.key == Key::escape && loop.state.playback.shown && !loop.editor.tools.drag)

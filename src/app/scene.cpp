@@ -191,7 +191,8 @@ void Scene::State::take_colors(Editor& editor, UiState& state) {
 
 void Scene::State::take_lines(const Editor& editor, const Display& display) {
     SceneLinesOf now = scene_lines_of(editor, display);
-    if (now == lines) return;
+    const bool shows_and_hides = editor.changes.marks && (now.samples || now.links);
+    if (now == lines && !shows_and_hides) return;
     lines = std::move(now);
     renderer.set_overlay(scene_lines(editor, lines));
 }

@@ -52,19 +52,25 @@ glm::vec3 place_of(const Editor& editor, Index vertex) {
     return {p[0], p[1], p[2]};
 }
 
+bool is_hidden(const Editor& editor, Index vertex) {
+    return (editor.marks[editor.opened.order->first_point[vertex]] & mark_hidden) != 0;
+}
+
 void add_links(const Editor& editor, const SceneLinesOf& what, std::vector<OverlayLine>& lines) {
     const std::vector<Index>& vertices = *what.sample_vertices;
     const Graph& graph = *what.sample_graph;
     const std::size_t count = std::min(vertices.size(), graph.size());
     for (std::size_t s = 0; s < count; ++s)
         for (const Index other : graph.row(s))
-            if (s < other) // each link once
+            if (s < other && !is_hidden(editor, vertices[s]) &&
+                !is_hidden(editor, vertices[other])) // each once
                 lines.push_back({place_of(editor, vertices[s]), place_of(editor, vertices[other]),
                                  rgba(120, 215, 255, 130), 1});
 }
 
 void add_samples(const Editor& editor, const SceneLinesOf& what, std::vector<OverlayLine>& lines) {
     for (const Index vertex : *what.sample_vertices) {
+        if (is_hidden(editor, vertex)) continue;
         const glm::vec3 place = place_of(editor, vertex);
         lines.push_back({place, place, rgba(10, 14, 20, 220), 6.5f});
         lines.push_back({place, place, rgba(245, 250, 255, 255), 4});

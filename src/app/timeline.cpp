@@ -96,6 +96,13 @@ void begin_where_left(const Ui& ui) {
     playback.origin = playback.position = playback_position(ui.editor);
 }
 
+// Whether playing would begin again from here: at the last step, and where the user is, as what they took
+// back is theirs to look at frame by frame and no part of the film.
+bool is_played_out(const Playback& playback) {
+    return playback.position == playback.steps ||
+           (playback.position == playback.origin && playback.origin > 0);
+}
+
 bool can_play(const Editor& editor) {
     return editor.document && !editor.drag && playback_steps(editor) > 0;
 }
@@ -131,7 +138,11 @@ void toggle_playing(const Ui& ui) {
     playback.playing = true;
     playback.next_at = ImGui::GetTime() + between_steps;
     ui.tell(PacePlaying{playback.speed, false});
-    if (playback.position == playback.steps && !ui.editor.status.playing) playback.wanted = 0;
+    const bool again = is_played_out(playback) && !ui.editor.status.playing;
+    if (again) playback.wanted = 0;
+    const std::size_t begin = again ? 0 : playback.position;
+    playback.end =
+        begin < playback.origin || (begin == playback.origin && begin > 0) ? playback.origin : playback.steps;
 }
 
 void play_frame(const Ui& ui, int direction) {
@@ -185,7 +196,7 @@ void play_on(const Ui& ui) {
     if (ui.editor.status.busy)
         playback.next_at = std::max(playback.next_at, now + between_steps / playback.speed);
     if (ui.editor.status.playing || now < playback.next_at) return;
-    if (playback.position == playback.steps) {
+    if (playback.position == playback.end) {
         playback.playing = false;
         (void)go_back(ui, playback.position);
         return;
@@ -212,7 +223,7 @@ std::string playback_words(const Ui& ui) {
     const std::string close = position == playback.origin || was_left(ui)
                                   ? " · Esc closes"
                                   : " · Esc goes back to step " + std::to_string(playback.origin);
-    if (position == playback_steps(ui.editor) && !playing) return words + " · Space plays it all" + close;
+    if (is_played_out(playback) && !playing) return words + " · Space plays it all" + close;
     return words + " · Space plays on · Right shows the next frame" + close;
 }
 

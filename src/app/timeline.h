@@ -23,6 +23,7 @@ struct Playback {
     std::size_t steps = 0;             // there were when it last moved; others mean that the user went on
     std::size_t position = 0;          // it has led to; another means the same
     std::size_t origin = 0;            // the position when it was shown, where looking ends
+    std::size_t end = 0;               // the position at which playing stops
     std::optional<std::size_t> wanted; // the position to go to, once the document is free
 };
 

@@ -135,11 +135,6 @@ struct AfterSaving {
     std::optional<std::uint64_t> discarded = {}; // the state (DocumentView) that need not be saved
 };
 
-// Where an opened file's cloud was to be exported last, or its session to be saved, whatever came of it.
-struct LastTarget {
-    std::filesystem::path of, target;
-};
-
 struct UiState {
     Fonts fonts;
     float scale = 1;
@@ -147,7 +142,9 @@ struct UiState {
     Legend legend; // of the colours as they are
     Rectangle legend_place = {};
     FileBrowser browser;
-    LastTarget last_export, last_session; // are proposed again
+    // Where what is open was to be exported last, and its session to be saved, whatever came of it; proposed
+    // again.
+    std::filesystem::path last_export, last_session;
     Measured measured;
 
     std::deque<Toast> toasts;

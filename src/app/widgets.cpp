@@ -5,8 +5,10 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <string_view>
 
 namespace knead {
@@ -165,8 +167,20 @@ std::string as_words(const char* format, Number value) {
     return words;
 }
 
-// What is being typed into a slider counts once it is done, and not at all if it is given up: Esc puts the
-// text back. Returns whether `value` became what was typed.
+// Whether what stands in the field that is typed into is one number, be there words behind it.
+bool types_number() {
+    const ImGuiInputTextState& field = ImGui::GetCurrentContext()->InputTextState;
+    std::string text;
+    for (int at = 0; at < field.CurLenW; ++at)
+        text += field.TextW[at] < 128 ? static_cast<char>(field.TextW[at]) : '?';
+    char* end = nullptr;
+    (void)std::strtod(text.c_str(), &end);
+    return end != text.c_str() &&
+           (*end == 0 || *end == ' ' || *end == '%' || std::isalpha(static_cast<unsigned char>(*end)));
+}
+
+// What is being typed into a slider counts once it is done, and not at all if it is given up (Esc puts the
+// text back) or no number. Returns whether `value` became what was typed.
 template<typename Number>
 bool take_typed(const char* id, bool is_typed, Number before, const char* format, Number& value) {
     ImGuiStorage& storage = *ImGui::GetStateStorage();
@@ -175,7 +189,7 @@ bool take_typed(const char* id, bool is_typed, Number before, const char* format
     const bool was_typed = storage.GetBool(typing, false);
     storage.SetBool(typing, is_typed);
     if (is_typed) {
-        storage.SetFloat(typed, static_cast<float>(value));
+        storage.SetFloat(typed, static_cast<float>(types_number() ? value : before));
         value = before;
         return false;
     }

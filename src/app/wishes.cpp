@@ -107,12 +107,19 @@ std::filesystem::path folder_around(const std::filesystem::path& file) {
     return folder;
 }
 
-// Where the last one of the cloud that is open went; the first time such a name.
-void propose(Work& work, const LastTarget& last, const std::string& first) {
-    FileBrowser& browser = work.state.browser;
-    const bool has_last = last.of == work.editor.opened.file && !last.target.empty();
-    if (has_last) browser.folder = folder_around(last.target);
-    browser.typed = has_last ? last.target.filename().string() : first;
+// A name that no file of the folder has: with a number, if need be.
+std::string free_name_in(const std::filesystem::path& folder, const std::filesystem::path& name) {
+    std::error_code ignored;
+    std::filesystem::path free = name;
+    for (unsigned number = 2; std::filesystem::exists(folder / free, ignored); ++number)
+        free = name.stem().string() + " " + std::to_string(number) + name.extension().string();
+    return free.string();
+}
+
+// Where the last one went; the first time such a name.
+void propose(FileBrowser& browser, const std::filesystem::path& last, const std::string& first) {
+    if (!last.empty()) browser.folder = folder_around(last);
+    browser.typed = last.empty() ? free_name_in(browser.folder, first) : last.filename().string();
 }
 
 // A name beside its own, of the same kind.
@@ -137,12 +144,13 @@ void fulfil(Work& work, const WishBrowse& wish) {
     }
     if (!work.editor.document) return;
     if (wish.purpose == BrowseFor::save_session)
-        propose(work, work.state.last_session, opened.stem().string() + ".knead");
+        propose(browser, work.state.last_session, opened.stem().string() + ".knead");
     if (wish.purpose == BrowseFor::save_cloud && looks_back(work.editor))
         add_toast(work.state, {Notice::Kind::warning,
                                "This is an earlier step: the cloud is saved as it was then, without what was "
                                "done later."});
-    if (wish.purpose == BrowseFor::save_cloud) propose(work, work.state.last_export, name_of_export(opened));
+    if (wish.purpose == BrowseFor::save_cloud)
+        propose(browser, work.state.last_export, name_of_export(opened));
 }
 
 void save(Work& work, const WishSaveTo& wish) {
@@ -150,10 +158,10 @@ void save(Work& work, const WishSaveTo& wish) {
         save_session(work.editor, wish.file, wish.anyway);
         remember_file(work.state.recent, wish.file);
         remember_choosing(wish.file, work.editor.chooses_samples);
-        work.state.last_session = {work.editor.opened.file, wish.file};
+        work.state.last_session = wish.file;
     } else {
         save_cloud(work.editor, wish.file, wish.columns, wish.anyway);
-        work.state.last_export = {work.editor.opened.file, wish.file};
+        work.state.last_export = wish.file;
     }
     if (work.state.after.waiting_for_save) work.state.after.save_was_posted = true;
 }

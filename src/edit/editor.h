@@ -92,6 +92,8 @@ struct Editor {
     std::vector<std::uint8_t> marks; // of each point
     std::size_t selected = 0;        // points
     std::size_t hidden = 0;
+    std::vector<std::size_t>
+        followers;      // of each handle: the points that it moves, or holds; not what others took
     std::string chosen; // the handle with the gizmo, once the document has it; empty: none
     std::map<std::string, glm::dvec3> pivots; // of the gizmo, by handle, where the user moved them
     std::optional<PivotMove> moved_pivot;     // that the hand is moving
@@ -152,6 +154,8 @@ std::optional<Gizmo> gizmo_of(const Editor& editor); // of the chosen moving han
 std::optional<glm::dvec3> pivot_of(const Editor& editor, const std::string& handle);
 // How far the handle pulls what is around it, whatever its own falloff is; 0 for one that is large enough.
 double least_falloff(const Editor& editor, const Handle& handle);
+// Of one of the document's: how many points follow it, those not that later handles hold, too.
+std::size_t followers_of(const Editor& editor, const Handle& handle);
 bool has_unsaved_session(const Editor& editor);               // an exported cloud is no saved session
 std::string free_name(const Editor& editor, HandleRole role); // for the next handle: "handle 2"
 bool looks_back(const Editor& editor); // whether a step before where looking began is shown

@@ -65,18 +65,9 @@ auto take_selection(Editor& editor) {
 struct Held {
     std::size_t points = 0, selected = 0;
 };
-
-// Of every handle. Of what several hold the last one has it; regions take nothing from others.
 std::vector<Held> held_by_each(const Editor& editor) {
-    const std::vector<Handle>& handles = editor.document->handles;
-    std::vector<Index> follows(editor.marks.size(), no_index);
-    for (const bool region_pass : {true, false})
-        for (std::size_t h = 0; h < handles.size(); ++h) {
-            if ((handles[h].role == HandleRole::region_of_interest) != region_pass) continue;
-            for (const Index i : *handles[h].points)
-                if (editor.ordered[i] != no_index) follows[editor.ordered[i]] = static_cast<Index>(h);
-        }
-    std::vector<Held> held(handles.size());
+    const std::vector<Index> follows = followed_handles(editor);
+    std::vector<Held> held(editor.document->handles.size());
     for (std::size_t point = 0; point < follows.size(); ++point) {
         if (follows[point] == no_index) continue;
         ++held[follows[point]].points;
@@ -144,7 +135,8 @@ void carry_out(Editor& editor, const DropChoice& /*command*/) {
 }
 
 void carry_out(Editor& editor, const RenameHandle& command) {
-    if (!number_of(editor, command.handle) || command.to.empty() || command.to == command.handle) return;
+    const bool is_blank = std::ranges::all_of(command.to, [](char letter) { return letter == ' '; });
+    if (!number_of(editor, command.handle) || is_blank || command.to == command.handle) return;
     if (number_of(editor, command.to))
         return say(editor, Notice::Kind::error, "There is a handle \"" + command.to + "\" already.");
     const StepNumber step = post_step(editor, {RenameLine{command.handle, command.to}});

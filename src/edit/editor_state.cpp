@@ -34,20 +34,36 @@ const Handle* chosen_handle(const Editor& editor) {
     return found == handles.end() ? nullptr : &*found;
 }
 
-void mark_handles(Editor& editor) {
-    for (std::uint8_t& mark : editor.marks) mark = static_cast<std::uint8_t>(mark & marks_of_selection);
-    const auto& handles = editor.document->handles;
+std::vector<Index> followed_handles(const Editor& editor) {
+    const std::vector<Handle>& handles = editor.document->handles;
+    std::vector<Index> follows(editor.marks.size(), no_index);
     for (const bool region_pass : {true, false})
         for (std::size_t h = 0; h < handles.size(); ++h) {
             if ((handles[h].role == HandleRole::region_of_interest) != region_pass) continue;
-            const auto number = handle_mark(h);
             for (const Index i : *handles[h].points)
-                if (editor.ordered[i] != no_index) {
-                    std::uint8_t& mark = editor.marks[editor.ordered[i]];
-                    mark = static_cast<std::uint8_t>((mark & marks_of_selection) | number);
-                }
+                if (editor.ordered[i] != no_index) follows[editor.ordered[i]] = static_cast<Index>(h);
         }
+    return follows;
+}
+
+void mark_handles(Editor& editor) {
+    const std::vector<Index> follows = followed_handles(editor);
+    editor.followers.assign(editor.document->handles.size(), 0);
+    for (std::size_t point = 0; point < follows.size(); ++point) {
+        std::uint8_t& mark = editor.marks[point];
+        mark = static_cast<std::uint8_t>(mark & marks_of_selection);
+        if (follows[point] == no_index) continue;
+        mark = static_cast<std::uint8_t>(mark | handle_mark(follows[point]));
+        ++editor.followers[follows[point]];
+    }
     marks_changed(editor);
+}
+
+std::size_t followers_of(const Editor& editor, const Handle& handle) {
+    const auto& handles = editor.document->handles;
+    const auto found = std::ranges::find(handles, handle.name, &Handle::name);
+    const auto number = static_cast<std::size_t>(found - handles.begin());
+    return number < editor.followers.size() ? editor.followers[number] : handle.points->size();
 }
 
 std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle) {
@@ -210,6 +226,9 @@ std::string next_step(const Editor& editor) {
         return "H makes the selection a handle that moves, Shift+H one that stays; Esc selects nothing.";
     if (!chosen_handle(editor) || chosen_handle(editor)->role != HandleRole::moving)
         return "Click a moving handle to choose it.";
+    if (followers_of(editor, *chosen_handle(editor)) == 0)
+        return "\"" + editor.chosen +
+               "\" moves nothing: handles that were made later hold all of its points.";
     if (editor.tools.move_pivot)
         return "Dragging the gizmo's arrows moves its pivot alone; press . to move the handle again.";
     if (!editor.document->posed) return "Drag the gizmo, or press G to move, R to turn, S to scale.";

@@ -54,6 +54,10 @@ void marks_changed(Editor& editor);
 // Changes the marks as one step of undo; no step where nothing changed.
 void change_marks(Editor& editor, const std::function<void()>& change);
 
+// The number of the handle that each point follows, in the order of the edit, or no_index. Of what several
+// hold the last one has it; regions take nothing from others.
+std::vector<Index> followed_handles(const Editor& editor);
+
 // The bits that say which handle a point belongs to, from the document's handles.
 void mark_handles(Editor& editor);
 

@@ -46,9 +46,7 @@ void unsaved_question(const Ui& ui) {
         ImGui::OpenPopup("unsaved");
     }
     if (!begin_question(ui, "unsaved", "Save what you did?")) return;
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(what_is_unsaved(ui.editor).c_str());
-    ImGui::PopTextWrapPos();
+    wrapped_text(what_is_unsaved(ui.editor));
     ImGui::Dummy({0, ui.scaled(8)});
     AfterSaving& after = ui.state.after;
     const char* save = ui.editor.document->session.empty() ? "Save session…" : "Save session";
@@ -103,9 +101,7 @@ void overwriting_question(const Ui& ui) {
         ImGui::EndPopup();
         return;
     }
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(target->file.c_str());
-    ImGui::PopTextWrapPos();
+    wrapped_text(target->file);
     faint_text(words.what_is_lost);
     ImGui::Dummy({0, ui.scaled(8)});
     const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
@@ -148,9 +144,7 @@ void cloud_question(const Ui& ui) {
         ImGui::EndPopup();
         return;
     }
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(without_place(session->why).c_str());
-    ImGui::PopTextWrapPos();
+    wrapped_text(without_place(session->why));
     faint_text("Choose the cloud as it was when the session began: where that file is now, or a copy of it. "
                "Poses are put on top of whatever is chosen.");
     ImGui::Dummy({0, ui.scaled(8)});
@@ -178,10 +172,7 @@ void deleting_question(const Ui& ui) {
         return;
     }
     const std::string file = (work->session.empty() ? work->cloud : work->session).filename().string();
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(
-        (counted(work->steps, "recorded step") + " on " + file + " will be gone for good.").c_str());
-    ImGui::PopTextWrapPos();
+    wrapped_text((counted(work->steps, "recorded step") + " on " + file + " will be gone for good."));
     ImGui::Dummy({0, ui.scaled(8)});
     const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
     if (ImGui::Button("Delete", {width, 0})) {

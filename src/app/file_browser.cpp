@@ -328,9 +328,7 @@ void bottom_row(const Ui& ui) {
         caption(reads_file(browser.purpose) ? "A name in this folder, or a path" : "File name, or a path");
     else {
         ImGui::PushStyleColor(ImGuiCol_Text, palette::error);
-        ImGui::PushTextWrapPos(0);
-        ImGui::TextUnformatted(browser.trouble.c_str());
-        ImGui::PopTextWrapPos();
+        wrapped_text(browser.trouble);
         ImGui::PopStyleColor();
     }
     // The field keeps its own copy while it is active; typing another name from outside needs it to let go.

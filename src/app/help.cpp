@@ -17,9 +17,7 @@ void row(const Ui& ui, const char* keys, const char* label, const char* words) {
     const float keys_width = ui.scaled(150);
     if (*keys) key_caps(ImGui::GetWindowDrawList(), {at.x, at.y - ui.scaled(2)}, keys);
     ImGui::SetCursorScreenPos({at.x + keys_width, at.y});
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(label);
-    ImGui::PopTextWrapPos();
+    wrapped_text(label);
     if (words) explain(words);
     ImGui::SetCursorScreenPos({at.x, std::max(ImGui::GetCursorScreenPos().y, at.y + ui.scaled(24))});
 }
@@ -113,11 +111,8 @@ void draw_about(const Ui& ui) {
     ImGui::PushFont(ui.state.fonts.title);
     ImGui::TextUnformatted("knead " KNEAD_VERSION);
     ImGui::PopFont();
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(
-        "Bends, twists and stretches raw point clouds with handles, in real time and with no mesh. "
-        "After “Efficient Non-Linear Editing of Large Point Clouds”.");
-    ImGui::PopTextWrapPos();
+    wrapped_text("Bends, twists and stretches raw point clouds with handles, in real time and with no mesh. "
+                 "After “Efficient Non-Linear Editing of Large Point Clouds”.");
     if (ui.has_cloud()) faint_text("Points are moved by " + ui.editor.document->device + ".");
     ImGui::EndPopup();
 }

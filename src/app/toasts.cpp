@@ -122,9 +122,7 @@ Drawn draw_toast(const Ui& ui, const Toast& toast, int number, ImVec2 corner) {
     draw_icon(list, icon_of(toast.notice.kind), {at.x + ui.scaled(25), at.y + ui.scaled(22)}, ui.scaled(17),
               color);
     ImGui::SetCursorPosX(inset);
-    ImGui::PushTextWrapPos(width - ui.scaled(34));
-    ImGui::TextUnformatted(toast.notice.words.c_str());
-    ImGui::PopTextWrapPos();
+    wrapped_text(toast.notice.words, width - ui.scaled(34) - inset);
     Drawn drawn{.height = size.y};
     drawn.hovered = ImGui::IsWindowHovered();
     drawn.clicked = drawn.hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left);

@@ -45,9 +45,7 @@ void explain(const char* words) {
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1.0f);
     const float room = place_explanation() - 2 * explanation_padding;
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(std::min(ImGui::GetFontSize() * 24, room));
-    ImGui::TextUnformatted(words);
-    ImGui::PopTextWrapPos();
+    wrapped_text(words, std::min(ImGui::GetFontSize() * 24, room));
     ImGui::EndTooltip();
     ImGui::PopStyleVar(2);
 }
@@ -266,11 +264,35 @@ void inline_caption(const char* words, float place) {
     ImGui::SameLine(place);
 }
 
+void wrapped_text(const std::string& words, float width) {
+    std::string lines = words;
+    std::size_t begin = 0, space = std::string::npos; // of the line, and the last one in it
+    for (std::size_t at = 0; at <= lines.size(); ++at) {
+        const bool ends = at == lines.size() || lines[at] == ' ' || lines[at] == '\n';
+        if (!ends) continue;
+        const bool fits = ImGui::CalcTextSize(lines.data() + begin, lines.data() + at).x <= width;
+        if (!fits && space != std::string::npos) {
+            lines[space] = '\n';
+            begin = space + 1;
+        }
+        space = at;
+        if (at < lines.size() && lines[at] == '\n') {
+            begin = at + 1;
+            space = std::string::npos;
+        }
+    }
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+    ImGui::TextUnformatted(lines.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+void wrapped_text(const std::string& words) {
+    wrapped_text(words, ImGui::GetContentRegionAvail().x);
+}
+
 void faint_text(const std::string& words) {
     ImGui::PushStyleColor(ImGuiCol_Text, palette::faint);
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(words.c_str());
-    ImGui::PopTextWrapPos();
+    wrapped_text(words);
     ImGui::PopStyleColor();
 }
 

@@ -42,6 +42,13 @@ void caption(const char* words);
 // The same to the left of the next item, which begins at `place` from the left of the panel.
 void inline_caption(const char* words, float place);
 
+// Text in lines of that width, broken at spaces: a comma stays with its word, an extension with its file's
+// name. Words that are wider break where they must.
+void wrapped_text(const std::string& words, float width);
+
+// The same as wide as there is room.
+void wrapped_text(const std::string& words);
+
 // Text in the second rank's colour, wrapped.
 void faint_text(const std::string& words);
 

@@ -15,7 +15,8 @@ namespace {
 constexpr double begins_to_count = 0.03;
 constexpr double counts_in_full = 0.12;
 
-constexpr double largest_strain = 2; // of Hencky
+constexpr double largest_strain = 2;      // of Hencky
+constexpr double most_answered = 5.0 / 3; // of a strain, by its target: more would overshoot
 
 double how_much_counts(double ratio) {
     const double t = std::clamp((ratio - begins_to_count) / (counts_in_full - begins_to_count), 0.0, 1.0);
@@ -101,11 +102,14 @@ Mat3d elastic_target(const Surroundings& surroundings, const Mat3d& gradient, do
     });
     const double thickness = surroundings.thickness;
     const double ratio = (1 - thickness) * poisson + thickness * poisson / (1 - poisson);
-    const double stiffest = std::max(1 - ratio, 1 + (1 + thickness) * ratio);
-    const double kappa = std::max(1.0, 0.6 * stiffest);
-    const Mat3d stress =
-        (1 - ratio) * strain + ratio * strain.trace() * (Mat3d::Identity() - surroundings.open);
-    return of_eigenvalues(strain - stress / kappa, [](double value) { return std::expm1(value); });
+    const double of_shape = 1 - ratio, of_size = 1 + (1 + thickness) * ratio; // M has no other eigenvalues
+    const double loose = surroundings.looseness, stiffest = std::max(of_shape, of_size);
+    const double scale = std::min(1 / (1 + loose), most_answered / (stiffest * (1 + loose * most_answered)));
+    const auto answer = [&](double stiffness) { return scale * stiffness / (1 - scale * loose * stiffness); };
+    const double shape = answer(of_shape), size = answer(of_size);
+    const Mat3d answered = shape * strain + (size - shape) / (2 + thickness) * strain.trace() *
+                                                (Mat3d::Identity() - surroundings.open);
+    return of_eigenvalues(strain - answered, [](double value) { return std::expm1(value); });
 }
 
 Mat3d stretch_of(const Mat3d& gradient) {

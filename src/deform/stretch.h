@@ -16,10 +16,21 @@
 // elongation along, both as logarithms, of a strip that is pulled and free at its sides (σ = 0 across). The
 // iteration pulls every edge towards R S e_ij with
 //
-//     S = exp(h - σ/κ),
+//     S = exp(h - a σ),
 //
 // so that its residual F - R S stands for the stress, and a shape in which nothing is pulled any more has
-// σ = 0, whatever κ is; κ ≥ 1 only keeps the steps from overshooting. For ν = 0 it is S = I: Equation (2).
+// σ = 0, whatever a is; a ≤ 1 only keeps the steps from overshooting. For ν = 0 it is S = I: Equation (2).
+//
+// Edges between points that lie by chance lean to one side, Σ_j w_ij e_ij ≠ 0. A stress H - S, the same
+// everywhere, then makes forces (H - S) Σ w e, to which samples give way: as a whole, edges resist the strain
+// H by (1 - c)(H - S) only, and what a sample sees of it is h = H - c (H - S), where c is the part of Σ w
+// |e|² that gives way. With M for what makes σ of h above and λ = c/(1 - c) the whole obeys M (I + λM)⁻¹ in
+// the place of M: a ratio of ν/(1 + λ(1 - ν²)) on a surface, .36 instead of .49 of points anywhere. So it is
+//
+//     S = exp(h - a M (I - a λM)⁻¹ h),
+//
+// which makes the whole obey a M; a = 1/(1 + λ), as S = I does, or less where h is answered by more than 5/3
+// of it.
 
 #include "base/types.h"
 
@@ -30,6 +41,7 @@ struct Surroundings {
     Mat3d inverse = Mat3d::Zero();  // Σ⁺
     Mat3d open = Mat3d::Identity(); // I - Σ Σ⁺, symmetric
     double thickness = 0;           // 0: a surface or a wire, 1: a solid
+    double looseness = 0;           // λ ≥ 0, below: 0 where edges give way as one
 };
 
 // Of Σ. A direction counts as determined where the spread along it is comparable with the largest, and

@@ -134,5 +134,25 @@ TEST(StretchOf, TakesWhatIsFlattenedToALineOrAPoint) {
     }
 }
 
+// A sample sees h = H - c (H - S) of the strain H of the whole, which resists by (1 - c) (H - S): Hooke's law
+// of H.
+TEST(ElasticTarget, OfLooseEdgesMakesTheWholeObey) {
+    for (const double poisson : {-0.7, 0.3, 0.49})
+        for (const double part : {0.0, 0.1, 0.3}) {
+            SCOPED_TRACE(std::to_string(poisson) + ", " + std::to_string(part));
+            Surroundings surface = surroundings_of(Vec3d(1, 1, 0).asDiagonal());
+            surface.looseness = part / (1 - part);
+            const Mat3d whole = Vec3d(1e-4, 0.3e-4, 0).asDiagonal();
+            Mat3d target = Mat3d::Zero();
+            for (int step = 0; step < 200; ++step)
+                target = elastic_target(surface, whole - part * (whole - target), poisson);
+            const Mat3d resisted = (1 - part) * (whole - target);
+            const double along = whole(0, 0) + poisson * whole(1, 1),
+                         across = whole(1, 1) + poisson * whole(0, 0);
+            EXPECT_NEAR(resisted(1, 1) / resisted(0, 0), across / along, 1e-3);
+            EXPECT_GT(resisted(0, 0), 0);
+        }
+}
+
 } // namespace
 } // namespace knead

@@ -210,8 +210,10 @@ void add_replay(CLI::App& app, Job& job) {
         "A folder for a picture of every frame of the drags, and of every shape that settled");
     declare_picture_options(*command, arguments->pictures.look);
     command->callback([arguments, command, &job] {
-        if (!arguments->pictures.wanted()) refuse_picture_options(*command);
-        job = [arguments](Terminal& terminal) { return run_replay(*arguments, terminal); };
+        job = [arguments, command](Terminal& terminal) {
+            if (!arguments->pictures.wanted()) refuse_picture_options(*command);
+            return run_replay(*arguments, terminal);
+        };
     });
 }
 

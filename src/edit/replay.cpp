@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 namespace knead {
 
@@ -315,7 +316,7 @@ private:
             const auto* check = std::get_if<CheckLine>(&line.action);
             if (!check || !is_recorded_name(check->positions)) file.write(line.text + "\n");
         }
-        put_checks_up_to(no_index);
+        put_checks_up_to(std::numeric_limits<std::size_t>::max());
     }
 
     void measure_extent(Document& document) {

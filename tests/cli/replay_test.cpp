@@ -170,8 +170,9 @@ TEST_F(Replay, TakesSamplesAndSettingsFromTheCommandLine) {
 
 TEST_F(Replay, ADryRunComputesAndWritesNothing) {
     session(edit);
-    const Outcome outcome = replay({"--dry-run", "--out", "out.ply"});
+    const Outcome outcome = replay({"--dry-run", "--out", "out.ply", "--frames", "frames"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("so not used: --out, --frames"), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.out, "");
     EXPECT_FALSE(std::filesystem::exists(folder / "out.ply"));
     session(edit + foot);
@@ -191,6 +192,7 @@ TEST_F(Replay, RefusesWrongArgumentsWithTwo) {
     expect_failure(2, "", {"--no-such-option"});
     for (const char* option : {"--out", "--cloud", "--samples", "--set", "--device", "--picture", "--frames"})
         expect_failure(2, option, {option, ""}); // as a script has it whose variable is not set
+    expect_failure(2, "--view", {"--view", "front"}); // no picture is asked for
     EXPECT_EQ(run_knead({"replay"}).code, 2);
     EXPECT_EQ(run_knead({}).code, 2);
     EXPECT_EQ(run_knead({"--help"}).code, 0);

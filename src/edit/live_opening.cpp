@@ -50,15 +50,31 @@ PointCloud cloud_to_open(const OpenRequest& request, Session& session, Progress&
     return cloud;
 }
 
+namespace {
+
+// One for each kind of line, so that none is forgotten.
+struct ActOnDocument {
+    Document& document;
+    const std::string& place;
+    Progress& progress;
+
+    void operator()(const HandleLine& line) const { document.declare(line, place); }
+    void operator()(const DragLine& line) const { document.drag(line, place, progress); }
+    void operator()(const SettleLine& line) const { document.settle(line, progress); }
+    void operator()(const CommitLine& /*line*/) const { document.commit(progress); }
+    void operator()(const SetLine& line) const { document.change_settings(line.change, place); }
+    void operator()(const DeleteLine& line) const { document.remove(line, place); }
+    void operator()(const RenameLine& line) const { document.rename(line, place); }
+    void operator()(const CheckLine& /*line*/) const {}
+    void operator()(const UndoLine& /*line*/) const { document.undo(place); }
+    void operator()(const RedoLine& /*line*/) const { document.redo(place); }
+};
+
+} // namespace
+
 void carry_out_act(Document& document, const SessionAction& action, const std::string& place,
                    Progress& progress) {
-    if (const auto* line = std::get_if<HandleLine>(&action)) document.declare(*line, place);
-    if (const auto* line = std::get_if<DragLine>(&action)) document.drag(*line, place, progress);
-    if (const auto* line = std::get_if<SettleLine>(&action)) document.settle(*line, progress);
-    if (std::holds_alternative<CommitLine>(action)) document.commit(progress);
-    if (const auto* line = std::get_if<SetLine>(&action)) document.change_settings(line->change, place);
-    if (const auto* line = std::get_if<DeleteLine>(&action)) document.remove(*line, place);
-    if (const auto* line = std::get_if<RenameLine>(&action)) document.rename(*line, place);
+    std::visit(ActOnDocument{document, place, progress}, action);
 }
 
 void replay_session(const Session& session, Document& document, LiveRecording& recording,

@@ -20,7 +20,7 @@ PointCloud cloud_to_open(const OpenRequest& request, Session& session, Progress&
 // known of what that journal recorded.
 void refuse_changed_cloud(const std::filesystem::path& cloud, const std::filesystem::path& journal);
 
-// Any act but undo and redo; a check is none. Throws what the document throws.
+// A check is no act. Throws what the document throws.
 void carry_out_act(Document& document, const SessionAction& action, const std::string& place,
                    Progress& progress);
 

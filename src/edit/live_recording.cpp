@@ -34,20 +34,30 @@ std::filesystem::path relative_to(const std::filesystem::path& path, const std::
     return real.lexically_relative(std::filesystem::weakly_canonical(folder, ignored));
 }
 
-std::string words_about(const SessionAction& act) {
-    const auto quoted = [](const std::string& name) { return "\"" + name + "\""; };
-    if (const auto* line = std::get_if<HandleLine>(&act)) {
-        const char* role = line->role == HandleRole::moving  ? "moving handle "
-                           : line->role == HandleRole::fixed ? "fixed handle "
-                                                             : "region of interest ";
-        return role + quoted(line->name);
-    }
-    if (const auto* line = std::get_if<DragLine>(&act)) return quoted(line->handle) + " posed";
-    if (const auto* line = std::get_if<DeleteLine>(&act)) return quoted(line->handle) + " deleted";
-    if (const auto* line = std::get_if<RenameLine>(&act))
-        return quoted(line->handle) + " is now " + quoted(line->to);
-    return std::holds_alternative<SetLine>(act) ? "settings changed" : "pose committed";
+std::string quoted(const std::string& name) {
+    return "\"" + name + "\"";
 }
+
+// What an act did, in a few words: one for each kind of line, so that none is forgotten.
+struct WordsAboutAct {
+    std::string operator()(const HandleLine& line) const {
+        const char* role = line.role == HandleRole::moving  ? "moving handle "
+                           : line.role == HandleRole::fixed ? "fixed handle "
+                                                            : "region of interest ";
+        return role + quoted(line.name);
+    }
+    std::string operator()(const DragLine& line) const { return quoted(line.handle) + " posed"; }
+    std::string operator()(const SettleLine& /*line*/) const { return "settled"; }
+    std::string operator()(const CommitLine& /*line*/) const { return "pose committed"; }
+    std::string operator()(const SetLine& /*line*/) const { return "settings changed"; }
+    std::string operator()(const DeleteLine& line) const { return quoted(line.handle) + " deleted"; }
+    std::string operator()(const RenameLine& line) const {
+        return quoted(line.handle) + " is now " + quoted(line.to);
+    }
+    std::string operator()(const CheckLine& /*line*/) const { return {}; } // no acts
+    std::string operator()(const UndoLine& /*line*/) const { return {}; }
+    std::string operator()(const RedoLine& /*line*/) const { return {}; }
+};
 
 template<typename Acts>
 std::size_t count_steps(const Acts& acts) {
@@ -141,7 +151,8 @@ void LiveRecording::make_room() {
 
 LiveRecording::Coming LiveRecording::coming(SessionAction act, bool joins_step) {
     make_room();
-    Act made{joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), 0, words_about(act)};
+    Act made{joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), 0,
+             std::visit(WordsAboutAct{}, act)};
     return {std::move(act), std::move(made)};
 }
 

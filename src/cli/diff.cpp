@@ -99,8 +99,10 @@ void print(const Difference& difference, std::ostream& out) {
     if (difference.distances.largest > 0) out << "  at point " << difference.distances.largest_index;
     out << '\n';
     if (difference.distances.incomparable > 0)
-        line("incomparable") << ' ' << difference.distances.incomparable
-                             << " points, not finite in one of the clouds or otherwise in each\n";
+        line("incomparable")
+            << ' ' << difference.distances.incomparable
+            << " points, not finite in one of the clouds or otherwise in each; the first is point "
+            << difference.distances.first_incomparable << '\n';
     if (difference.attributes.none()) line("attributes") << "all equal\n";
     for (const AttributeDifference& each : difference.attributes.differ)
         print(each, line("differs") << each.name << ": ");

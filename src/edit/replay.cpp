@@ -22,6 +22,19 @@ std::string short_number(double value) {
     return text;
 }
 
+std::string exact_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return text;
+}
+
+// "0.002 D from it, allowed are 0.001 D": with as many digits as it takes to see that it is more.
+std::string words_beyond(double distance, double allowed, const std::string& from) {
+    const bool differs = short_number(distance) != short_number(allowed);
+    const auto number = [&](double value) { return differs ? short_number(value) : exact_number(value); };
+    return number(distance) + from + ", allowed are " + number(allowed) + " D";
+}
+
 // What a `set` line changes where these overrides win. A key that the line does not have stays away: a line
 // that is allowed while handles are posed must not become one that is not.
 SettingsChange overridden(SettingsChange line, const SettingsChange& overrides) {
@@ -217,10 +230,12 @@ private:
             const double diagonal = document.bounds().diagonal();
             result.distance = diagonal > 0 ? distances.largest / diagonal : distances.largest;
             result.held = distances.incomparable == 0 && *result.distance <= line.tolerance;
-            if (!result.held)
+            if (distances.incomparable > 0)
+                result.words = "point " + std::to_string(distances.first_incomparable) +
+                               " is not finite in one of the two, the cloud and " + path.string();
+            else if (!result.held)
                 result.words = "point " + std::to_string(distances.largest_index) + " lies " +
-                               short_number(*result.distance) + " D from " + path.string() +
-                               ", allowed are " + short_number(line.tolerance) + " D";
+                               words_beyond(*result.distance, line.tolerance, " D from " + path.string());
         }
         report_.checks.push_back(std::move(result));
     }

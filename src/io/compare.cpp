@@ -34,7 +34,10 @@ Distances distances(std::size_t points, const Position& position, const PointClo
     double sum = 0;
     for (std::size_t i = 0; i < points; ++i) {
         const auto d = distance(position(i), other.file_position(i));
-        if (!d) continue;
+        if (!d) {
+            if (result.incomparable++ == 0) result.first_incomparable = i;
+            continue;
+        }
         all.push_back(*d);
         sum += *d * *d;
         if (*d > result.largest) {
@@ -43,7 +46,6 @@ Distances distances(std::size_t points, const Position& position, const PointClo
         }
     }
     result.compared = all.size();
-    result.incomparable = points - all.size();
     if (all.empty()) return result;
     result.rms = std::sqrt(sum / static_cast<double>(all.size()));
     // The nearest rank: the smallest distance that at least 95 % do not exceed.

@@ -18,6 +18,7 @@ struct Distances {
     std::size_t largest_index = 0; // the first of the farthest points; 0 where nothing was compared
     std::size_t compared = 0;
     std::size_t incomparable = 0;
+    std::size_t first_incomparable = 0; // of these
 };
 
 // Both clouds have the same number of points; their files' own coordinates are compared, in double.

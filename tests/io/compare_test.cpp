@@ -42,6 +42,7 @@ TEST(Compare, counts_points_that_are_finite_in_one_cloud_only) {
     const PointCloud b = make_cloud(std::vector<float>{nan, 2, 3, nan, 5, 6, nan, 2, 1});
     const Distances distances = distances_between(a, b);
     EXPECT_EQ(distances.incomparable, 2U);
+    EXPECT_EQ(distances.first_incomparable, 0U);
     EXPECT_EQ(distances.compared, 1U);
     EXPECT_EQ(distances.largest, 0);
 }

@@ -25,7 +25,7 @@
 // everywhere, then makes forces (H - S) Σ w e, to which samples give way: as a whole, edges resist the strain
 // H by (1 - c)(H - S) only, and what a sample sees of it is h = H - c (H - S), where c is the part of Σ w
 // |e|² that gives way. With M for what makes σ of h above and λ = c/(1 - c) the whole obeys M (I + λM)⁻¹ in
-// the place of M: a ratio of ν/(1 + λ(1 - ν²)) on a surface, .36 instead of .49 of points anywhere. So it is
+// the place of M: a ratio of ν/(1 + λ(1 - ν²)) on a surface. So it is
 //
 //     S = exp(h - a M (I - a λM)⁻¹ h),
 //

@@ -1,6 +1,7 @@
 #include "edit/document.h"
 
 #include "base/error.h"
+#include "base/quoted.h"
 #include "base/stopwatch.h"
 #include "cloud/splats.h"
 
@@ -10,10 +11,6 @@
 namespace knead {
 
 namespace {
-
-std::string quoted(const std::string& name) {
-    return "\"" + name + "\"";
-}
 
 // In a rehearsal nobody knows which points a region is after a commit. One point, twice, stands for them: no
 // list of points has any twice.

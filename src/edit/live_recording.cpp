@@ -1,6 +1,7 @@
 #include "edit/live_recording.h"
 
 #include "base/error.h"
+#include "base/quoted.h"
 #include "base/whole_file.h"
 
 #include <algorithm>
@@ -32,10 +33,6 @@ std::filesystem::path relative_to(const std::filesystem::path& path, const std::
     if (are_one_file(folder / way, path)) return way;
     const std::filesystem::path real = std::filesystem::weakly_canonical(path, ignored);
     return real.lexically_relative(std::filesystem::weakly_canonical(folder, ignored));
-}
-
-std::string quoted(const std::string& name) {
-    return "\"" + name + "\"";
 }
 
 // What an act did, in a few words: one for each kind of line, so that none is forgotten.

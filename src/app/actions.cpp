@@ -251,7 +251,7 @@ const Action handle_actions[] = {
     {"Handles", "Local axes", ",", "The gizmo's axes turn with the handle", on(','),
      [](const Ui& ui) { ui.wish(WishLocalAxes{!ui.editor.local_axes}); }, cloud_is_open,
      [](const Ui& ui) { return ui.editor.local_axes; }, true},
-    {"Handles", "Move the pivot", ".", "The gizmo's arrows move the point that the handle turns about",
+    {"Handles", "Move the pivot", ".", "The gizmo's arrows and G move the point that the handle turns about, and not the handle",
      on('.'), [](const Ui& ui) { ui.wish(WishMovePivot{!ui.editor.tools.move_pivot}); },
      moving_handle_is_chosen, [](const Ui& ui) { return ui.editor.tools.move_pivot; }},
     {"Handles", "Pivot to the middle", "Alt+.", "Puts the pivot into the middle of the handle", on('.', alt),

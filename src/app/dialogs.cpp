@@ -6,7 +6,10 @@
 #include "edit/known_files.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <optional>
+#include <span>
 #include <string_view>
 
 namespace knead {
@@ -32,6 +35,29 @@ bool pressed(ImGuiKey key) {
     return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
 }
 
+// A row of answers, one of which is lit: Enter gives that one, Tab and the arrows light another. Returns the
+// number of the one that is given.
+std::optional<int> answers(std::span<const char* const> labels, int lit_first = 0) {
+    const auto count = static_cast<int>(labels.size());
+    int& lit = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("lit"), lit_first);
+    if (ImGui::IsWindowAppearing()) lit = lit_first;
+    const auto goes = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
+    const bool tab = goes(ImGuiKey_Tab), back = ImGui::GetIO().KeyShift;
+    if (goes(ImGuiKey_RightArrow) || (tab && !back)) lit = (lit + 1) % count;
+    if (goes(ImGuiKey_LeftArrow) || (tab && back)) lit = (lit + count - 1) % count;
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float room = ImGui::GetContentRegionAvail().x - gap * static_cast<float>(count - 1);
+    std::optional<int> given;
+    for (int number = 0; number < count; ++number) {
+        if (number > 0) ImGui::SameLine();
+        const char* label = labels[static_cast<std::size_t>(number)];
+        const ImVec2 size(room / static_cast<float>(count), 0);
+        if (number == lit ? main_button(label, size) : ImGui::Button(label, size)) given = number;
+    }
+    if (!given && (pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter))) given = lit;
+    return given;
+}
+
 std::string what_is_unsaved(const Editor& editor) {
     const std::filesystem::path session = editor.document->session.filename();
     if (session.empty())
@@ -50,23 +76,16 @@ void unsaved_question(const Ui& ui) {
     ImGui::Dummy({0, ui.scaled(8)});
     AfterSaving& after = ui.state.after;
     const char* save = ui.editor.document->session.empty() ? "Save session…" : "Save session";
-    const float gap = ImGui::GetStyle().ItemSpacing.x;
-    const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
-    if (main_button(save, {width, 0}) || pressed(ImGuiKey_Enter)) {
+    const std::optional<int> answer = answers(std::array{save, "Discard", "Cancel"});
+    if (answer == 0) {
         after.waiting_for_save = true;
         ui.wish(WishSaveSession{});
-        ImGui::CloseCurrentPopup();
-    }
-    ImGui::SameLine();
-    if (ImGui::Button("Discard", {width, 0})) {
-        if (after.then) ui.wish(WishDiscard{});
-        ImGui::CloseCurrentPopup();
-    }
-    ImGui::SameLine();
-    if (ImGui::Button("Cancel", {width, 0}) || pressed(ImGuiKey_Escape)) {
+    } else if (answer == 1 && after.then) {
+        ui.wish(WishDiscard{});
+    } else if (answer == 2 || pressed(ImGuiKey_Escape)) {
         after = {};
-        ImGui::CloseCurrentPopup();
     }
+    if (answer || pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 
@@ -104,17 +123,15 @@ void overwriting_question(const Ui& ui) {
     wrapped_text(target->file);
     faint_text(words.what_is_lost);
     ImGui::Dummy({0, ui.scaled(8)});
-    const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-    if (ImGui::Button(words.go_on, {width, 0})) {
+    const std::optional<int> answer = answers(std::array{words.go_on, words.elsewhere}, 1);
+    const bool gives_up = !answer && pressed(ImGuiKey_Escape);
+    if (answer == 0) {
         target->ask = false;
         ui.wish(*target);
-        target.reset();
-        ImGui::CloseCurrentPopup();
+    } else if (answer == 1 || (gives_up && !target->anyway)) {
+        ui.wish(WishBrowse{target->purpose});
     }
-    ImGui::SameLine();
-    const bool gives_up = pressed(ImGuiKey_Escape);
-    if (main_button(words.elsewhere, {width, 0}) || pressed(ImGuiKey_Enter) || gives_up) {
-        if (target && !(gives_up && target->anyway)) ui.wish(WishBrowse{target->purpose});
+    if (answer || gives_up) {
         target.reset();
         ImGui::CloseCurrentPopup();
     }
@@ -148,16 +165,12 @@ void cloud_question(const Ui& ui) {
     faint_text("Choose the cloud as it was when the session began: where that file is now, or a copy of it. "
                "Poses are put on top of whatever is chosen.");
     ImGui::Dummy({0, ui.scaled(8)});
-    const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-    if (main_button("Choose the cloud…", {width, 0}) || pressed(ImGuiKey_Enter)) {
+    const std::optional<int> answer = answers(std::array{"Choose the cloud…", "Cancel"});
+    if (answer == 0)
         ui.wish(WishBrowse{BrowseFor::cloud_of_session});
-        ImGui::CloseCurrentPopup();
-    }
-    ImGui::SameLine();
-    if (ImGui::Button("Cancel", {width, 0}) || pressed(ImGuiKey_Escape)) {
+    else if (answer == 1 || pressed(ImGuiKey_Escape))
         session.reset();
-        ImGui::CloseCurrentPopup();
-    }
+    if (answer || !session) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 
@@ -174,14 +187,9 @@ void deleting_question(const Ui& ui) {
     const std::string file = (work->session.empty() ? work->cloud : work->session).filename().string();
     wrapped_text((counted(work->steps, "recorded step") + " on " + file + " will be gone for good."));
     ImGui::Dummy({0, ui.scaled(8)});
-    const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
-    if (ImGui::Button("Delete", {width, 0})) {
-        ui.wish(WishDeleteLost{*work});
-        work.reset();
-        ImGui::CloseCurrentPopup();
-    }
-    ImGui::SameLine();
-    if (main_button("Keep", {width, 0}) || pressed(ImGuiKey_Enter) || pressed(ImGuiKey_Escape)) {
+    const std::optional<int> answer = answers(std::array{"Delete", "Keep"}, 1);
+    if (answer == 0) ui.wish(WishDeleteLost{*work});
+    if (answer || pressed(ImGuiKey_Escape)) {
         work.reset();
         ImGui::CloseCurrentPopup();
     }

@@ -20,10 +20,11 @@ void bar(const Ui& ui, double fraction) {
     ImGui::Dummy({width, height});
 }
 
-void begin_card(const Ui& ui, const char* id, float width, float down) {
+// At a part of the view's width and height; there its own same part lies.
+void begin_card(const Ui& ui, const char* id, float width, ImVec2 part) {
     const Rectangle& view = ui.state.view;
-    ImGui::SetNextWindowPos({view.x + view.width / 2, view.y + view.height * down}, ImGuiCond_Always,
-                            {0.5f, down});
+    const ImVec2 place(view.x + view.width * part.x, view.y + view.height * part.y);
+    ImGui::SetNextWindowPos(place, ImGuiCond_Always, part);
     ImGui::SetNextWindowSize({std::min(ui.scaled(width), view.width * 0.95f), 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.scaled(20), ui.scaled(16)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.scaled(8));
@@ -53,7 +54,7 @@ void draw_opening(const Ui& ui) {
     if (ui.editor.opening) {
         const LiveDocument::Status status = ui.editor.opening->status();
         const OpenRequest& request = ui.editor.opening_request;
-        begin_card(ui, "opening", 400, 0.5f);
+        begin_card(ui, "opening", 400, {0.5f, 0.5f});
         ImGui::TextUnformatted(
             ((request.restore ? "Restoring " : "Opening ") + request.file.filename().string()).c_str());
         bar(ui, status.fraction);
@@ -72,7 +73,7 @@ void draw_opening(const Ui& ui) {
         return;
     }
     if (ImGui::GetTime() - state.long_stage_since < 0.25) return;
-    begin_card(ui, "stage", 300, 0.97f);
+    begin_card(ui, "stage", 300, {0.5f, 0.97f});
     faint_text(sentence(status.doing));
     bar(ui, status.fraction);
     const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
@@ -84,7 +85,8 @@ void draw_recovery(const Ui& ui) {
     ui.state.recovery_end = 0;
     if (ui.state.lost.empty() || ui.editor.opening) return;
     const LostWork work = ui.state.lost.front();
-    begin_card(ui, "recovery", 480, 0.04f);
+    // Out of the way of what is open.
+    begin_card(ui, "recovery", ui.has_cloud() ? 390 : 480, {ui.has_cloud() ? 0.02f : 0.5f, 0.04f});
     const ImVec2 at = ImGui::GetCursorScreenPos();
     draw_icon(*ImGui::GetWindowDrawList(), Icon::warning, {at.x + ui.scaled(9), at.y + ui.scaled(9)},
               ui.scaled(18), palette::warning);

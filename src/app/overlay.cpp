@@ -51,7 +51,8 @@ void draw_gizmo(const Ui& ui, ImDrawList& list) {
     const std::optional<Gizmo> gizmo = gizmo_of(ui.editor);
     if (!gizmo) return;
     const Tools& tools = ui.editor.tools;
-    if (tools.drag && tools.modal) return; // the constraint's line says it all
+    // Of a handle the constraint's line says it all.
+    if (tools.drag && tools.modal && !tools.drags_pivot) return;
     std::vector<GizmoShape> shapes = gizmo_shapes(*gizmo, ui.editor.camera, ui.editor.viewport);
     std::stable_sort(shapes.begin(), shapes.end(),
                      [](const GizmoShape& a, const GizmoShape& b) { return a.depth > b.depth; });

@@ -50,7 +50,7 @@ struct Tools {
     bool through = false;
     Orbiting orbiting = Orbiting::turntable;
     double brush_radius = 24; // pixels, changed by [ and ]
-    bool move_pivot = false;  // dragging the gizmo's arrows moves the pivot instead of the handle
+    bool move_pivot = false;  // the gizmo's arrows and G move the pivot instead of the handle
 
     enum class Doing { nothing, orbiting, panning, selecting, transforming, zooming } doing = Doing::nothing;
     glm::dvec2 cursor{0.0}, pressed{0.0};

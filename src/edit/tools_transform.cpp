@@ -37,18 +37,16 @@ void finish(Tools& tools) {
     tools.hovered.reset();
 }
 
-} // namespace
-
-void begin_drag(const Hand& hand, const GizmoPart& part, bool modal) {
+void begin_drag_at(const Hand& hand, const glm::dvec3& center, const GizmoPart& part, bool modal) {
     Tools& tools = hand.tools;
     const Gizmo& gizmo = *hand.context.gizmo;
     const glm::dquat& own = gizmo.local ? gizmo.axes : hand.context.local_axes;
     tools.doing = Tools::Doing::transforming;
     tools.modal = modal;
     tools.orbiting_in_drag = false;
-    tools.drags_pivot = tools.move_pivot && !modal && part.kind == TransformKind::translate;
-    tools.drag = begin_transform(part.kind, gizmo.center, own, tools.cursor, hand.context.camera,
-                                 hand.context.viewport);
+    tools.drags_pivot = tools.move_pivot && part.kind == TransformKind::translate;
+    tools.drag =
+        begin_transform(part.kind, center, own, tools.cursor, hand.context.camera, hand.context.viewport);
     tools.drag->constraint = part.constraint;
     tools.drag->own_first = gizmo.local;
     tools.sent = transform_of(*tools.drag);
@@ -56,7 +54,13 @@ void begin_drag(const Hand& hand, const GizmoPart& part, bool modal) {
         tools.hovered.reset();
     else
         tools.hovered = part;
-    if (!tools.drags_pivot) hand.tell(BeginDrag{gizmo.center});
+    if (!tools.drags_pivot) hand.tell(BeginDrag{center});
+}
+
+} // namespace
+
+void begin_drag(const Hand& hand, const GizmoPart& part, bool modal) {
+    begin_drag_at(hand, hand.context.gizmo->center, part, modal);
 }
 
 void drag_to_cursor(const Hand& hand, glm::dvec2 cursor, Modifiers held) {
@@ -102,6 +106,11 @@ void go_on_as(const Hand& hand, TransformKind kind) {
     const Gizmo& gizmo = *hand.context.gizmo;
     if (drag.kind == kind) return;
     if (!has_effect(gizmo, kind)) return hand.tell(RefuseTransform{kind});
+    if (hand.tools.move_pivot) { // from the pivot to the handle, or the other way round
+        const glm::dvec3 center = drag.pivot;
+        cancel_drag(hand.tools, hand.commands);
+        return begin_drag_at(hand, center, {kind, {}}, true);
+    }
     drag = begin_transform(kind, drag.pivot, drag.local_axes, hand.tools.cursor, hand.context.camera,
                            hand.context.viewport);
     drag.own_first = gizmo.local;

@@ -22,7 +22,7 @@ constexpr double grid_pixels = 20;       // a step of the grid is about as long 
 constexpr double pixels_per_radian = 90; // across an axis that lies in the screen
 constexpr double facing_enough = 0.15;   // cosine from which on an axis is turned like a dial
 constexpr double dead_pixels = 2;        // around the pivot, where the cursor has no angle
-constexpr double farthest_shift = 100;   // in distances of the pivot; the horizon is farther
+constexpr double farthest_shift = 20;    // in ways of the hand; the horizon is farther
 constexpr double end_on = 0.1;           // sine of the angle to the view below which an axis has no direction
 constexpr double edge_on = 0.05;         // cosine … below which a plane has no area
 constexpr std::size_t longest_number = 12; // characters
@@ -84,7 +84,7 @@ double shift_along(const TransformDrag& drag, const Grip& grip, const glm::dvec3
     const glm::dvec3 from_eye = drag.pivot - ray.origin;
     const double b = glm::dot(ray.direction, axis);
     const double sine = 1 - b * b;
-    const double limit = farthest_shift * drag.camera.distance;
+    const double limit = farthest_shift * glm::length(way) * grip.pixel;
     const double along = sine > 1e-12
                              ? (b * glm::dot(ray.direction, from_eye) - glm::dot(axis, from_eye)) / sine
                              : (end > 0 ? limit : -limit);
@@ -101,13 +101,14 @@ glm::dvec3 shift_in_plane(const TransformDrag& drag, const Grip& grip, const glm
     if (std::abs(glm::dot(at_pivot.direction, normal)) < edge_on)
         return free - glm::dot(free, normal) * normal;
     const Ray ray = ray_through(drag.camera, drag.viewport, grip.pivot + way);
-    const double limit = farthest_shift * drag.camera.distance;
-    const double towards = glm::dot(ray.direction, normal);
-    double distance = glm::dot(drag.pivot - ray.origin, normal) / towards;
-    // Above the horizon the ray meets the plane nowhere, or behind the eye.
-    if (!(distance < limit) || (!drag.camera.orthographic && distance <= 0)) distance = limit;
-    const glm::dvec3 shift = ray.origin + distance * ray.direction - drag.pivot;
-    return shift - glm::dot(shift, normal) * normal;
+    const double distance = glm::dot(drag.pivot - ray.origin, normal) / glm::dot(ray.direction, normal);
+    // Above the horizon the ray meets the plane nowhere, or behind the eye; below it very far away.
+    const bool meets = std::isfinite(distance) && (drag.camera.orthographic || distance > 0);
+    const glm::dvec3 there = meets ? ray.origin + distance * ray.direction - drag.pivot : ray.direction;
+    const glm::dvec3 shift = there - glm::dot(there, normal) * normal;
+    const double limit = farthest_shift * glm::length(way) * grip.pixel, length = glm::length(shift);
+    const bool is_there = length == 0 || (meets && length <= limit);
+    return is_there ? shift : shift * (limit / length);
 }
 
 glm::dvec3 shift_by_cursor(const TransformDrag& drag) {

@@ -250,6 +250,28 @@ TEST(MoveTools, TheArrowsCanMoveThePivot) {
     EXPECT_TRUE(bench.all<BeginDrag>().empty());
 }
 
+TEST(MoveTools, TheKeyMovesThePivotWhereTheArrowsDo) {
+    Bench bench;
+    bench.add_gizmo();
+    bench.tools.move_pivot = true;
+    bench.move(middle);
+    bench.hit('G');
+    bench.move(middle + glm::dvec2(20, 0));
+    ASSERT_TRUE(bench.only<SetPivot>().pivot);
+    EXPECT_TRUE(near(*bench.only<SetPivot>().pivot, {20 * bench.pixel(), 0, 0}, 1e-9));
+    EXPECT_TRUE(bench.all<BeginDrag>().empty()) << "the handle stays";
+    bench.hit('R');
+    EXPECT_EQ(bench.all<SetPivot>().back().stage, SetPivot::Stage::given_up);
+    EXPECT_EQ(bench.only<BeginDrag>().pivot, glm::dvec3(0.0)) << "it turns about where the pivot was";
+    EXPECT_FALSE(bench.tools.drags_pivot);
+    bench.hit('G');
+    EXPECT_EQ(bench.all<CancelDrag>().size(), 1U);
+    bench.move(middle + glm::dvec2(30, 0));
+    bench.hit(Key::enter);
+    EXPECT_EQ(bench.all<SetPivot>().back().stage, SetPivot::Stage::set);
+    EXPECT_TRUE(near(*bench.all<SetPivot>().back().pivot, {10 * bench.pixel(), 0, 0}, 1e-9));
+}
+
 TEST(MoveTools, AFreshNumberCanBeTypedInAGizmosDrag) {
     Bench bench;
     bench.add_gizmo();

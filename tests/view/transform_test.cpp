@@ -124,6 +124,26 @@ TEST(Translating, NeverFlipsBeyondTheVanishingPoint) {
     EXPECT_TRUE(std::isfinite(glm::length(transform_of(drag).shift)));
 }
 
+// A few pixels more and the cursor points at the sky: the handle is not to be gone by then.
+TEST(Translating, GoesNoFartherThanTwentyTimesTheHandNearTheHorizon) {
+    for (const double height : {10.0, 20.0, 60.0}) {
+        Camera camera = camera_from(Side::front);
+        orbit(camera, Orbiting::turntable, {0, height}, screen);
+        TransformDrag drag =
+            begin_transform(TransformKind::translate, {0, 0, 0}, {1, 0, 0, 0}, middle, camera, screen);
+        drag.constraint = {Constraint::Kind::plane, 2, false};
+        const double pixel = pixel_size_at(camera, screen, drag.pivot);
+        double before = 0;
+        for (int way = 1; way < 400; ++way) {
+            follow_cursor(drag, middle - glm::dvec2(0, way), false, camera, screen);
+            const glm::dvec3 shift = transform_of(drag).shift;
+            EXPECT_LE(glm::length(shift), 20.001 * way * pixel);
+            EXPECT_GE(shift.y, before) << "nor ever back";
+            before = shift.y;
+        }
+    }
+}
+
 TEST(Translating, AlongAnAxisSeenEndOnFollowsTheHandUpwards) {
     Scene scene(TransformKind::translate, middle);
     scene.constrain(1); // away from the eye

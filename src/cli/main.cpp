@@ -79,6 +79,16 @@ void refuse_empty_values(CLI::App& app) {
             if (option->get_items_expected_max() > 0) option->check(not_empty);
 }
 
+// "--out=" is such a mistake, too: CLI11 would take the next word for the value. Says so, if there is one.
+bool has_empty_value(const std::vector<std::string>& arguments) {
+    const auto found = std::ranges::find_if(arguments, [](const std::string& word) {
+        return word.starts_with("--") && word.find('=') + 1 == word.size();
+    });
+    if (found == arguments.end()) return false;
+    knead::Terminal().say("knead: " + found->substr(0, found->size() - 1) + ": must not be empty");
+    return true;
+}
+
 // Has each thread of PoCL's stay on a core of its own, unless the user said otherwise: left alone, two that
 // are woken together often share one for a whole frame, which then takes twice as long. They would be
 // numbered from core 0, so all of these have to be ours. Before there is any other thread.
@@ -122,12 +132,14 @@ int main(int argc, char** argv) {
         if (!arguments.empty() && is_missing(arguments.front())) return exit_usage;
         arguments.insert(arguments.begin(), "edit");
     }
+    if (has_empty_value(arguments)) return exit_usage;
     std::ranges::reverse(arguments); // as CLI11 takes them
 
     try {
         app.parse(arguments);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : exit_usage;
+        if (app.exit(error) != 0) return exit_usage;
+        job = [](knead::Terminal& /*of what was asked about the program*/) { return 0; };
     }
     knead::Terminal terminal;
     return run(job, terminal);

@@ -67,7 +67,12 @@ void add_make(CLI::App& app, Job& job) {
     command->add_option("--out", arguments->out, "The file to write: " + known_extensions())
         ->required()
         ->type_name("FILE");
-    command->add_option("--seed", arguments->seed, "Another seed, another cloud of the same shape (1)");
+    command->add_option("--seed", arguments->seed, "Another seed, another cloud of the same shape (1)")
+        ->check(CLI::Validator( // CLI11 would wrap it round
+            [](const std::string& value) {
+                return value.starts_with('-') ? std::string("must not be below 0") : std::string();
+            },
+            ""));
     command->add_option("--noise", arguments->noise,
                         "Standard deviation of the points from the surface, over their mean spacing "
                         "(0; creature 0.3)");

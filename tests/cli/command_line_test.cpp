@@ -21,5 +21,11 @@ TEST(CommandLine, IsTheEditorsWhereItBeginsWithAnOption) {
     EXPECT_TRUE(outcome.err.starts_with("knead: ")) << outcome.err;
 }
 
+TEST(CommandLine, AnOptionWithNothingBehindItsEqualsSignTakesNoOther) {
+    const Outcome outcome = run_knead({"replay", "--out=", "--json", "no-such-session.knead"});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.err, "knead: --out: must not be empty\n");
+}
+
 } // namespace
 } // namespace knead::test

@@ -61,6 +61,7 @@ TEST(Make, RefusesWithWordsAndLeavesNothing) {
     refused({"plane", "--points", "10"}, "--out");
     refused({"plane", "--points", "10", "--out", "a.ply", "--gradient", "0.5"}, "--gradient");
     refused({"plane", "--points", "10", "--out", "a.ply", "--noise", "-1"}, "--noise");
+    refused({"plane", "--points", "10", "--out", "a.ply", "--seed", "-1"}, "--seed");
     refused({"plane", "--points", "10", "--out", "a.ply", "--outliers", "1"}, "--outliers");
 }
 

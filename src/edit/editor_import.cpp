@@ -5,6 +5,7 @@
 #include "edit/cures.h"
 #include "edit/editor_steps.h"
 #include "edit/json_text.h"
+#include "edit/standing_acts.h"
 
 #include <algorithm>
 #include <optional>
@@ -57,31 +58,19 @@ void remove(HandleLines& handles, const std::string& name) {
 
 // Those that stand at the end.
 HandleLines handles_at_end(const Session& session) {
-    std::vector<HandleLines> past{{}}, future; // after each act
-    for (const SessionLine& line : session.lines) {
-        const SessionAction& action = line.action;
-        if (std::holds_alternative<CheckLine>(action)) continue;
-        if (std::holds_alternative<UndoLine>(action) || std::holds_alternative<RedoLine>(action)) {
-            std::vector<HandleLines>& from = std::holds_alternative<UndoLine>(action) ? past : future;
-            std::vector<HandleLines>& to = std::holds_alternative<UndoLine>(action) ? future : past;
-            if (from.size() <= (&from == &past ? 1U : 0U)) continue; // a replay would refuse it
-            to.push_back(std::move(from.back()));
-            from.pop_back();
-            continue;
-        }
-        HandleLines now = past.back();
+    HandleLines handles;
+    for (const StandingAct& act : acts_after(session.lines).done) {
+        const SessionAction& action = act.line->action;
         if (const auto* made = std::get_if<HandleLine>(&action)) {
-            remove(now, made->name);
-            now.push_back({made->name, &line});
+            remove(handles, made->name);
+            handles.push_back({made->name, act.line});
         }
-        if (const auto* gone = std::get_if<DeleteLine>(&action)) remove(now, gone->handle);
+        if (const auto* gone = std::get_if<DeleteLine>(&action)) remove(handles, gone->handle);
         if (const auto* named = std::get_if<RenameLine>(&action))
-            for (NamedLine& handle : now)
+            for (NamedLine& handle : handles)
                 if (handle.name == named->handle) handle.name = named->to;
-        past.push_back(std::move(now));
-        future.clear();
     }
-    return past.back();
+    return handles;
 }
 
 // The lines with points instead of regions, as a recording has them. Throws Error (input).

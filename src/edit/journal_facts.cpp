@@ -1,6 +1,7 @@
 #include "edit/journal_facts.h"
 
 #include "edit/json_text.h"
+#include "edit/standing_acts.h"
 
 #include <nlohmann/json.hpp>
 
@@ -13,40 +14,7 @@ namespace knead {
 
 namespace {
 
-bool is_act(const SessionLine& line) {
-    return !std::holds_alternative<UndoLine>(line.action) && !std::holds_alternative<RedoLine>(line.action) &&
-           !std::holds_alternative<CheckLine>(line.action);
-}
-
-struct Act {
-    std::uint64_t number = 0; // from 1
-    bool settles = false;     // what a drag did, as a part of that
-};
-
-// What lines lead to.
-struct Acts {
-    std::vector<Act> done, undone;
-    std::uint64_t count = 0; // of all that there ever were
-};
-
-Acts acts_after(std::span<const SessionLine> lines, std::size_t count) {
-    Acts acts;
-    const auto move_last = [](std::vector<Act>& from, std::vector<Act>& to) {
-        if (from.empty()) return;
-        to.push_back(from.back());
-        from.pop_back();
-    };
-    for (const SessionLine& line : lines.first(std::min(count, lines.size()))) {
-        if (std::holds_alternative<UndoLine>(line.action)) move_last(acts.done, acts.undone);
-        if (std::holds_alternative<RedoLine>(line.action)) move_last(acts.undone, acts.done);
-        if (!is_act(line)) continue;
-        acts.done.push_back({++acts.count, std::holds_alternative<SettleLine>(line.action)});
-        acts.undone.clear();
-    }
-    return acts;
-}
-
-std::uint64_t last_of(const Acts& acts) {
+std::uint64_t last_of(const StandingActs& acts) {
     return acts.done.empty() ? 0 : acts.done.back().number;
 }
 
@@ -101,14 +69,16 @@ JournalFacts read_journal_facts(const std::filesystem::path& journal) {
 }
 
 std::uint64_t state_after(std::span<const SessionLine> lines, std::size_t count) {
-    return last_of(acts_after(lines, count));
+    return last_of(acts_after(lines.first(std::min(count, lines.size()))));
 }
 
 std::size_t lost_steps(std::span<const SessionLine> lines, std::size_t saved_lines) {
     saved_lines = std::min(saved_lines, lines.size());
-    const Acts saved = acts_after(lines, saved_lines), all = acts_after(lines, lines.size());
+    const StandingActs saved = acts_after(lines.first(saved_lines)), all = acts_after(lines);
     if (saved.count == all.count && last_of(saved) == last_of(all)) return 0;
-    const auto is_new_step = [&](const Act& act) { return act.number > saved.count && !act.settles; };
+    const auto is_new_step = [&](const StandingAct& act) {
+        return act.number > saved.count && !std::holds_alternative<SettleLine>(act.line->action);
+    };
     const auto steps =
         std::ranges::count_if(all.done, is_new_step) + std::ranges::count_if(all.undone, is_new_step);
     return std::max<std::size_t>(1, static_cast<std::size_t>(steps));

@@ -1,6 +1,7 @@
 #include "deform/sample_system.h"
 
 #include "base/require.h"
+#include "deform/looseness.h"
 #include "graph/neighbors.h"
 
 #include <algorithm>
@@ -268,74 +269,6 @@ void find_surroundings(SampleSystem& system, std::size_t row) {
         system.with_points[row] = surroundings_of(spread + rest.energy.spread[i]);
 }
 
-// m = Σ w e / Σ w of each sample; 0 of a leaf, which leans on nothing.
-std::vector<Vec3d> find_lean(const SampleSystem& system, Workers& workers) {
-    const SampleRest& rest = system.rest;
-    std::vector<Vec3d> lean(rest.graph.size(), Vec3d(0, 0, 0));
-    workers.for_each(lean.size(), 256, [&](std::size_t i) {
-        double weight = 0;
-        for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
-            weight += rest.weight[link];
-            lean[i] += system.weighted_edge[link];
-        }
-        if (weight > 0) lean[i] /= weight;
-        if (is_leaf(rest, static_cast<Index>(i))) lean[i].setZero();
-    });
-    return lean;
-}
-
-// How much the links of each sample lean to one side by chance: |m|² Σ w / Σ w |e|², without what its
-// neighbours lean as well, as at a rim. Where one link has nearly all the weight, that says nothing.
-std::vector<double> leaning_of(const SampleSystem& system, Workers& workers) {
-    constexpr double most = 0.5;
-    const SampleRest& rest = system.rest;
-    const std::vector<Vec3d> lean = find_lean(system, workers);
-    std::vector<double> leaning(lean.size());
-    workers.for_each(lean.size(), 256, [&](std::size_t i) {
-        Vec3d around = Vec3d::Zero();
-        double weight = 0, spread = 0, count = 0; // Σ w, Σ w |e|²
-        for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link) {
-            if (is_leaf(rest, rest.graph.neighbor[link])) continue;
-            around += lean[rest.graph.neighbor[link]];
-            weight += rest.weight[link];
-            spread += system.weighted_edge[link].squaredNorm() / rest.weight[link];
-            ++count;
-        }
-        if (!(spread > 0) || is_leaf(rest, static_cast<Index>(i))) return;
-        leaning[i] = std::min(most, (lean[i] - around / count).squaredNorm() * weight / spread);
-    });
-    return leaning;
-}
-
-// λ of every row: c is 3.2 times what a sample and its neighbours lean in the mean, which makes Poisson's
-// ratio of scattered points what is asked for (tests/edit/rubber_test.cpp). Points between samples do not
-// lean: where they have a part in what holds a sample, so much less is left for links, of the forces and of
-// what gives way.
-void find_looseness(SampleSystem& system, Workers& workers) {
-    const SampleRest& rest = system.rest;
-    constexpr double of_leaning = 3.2, most = 0.6;
-    const std::vector<double> leaning = leaning_of(system, workers);
-    workers.for_each(system.free_sample.size(), 256, [&](std::size_t row) {
-        const Index i = system.free_sample[row];
-        double mean = leaning[i], count = 1;
-        for (const Index j : rest.graph.row(i)) {
-            if (is_leaf(rest, j)) continue;
-            mean += leaning[j];
-            ++count;
-        }
-        mean /= count;
-        if (!system.with_points.empty()) {
-            const double of_links = system.spread[row].trace(), of_points = rest.energy.spread[i].trace();
-            const double part = of_links > 0 ? of_links / (of_links + of_points) : 0;
-            mean *= part * part;
-        }
-        const double gives_way = std::min(most, of_leaning * mean);
-        const double looseness = gives_way / (1 - gives_way);
-        system.surroundings[row].looseness = looseness;
-        if (!system.with_points.empty()) system.with_points[row].looseness = looseness;
-    });
-}
-
 // θ, where points have an energy.
 void find_trust(SampleSystem& system) {
     const SampleRest& rest = system.rest;
@@ -407,8 +340,7 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     find_weighted_edges(system, workers);
     const OrderedLaplacian of_moving = order_and_find_surroundings(system, workers);
     find_trust(system);
-    find_looseness(system, workers);
-    set_poisson(system, system.rest.poisson);
+    set_poisson(system, system.rest.poisson, workers);
     system.turn.assign(system.rest.handle.size(), Mat3d::Zero());
     system.free_turn.assign(system.rest.turns_freely.size(), Quatd::Identity());
     system.sides.assign(4 * system.free_sample.size(), 0);
@@ -444,10 +376,11 @@ SystemMatrices system_matrices(const SampleSystem& system) {
             position_matrix(system, laplacian(system, system.moving_rows, &BodyPair::way))};
 }
 
-void set_poisson(SampleSystem& system, double poisson) {
+void set_poisson(SampleSystem& system, double poisson, Workers& workers) {
     require(poisson > -1 && poisson < 0.5, "Poisson's ratio of a stable material");
     system.rest.poisson = poisson;
     system.target.assign(poisson == 0 ? 0 : system.free_sample.size(), Mat3d::Zero());
+    if (poisson != 0) find_looseness(system, workers);
 }
 
 SampleState rest_state(const SampleSystem& system) {

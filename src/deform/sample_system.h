@@ -161,7 +161,7 @@ struct SystemMatrices {
 SystemMatrices system_matrices(const SampleSystem& system);
 
 // Another Poisson's ratio; neither system changes.
-void set_poisson(SampleSystem& system, double poisson);
+void set_poisson(SampleSystem& system, double poisson, Workers& workers);
 
 // All samples at rest.
 SampleState rest_state(const SampleSystem& system);

@@ -41,7 +41,7 @@ struct Surroundings {
     Mat3d inverse = Mat3d::Zero();  // Σ⁺
     Mat3d open = Mat3d::Identity(); // I - Σ Σ⁺, symmetric
     double thickness = 0;           // 0: a surface or a wire, 1: a solid
-    double looseness = 0;           // λ ≥ 0, below: 0 where edges give way as one
+    double looseness = 0;           // λ ≥ 0 (deform/looseness.h): 0 where edges give way as one
 };
 
 // Of Σ. A direction counts as determined where the spread along it is comparable with the largest, and

@@ -96,11 +96,11 @@ void Pipeline::note_changes(const Settings& settings) {
     stale_.influences |= settings.weights != before.weights || settings.strays != before.strays;
     if (settings.weights != before.weights && !energy_.first.empty()) stale_.energy = stale_.systems = true;
     stale_.systems |= settings.stiffness != before.stiffness;
-    if (settings.poisson != before.poisson) {
-        const bool were_stale = std::exchange(stale_.systems, true); // if only one of them comes to have it
-        set_poisson(system_, settings.poisson);
-        set_poisson(coarse_.system, settings.poisson);
-        stale_.systems = were_stale;
+    if (settings.poisson != before.poisson && !stale_.systems) {
+        stale_.systems = true; // if only one of them comes to have it
+        set_poisson(system_, settings.poisson, workers_);
+        set_poisson(coarse_.system, settings.poisson, workers_);
+        stale_.systems = false;
     }
     input_.settings = settings;
 }

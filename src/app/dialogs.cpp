@@ -138,14 +138,13 @@ void overwriting_question(const Ui& ui) {
     ImGui::EndPopup();
 }
 
-// Words about a line of a file, without which line and which key that was.
+// Words about a key of a file, without which line and which key that was.
 std::string without_place(std::string words) {
-    for (const std::string_view key : {"\"cloud\": ", "\"sha256\": ", "\"points\": "})
-        if (const std::size_t at = words.find(key); at != std::string::npos) {
-            words.erase(0, at + key.size());
-            words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
-            return words;
-        }
+    constexpr std::string_view after_key = "\": ";
+    const std::size_t at = words.find(after_key);
+    if (at == std::string::npos) return words;
+    words.erase(0, at + after_key.size());
+    if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
     return words;
 }
 
@@ -185,7 +184,9 @@ void deleting_question(const Ui& ui) {
         return;
     }
     const std::string file = (work->session.empty() ? work->cloud : work->session).filename().string();
-    wrapped_text((counted(work->steps, "recorded step") + " on " + file + " will be gone for good."));
+    wrapped_text(work->trouble.empty()
+                     ? counted(work->steps, "recorded step") + " on " + file + " will be gone for good."
+                     : "The recording " + work->journal.string() + " will be gone for good.");
     ImGui::Dummy({0, ui.scaled(8)});
     const std::optional<int> answer = answers(std::array{"Delete", "Keep"}, 1);
     if (answer == 0) ui.wish(WishDeleteLost{*work});

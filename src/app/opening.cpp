@@ -92,19 +92,24 @@ void draw_recovery(const Ui& ui) {
               ui.scaled(18), palette::warning);
     ImGui::Indent(ui.scaled(30));
     ImGui::TextUnformatted("knead ended without saving");
-    const bool is_saved = !work.session.empty();
-    faint_text((work.steps == 1 ? "There is " : "There are ") + counted(work.steps, "recorded step") +
-               " on " + (is_saved ? work.session : work.cloud).filename().string() +
-               (is_saved ? " after it was saved last" : " that no session file has") +
-               ". Restoring brings back everything up to the last finished one.");
+    const bool is_saved = !work.session.empty(), is_whole = work.trouble.empty();
+    if (!is_whole)
+        faint_text("Its recording cannot be read: " + work.trouble + ". It lies there until you delete it.");
+    else
+        faint_text((work.steps == 1 ? "There is " : "There are ") + counted(work.steps, "recorded step") +
+                   " on " + (is_saved ? work.session : work.cloud).filename().string() +
+                   (is_saved ? " after it was saved last" : " that no session file has") +
+                   ". Restoring brings back everything up to the last finished one.");
     ImGui::Unindent(ui.scaled(30));
     ImGui::Dummy({0, ui.scaled(2)});
     const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
     const bool something_asks =
         ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-    const bool entered = !ui.editor.document && !something_asks &&
+    const bool entered = is_whole && !ui.editor.document && !something_asks &&
                          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+    ImGui::BeginDisabled(!is_whole);
     if (main_button("Restore", {width, 0}) || entered) ui.wish(WishRestore{work});
+    ImGui::EndDisabled();
     ImGui::SameLine();
     if (ImGui::Button("Keep for later", {width, 0})) ui.state.lost.erase(ui.state.lost.begin());
     explain("Asks again at the next start");

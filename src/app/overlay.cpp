@@ -105,7 +105,7 @@ void pill(const Ui& ui, ImDrawList& list, ImVec2 corner, const std::string& word
 void draw_amount(const Ui& ui) {
     const Tools& tools = ui.editor.tools;
     if (!tools.drag) return;
-    const std::string words = amount_text(*tools.drag, ui.editor.camera, ui.editor.viewport);
+    const std::string words = amount_text(*tools.drag);
     const ImVec2 cursor = in_window(ui, tools.cursor), window = ImGui::GetIO().DisplaySize;
     const float width = ImGui::CalcTextSize(words.c_str()).x + ui.scaled(20);
     const float x = std::clamp(cursor.x + ui.scaled(20), 0.0f, std::max(0.0f, window.x - width));

@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <utility>
 
 namespace knead {
@@ -31,6 +32,18 @@ std::optional<std::pair<Number, Number>> parse_two(const std::string& text, char
     const auto second = std::from_chars(first.ptr + 1, end, two.second);
     if (second.ec != std::errc{} || second.ptr != end) return std::nullopt;
     return two;
+}
+
+// CLI::Range lets through what is no number.
+CLI::Validator within(double low, double high) {
+    return {[=](const std::string& text) {
+                double value = 0;
+                const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+                std::ostringstream words;
+                if (!good) words << text << " is not between " << low << " and " << high;
+                return words.str();
+            },
+            ""};
 }
 
 constexpr const char* picture_group = "Pictures";
@@ -57,12 +70,12 @@ void declare_picture_options(CLI::App& command, PictureOptions& options) {
                     "(default: rgb, or plain where the file has none)")
         ->group(group);
     command.add_option("--zoom", options.zoom, "So many times as near as the whole cloud needs")
-        ->check(CLI::Range(0.01, 1000.0))
+        ->check(within(0.01, 1000))
         ->group(group);
     command
         .add_option("--point-size", options.point_size,
                     "The diameter of all points in pixels (default: by distance)")
-        ->check(CLI::Range(0.5, 64.0))
+        ->check(within(0.5, 64))
         ->group(group);
     command
         .add_option("--background", options.background, "One colour, #rrggbb, instead of the dark gradient")

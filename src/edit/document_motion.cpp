@@ -26,10 +26,11 @@ void refuse_absurd(const HandleMotion& motion, double diagonal, std::size_t fram
     const bool sane = motion.offset.allFinite() && motion.linear.allFinite() &&
                       motion.offset.norm() < reach && motion.linear.norm() < most_diagonals &&
                       motion.linear.norm() * diagonal < reach;
-    if (!sane)
-        throw Error(Trouble::input, place,
-                    "\"frames\": frame " + std::to_string(frame) +
-                        " (from 0) sends the handle out of all range");
+    if (sane) return;
+    // By hand it is no frame of a file.
+    const std::string what =
+        place.empty() ? "this" : "\"frames\": frame " + std::to_string(frame) + " (from 0)";
+    throw Error(Trouble::input, place, what + " sends the handle out of all range");
 }
 
 } // namespace
@@ -40,7 +41,7 @@ double Document::iterate_once(const std::vector<HandleMotion>& motions, SampleSt
     const Stopwatch clock;
     const double way = pipeline_.iterate(motions, samples, memory.acceleration);
     if (memory.logs) log_.iteration.push_back(clock.seconds());
-    return pipeline_.cloud_size() > 0 ? way / pipeline_.cloud_size() : way;
+    return way / pipeline_.cloud_size();
 }
 
 // A frame of a drag that takes one of the handles from its place in `motions` to another. Returns as above,
@@ -53,7 +54,7 @@ double Document::follow(Index handle, const HandleMotion& motion, bool coarse, u
         if (!memory.following.anchored) pipeline_.anchor(motions, samples, memory.following);
         motions[handle] = motion;
         const double way = pipeline_.follow_coarsely(motions, iterations, memory.following, samples);
-        return pipeline_.cloud_size() > 0 ? way / pipeline_.cloud_size() : way;
+        return way / pipeline_.cloud_size();
     }
     memory.following.anchored = false;
     motions[handle] = motion;

@@ -52,6 +52,8 @@ struct EditorStep {
     // The chosen handle before and after a step of the document; nothing: it stays as it is.
     std::optional<std::string> chosen_before = {}, chosen_after = {};
     std::vector<PivotMove> pivots = {}; // that it moved, or that went with their handles
+    // What could be redone before it, until the document has carried it out: it may be refused, or cancelled.
+    std::vector<EditorStep> undone = {};
 };
 
 // The drag that goes on, or that ended and that the document has not answered yet.
@@ -61,7 +63,6 @@ struct EditorDrag {
     glm::dquat local_axes{1, 0, 0, 0}; // of the handle then
     Transform transform;               // so far
     bool ended = false;
-    std::vector<EditorStep> future; // what could be redone before it, should it be cancelled
 };
 
 struct Editor {

@@ -296,7 +296,6 @@ void carry_out(Editor& editor, const BeginDrag& command) {
                           editor.drag->local_axes;
     EditorStep step = coming_step(editor, drag.step);
     editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin);
-    drag.future = std::move(editor.future);
     editor.drag = std::move(drag);
     add_step(editor, std::move(step));
 }
@@ -321,8 +320,8 @@ void carry_out(Editor& editor, const EndDrag& /*command*/) {
 void carry_out(Editor& editor, const CancelDrag& /*command*/) {
     if (!editor.drag || editor.drag->ended) return;
     if (!editor.past.empty() && editor.past.back().document == editor.drag->step) {
+        editor.future = std::move(editor.past.back().undone);
         editor.past.pop_back();
-        editor.future = std::move(editor.drag->future);
     }
     editor.drag.reset();
     editor.live->cancel_drag();

@@ -27,6 +27,7 @@ EditorStep coming_step(Editor& editor, StepNumber document, std::shared_ptr<cons
 }
 
 void add_step(Editor& editor, EditorStep step) noexcept {
+    if (step.document) step.undone = std::move(editor.future);
     editor.future.clear();
     editor.looks_from.reset(); // whoever acts goes on from here
     editor.past.push_back(std::move(step));
@@ -92,6 +93,7 @@ void carry_out(Editor& editor, const UndoStep& command) {
         editor.looks_from.reset();
     EditorStep step = std::move(editor.past.back());
     editor.past.pop_back();
+    step.undone.clear();
     if (step.before) restore_selection(editor, *step.before);
     if (step.document) editor.live->undo(step.document, command.to_look);
     if (step.choosing_before) choose_samples(editor, *step.choosing_before);

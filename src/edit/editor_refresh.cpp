@@ -97,6 +97,7 @@ void forget_refused(Editor& editor) {
         if (found->choosing_before) choose_samples(editor, *found->choosing_before);
         take_pivots_back(editor, *found);
         const auto at = static_cast<std::size_t>(found - editor.past.begin());
+        if (at + 1 == editor.past.size() && editor.future.empty()) editor.future = std::move(found->undone);
         editor.past.erase(found);
         if (editor.looks_from && at < *editor.looks_from) --*editor.looks_from;
     }
@@ -108,8 +109,10 @@ bool refresh_view(Editor& editor) {
     const bool other_handles = !hold_the_same(view->handles, editor.document->handles);
     editor.document = std::move(view);
     if (other_handles) mark_handles(editor);
-    std::erase_if(editor.posted_names,
-                  [&](const auto& posted) { return posted.first <= editor.document->last_step; });
+    const StepNumber done = editor.document->last_step;
+    std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first <= done; });
+    for (EditorStep& step : editor.past)
+        if (step.document <= done) step.undone.clear();
     if (editor.drag && editor.drag->ended && editor.document->last_step >= editor.drag->step)
         editor.drag.reset();
     return true;

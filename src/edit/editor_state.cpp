@@ -166,6 +166,7 @@ std::optional<Box3> box_of_chosen(const Editor& editor) {
 }
 
 bool has_pending_steps(const Editor& editor) {
+    if (editor.live->status().undoing) return true;
     const StepNumber done = std::max(editor.document->last_step, step_of_opened_session);
     return std::ranges::any_of(
         editor.past, [&](const EditorStep& step) { return std::max(step.document, step.joined) > done; });
@@ -173,7 +174,8 @@ bool has_pending_steps(const Editor& editor) {
 
 bool has_unsaved_session(const Editor& editor) {
     if (!editor.document) return false;
-    return has_pending_steps(editor) || editor.document->state != editor.saved.session_state;
+    // As they are by now, be they taken in or not.
+    return has_pending_steps(editor) || editor.live->view()->state != editor.live->saved().session_state;
 }
 
 bool looks_back(const Editor& editor) {

@@ -23,7 +23,8 @@ std::shared_ptr<const KeptMarks> snapshot(const Editor& editor);
 EditorStep coming_step(Editor& editor, StepNumber document,
                        std::shared_ptr<const KeptMarks> before = nullptr);
 
-// Puts the step that was coming on the history; what could be redone is forgotten.
+// Puts the step that was coming on the history; what could be redone is forgotten, by a step of the document
+// as soon as that has carried it out.
 void add_step(Editor& editor, EditorStep step) noexcept;
 
 // Posts lines as one step of undo; returns its number.

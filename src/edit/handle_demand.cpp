@@ -53,7 +53,8 @@ Parting parting_of(const Graph& graph, const HandleLabels& labels, const PointOr
 double rounding_of(std::span<const float> posed, double size) {
     float farthest = 0;
     for (const float coordinate : posed) farthest = std::max(farthest, std::abs(coordinate));
-    return size > 0
+    const bool has_extent = size > static_cast<double>(std::numeric_limits<float>::min());
+    return has_extent
                ? static_cast<double>(farthest) * std::ldexp(1.0, -std::numeric_limits<float>::digits) / size
                : 0;
 }

@@ -32,8 +32,9 @@ struct HandleDemand {
     double rounded = 0;     // of rounding_of()
 };
 
-// By how much of the cloud's size `size` the positions (3 floats a point) are rounded where they lie farthest
-// from the origin of the floats, which is where the cloud was opened; 0 for a cloud without a size.
+// By how much of the cloud's size (cloud_size(), > 0) the positions (3 floats a point) are rounded where they
+// lie farthest from the origin of the floats, which is where the cloud was opened; 0 where all points lie in
+// one place, so that there is nothing to be rounded off.
 double rounding_of(std::span<const float> posed, double size);
 
 // What the user should hear about it; empty as long as the shape can follow: no more than one link of a

@@ -70,18 +70,24 @@ std::optional<LostWork> look_at(const std::filesystem::path& file) {
     if (!journal || !lock(journal)) return std::nullopt;
     try {
         const std::string text = read_all(journal, file);
-        if (text.empty()) { // knead was ended, or the disk full, before its first line
+        const std::string whole = mended(text, file).text;
+        if (whole.empty()) { // knead was ended, or the disk full, before its first line was there
             remove_journal(file);
             return std::nullopt;
         }
-        const Session session = parse_session(mended(text, file).text, file);
+        const Session session = parse_session(whole, file);
         const JournalFacts facts = read_journal_facts(file);
         if (const std::size_t lost = lost_steps(session.lines, facts.saved_lines); lost > 0)
             return LostWork{file, session.resolve(session.cloud), facts.session, lost,
                             std::filesystem::last_write_time(file)};
         remove_journal(file);
-    } catch (const std::exception&) {
-        // Not a journal of this version: it stays where it is.
+    } catch (const Error& error) { // a damaged one, or of another version
+        LostWork damaged;
+        damaged.journal = file;
+        damaged.trouble = error.what();
+        return damaged;
+    } catch (const std::filesystem::filesystem_error&) {
+        // It is gone meanwhile.
     }
     return std::nullopt;
 }

@@ -21,7 +21,7 @@ public:
     // A new one in `folder`, which is made where it is missing. Throws Error (output).
     static Journal create(const std::filesystem::path& folder, const std::string& header);
     // One that a crash left, mended as below. Throws Error (input) when it is gone, cannot be read, or
-    // another process has it.
+    // another process has it; Error (output) when it cannot be mended.
     static Journal take_over(const std::filesystem::path& file);
 
     const std::filesystem::path& file() const { return file_; }
@@ -54,10 +54,12 @@ struct LostWork {
     std::filesystem::path cloud;
     std::filesystem::path session; // as which it was saved last, or opened; empty: never
     std::size_t steps = 0;         // that are not in that file, lost_steps() of edit/journal_facts.h
-    std::filesystem::file_time_type when;
+    std::filesystem::file_time_type when = {};
+    std::string trouble = {}; // why it cannot be read; then all else is unknown
 };
-// Journals of `folder` that hold what is saved nowhere and that no running knead has open, newest first.
-// Those with nothing of the kind are removed on the way. Never throws.
+// Journals of `folder` that hold what is saved nowhere and that no running knead has open, newest first; with
+// those that cannot be read, which may. Those with nothing of the kind are removed on the way. Throws
+// nothing but std::bad_alloc.
 std::vector<LostWork> find_lost_work(const std::filesystem::path& folder);
 
 } // namespace knead

@@ -30,6 +30,7 @@ LiveDocument::Status LiveDocument::status() const {
         const bool plays = status.playing && (!shared.pace.held || shared.pace.frames != 0);
         status.busy |= plays || !shared.inbox.empty();
         status.saving = shared.saves > 0;
+        status.undoing = shared.undos > 0;
         return status;
     });
 }
@@ -50,10 +51,11 @@ void put(Locked<LiveShared>& shared, LiveTask task) {
     shared.change([&](LiveShared& s) { s.inbox.push_back(std::move(task)); });
 }
 
-void put_save(Locked<LiveShared>& shared, LiveTask task) {
+// Counted, until it is done with.
+void put(Locked<LiveShared>& shared, LiveTask task, std::size_t LiveShared::*count) {
     shared.change([&](LiveShared& s) {
-        ++s.saves;
         s.inbox.push_back(std::move(task));
+        ++(s.*count);
     });
 }
 
@@ -104,11 +106,13 @@ void LiveDocument::reset_pose(StepNumber step, std::string handle) {
 }
 
 void LiveDocument::undo(StepNumber step, bool to_look) {
-    put(*shared_, task::Undo{step, to_look});
+    if (to_look) return put(*shared_, task::Undo{step, to_look});
+    put(*shared_, task::Undo{step, to_look}, &LiveShared::undos);
 }
 
 void LiveDocument::redo(StepNumber step, bool to_look) {
-    put(*shared_, task::Redo{step, to_look});
+    if (to_look) return put(*shared_, task::Redo{step, to_look});
+    put(*shared_, task::Redo{step, to_look}, &LiveShared::undos);
 }
 
 void LiveDocument::play(StepNumber step) {
@@ -124,11 +128,11 @@ void LiveDocument::advance_play(int frames) {
 }
 
 void LiveDocument::save_cloud(std::filesystem::path target, SaveColumns columns, bool anyway) {
-    put_save(*shared_, task::SaveCloud{std::move(target), columns, anyway});
+    put(*shared_, task::SaveCloud{std::move(target), columns, anyway}, &LiveShared::saves);
 }
 
 void LiveDocument::save_session(std::filesystem::path target, bool anyway) {
-    put_save(*shared_, task::SaveSession{std::move(target), anyway});
+    put(*shared_, task::SaveSession{std::move(target), anyway}, &LiveShared::saves);
 }
 
 void LiveDocument::draw_drags_on_device(bool yes) {

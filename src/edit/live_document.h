@@ -167,6 +167,7 @@ public:
         bool busy = false;        // whether the thread has anything to do, converging included
         bool solving = false;     // whether it is converging or following the hand
         bool saving = false;      // whether a file is being written, or is yet to be
+        bool undoing = false;     // whether an undo or redo that counts, and is not to look, is yet to be
         // What play() shows at the moment.
         struct Playing {
             std::string handle;     // that was dragged; empty: a pose comes to rest, or nothing moves

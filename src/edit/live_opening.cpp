@@ -91,7 +91,9 @@ void replay_session(const Session& session, Document& document, LiveRecording& r
             document.redo(place);
             recording.step_forward(false);
         } else if (const auto* check = std::get_if<CheckLine>(&line.action)) {
-            recording.note(CheckLine{session.resolve(check->positions), check->tolerance});
+            // wherever the journal lies
+            recording.note(
+                CheckLine{std::filesystem::absolute(session.resolve(check->positions)), check->tolerance});
         } else {
             carry_out_act(document, line.action, place, progress);
             if (std::holds_alternative<SettleLine>(line.action))

@@ -83,6 +83,7 @@ struct LiveShared {
     std::optional<WantedPose> wanted; // the newest pose of the drag that was begun last
     PlayPace pace;
     std::size_t saves = 0;        // that were asked for and are not done with
+    std::size_t undos = 0;        // likewise, and redos; without those to look
     bool draws_on_device = false; // whoever draws can, and needs no positions in a drag
     bool stop = false;
     bool keep_journal = true;

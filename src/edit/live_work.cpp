@@ -34,6 +34,12 @@ bool is_save(const LiveTask& task) {
     return std::holds_alternative<task::SaveCloud>(task) || std::holds_alternative<task::SaveSession>(task);
 }
 
+bool is_undo(const LiveTask& task) {
+    const auto* undo = std::get_if<task::Undo>(&task);
+    const auto* redo = std::get_if<task::Redo>(&task);
+    return (undo && !undo->to_look) || (redo && !redo->to_look);
+}
+
 } // namespace
 
 LiveWork::LiveWork(OpenRequest request, Locked<LiveShared>& shared)
@@ -176,6 +182,7 @@ void LiveWork::take_turn(std::list<LiveTask>& task) {
     if (!std::holds_alternative<task::SaveCloud>(one)) guarded([&] { finish_playing(); });
     guarded([&] { std::visit([&](auto& t) { carry_out(t); }, one); });
     if (is_save(one)) shared_.with([](LiveShared& s) { --s.saves; });
+    if (is_undo(one)) shared_.with([](LiveShared& s) { --s.undos; });
     if (since_look_.seconds() > between_looks) guarded([&] { look_for_others(); });
 }
 

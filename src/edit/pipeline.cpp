@@ -29,9 +29,6 @@ constexpr int relaxing_rounds = 3;
 // Vertices that tell how large the cloud is: of all it is the same within half a per cent.
 constexpr std::size_t asked_for_size = 1 << 13;
 
-// Links that with_solid_links() adds to a vertex, at most: 14, and as many back.
-constexpr double links_in_solid = 28;
-
 // Links are numbered by an Index.
 void refuse_too_many_links(double links, const std::string& what_for, const std::string& what_to_do) {
     if (links >= double{no_index})
@@ -228,7 +225,7 @@ void Pipeline::prepare_samples(Progress& progress) {
         territories_ = territories_of_base(nearest_, base_samples_, *graph_, workers_);
     } else {
         refuse_too_many_links(static_cast<double>(graph_->neighbor.size()) +
-                                  links_in_solid * static_cast<double>(vertices),
+                                  2.0 * links_in_solid * static_cast<double>(vertices),
                               "for all of them to be samples", "set a number of samples");
         sample_graph_ = sample_graph_of_all(with_solid_links(*graph_, vertex_positions(), workers_));
     }

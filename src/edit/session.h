@@ -131,6 +131,7 @@ struct Session {
     std::optional<std::uint64_t> points; // of the cloud, where given
     std::optional<std::string> sha256;   // lower case, where given
     Settings settings;
+    std::size_t header_line = 1; // its number in the file
     std::string header_text;
     std::vector<SessionLine> lines;
 

@@ -20,17 +20,20 @@ PointCloud read_session_cloud(const Session& session, const std::optional<std::f
     const std::filesystem::path path = instead ? *instead : session.resolve(session.cloud);
     std::error_code ignored;
     if (!instead && !std::filesystem::exists(path, ignored))
-        throw Error(Trouble::input, session.place(1), "\"cloud\": there is no file " + path.string(),
-                    Cure::give_cloud);
-    PointCloud cloud = instead ? read_cloud(path, progress)
-                               : read_named_cloud(path, session.place(1), "\"cloud\"", progress);
+        throw Error(Trouble::input, session.place(session.header_line),
+                    "\"cloud.path\": there is no file " + path.string(), Cure::give_cloud);
+    PointCloud cloud =
+        instead ? read_cloud(path, progress)
+                : read_named_cloud(path, session.place(session.header_line), "\"cloud.path\"", progress);
     if (session.points && *session.points != cloud.size())
-        throw Error(Trouble::input, session.place(1),
-                    "\"points\": the session was recorded on a cloud of " + std::to_string(*session.points) +
-                        " points, but " + path.string() + " has " + std::to_string(cloud.size()));
+        throw Error(Trouble::input, session.place(session.header_line),
+                    "\"cloud.points\": the session was recorded on a cloud of " +
+                        std::to_string(*session.points) + " points, but " + path.string() + " has " +
+                        std::to_string(cloud.size()));
     if (session.sha256 && !instead && *session.sha256 != sha256_of_file(path))
-        throw Error(Trouble::input, session.place(1),
-                    "\"sha256\": " + path.string() + " is another file than the session was recorded on",
+        throw Error(Trouble::input, session.place(session.header_line),
+                    "\"cloud.sha256\": " + path.string() +
+                        " is another file than the session was recorded on",
                     Cure::give_cloud);
     refuse_empty_cloud(cloud, path);
     return cloud;

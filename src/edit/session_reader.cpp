@@ -306,7 +306,7 @@ Session parse_session(std::string_view text, const std::filesystem::path& file) 
         if (has_header)
             session.lines.push_back({number, std::string(line), read_action(line, place, is_terminated)});
         else
-            read_header(line, place, session);
+            read_header(line, place, session), session.header_line = number;
         has_header = true;
     }
     if (!has_header)

@@ -13,8 +13,6 @@ namespace knead {
 
 namespace {
 
-constexpr std::size_t links_in_solid = 14;
-
 // What the thinnest spread of a vertex's links has of the widest, at least, for them to go into all
 // directions: of the outermost layer of a solid, too.
 constexpr double all_directions = 0.12;

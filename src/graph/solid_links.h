@@ -4,9 +4,13 @@
 #include "base/workers.h"
 #include "graph/csr.h"
 
+#include <cstddef>
 #include <span>
 
 namespace knead {
+
+// So many links a vertex in a solid asks for, and as many may come back.
+constexpr std::size_t links_in_solid = 14;
 
 // `points` and further links, where the vertices lie throughout a volume: there each is linked to the 14
 // nearest of its neighbours and of theirs, all that are as near as the fourteenth included, and back.

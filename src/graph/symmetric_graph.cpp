@@ -1,5 +1,6 @@
 #include "graph/symmetric_graph.h"
 
+#include "base/error.h"
 #include "base/large_pages.h"
 #include "base/require.h"
 
@@ -45,7 +46,11 @@ void counts_to_rows(std::vector<Index>& counts) {
         const std::size_t count = entry;
         entry = static_cast<Index>(total);
         total += count;
-        require(total < std::numeric_limits<Index>::max(), "a graph has at most 2^32 - 2 links");
+        if (total >= no_index)
+            throw Error(
+                Trouble::input, "",
+                "the cloud has too many points for so many neighbours each: knead takes 4294967295 links "
+                "in all; cut it into pieces");
     }
 }
 

@@ -41,7 +41,7 @@ bool opengl_is_software() {
 } // namespace
 
 // What a picture shows; a picture of the same scene is not drawn again.
-struct Scene {
+struct Shown {
     Camera camera;
     Viewport viewport;
     PointLook look;
@@ -72,7 +72,7 @@ struct PointRenderer::State {
     // --- The picture in the making ---
     Layer shown, growing; // what is on the screen, and the whole cloud as far as it has come
     Layer finished;       // `shown` after the pass over the screen, with the overlay
-    Scene scene;
+    Shown scene;
     bool is_drawn = false; // whether `shown` is of `scene`
     glm::dmat4 projection{1.0}, to_clip{1.0};
     InView in_view;
@@ -83,9 +83,9 @@ struct PointRenderer::State {
 
     void refresh_tints();
     std::span<const Index> chunks_to_take(bool all, std::span<const PointRange> changed);
-    bool matches(const Scene& other) const;
+    bool matches(const Shown& other) const;
     void project_onto(Box3 box);
-    void begin(const Scene& next, std::size_t budget);
+    void begin(const Shown& next, std::size_t budget);
     SplatView view_of(double enlargement) const;
     double usual_width(const SplatView& view) const; // of a splat at the pivot, pixels
     double enlargement() const;                      // of the splats of the first subset
@@ -93,7 +93,7 @@ struct PointRenderer::State {
     ScreenPass screen_pass() const;
     Overlay overlay() const;
     void finish(bool is_new);
-    DrawResult draw(const Scene& next, std::size_t budget);
+    DrawResult draw(const Shown& next, std::size_t budget);
 };
 
 void PointRenderer::State::refresh_tints() {
@@ -110,7 +110,7 @@ std::span<const Index> PointRenderer::State::chunks_to_take(bool all, std::span<
     return changed_chunks;
 }
 
-bool PointRenderer::State::matches(const Scene& other) const {
+bool PointRenderer::State::matches(const Shown& other) const {
     return is_drawn && scene.camera == other.camera && scene.viewport.width == other.viewport.width &&
            scene.viewport.height == other.viewport.height && scene.look == other.look &&
            scene.points_version == other.points_version;
@@ -129,7 +129,7 @@ void PointRenderer::State::project_onto(Box3 box) {
 }
 
 // Chooses what is drawn of a new scene.
-void PointRenderer::State::begin(const Scene& next, std::size_t budget) {
+void PointRenderer::State::begin(const Shown& next, std::size_t budget) {
     scene = next;
     widest_splat = 0;
     refresh_tints();
@@ -231,7 +231,7 @@ void PointRenderer::State::finish(bool is_new) {
     finished_overlay = overlay_version;
 }
 
-DrawResult PointRenderer::State::draw(const Scene& next, std::size_t budget) {
+DrawResult PointRenderer::State::draw(const Shown& next, std::size_t budget) {
     DrawResult result;
     bool is_new = true, changed = true;
     const Stopwatch clock;

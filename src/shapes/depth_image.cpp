@@ -38,7 +38,7 @@ Vec3d direction_through(const View& view, double row, double column) {
 double lead_block(const ScannedBody& body, const View& view, double row, double column,
                   const DepthRange& range) {
     constexpr double half = 0.5 * block_side;
-    const Ray middle{view.eye, direction_through(view, row + half, column + half)};
+    const ScanRay middle{view.eye, direction_through(view, row + half, column + half)};
     const double spread = std::numbers::sqrt2 * half * view.pixel;
     const double longest = middle.direction.norm() + spread;
     double depth = range.nearest;
@@ -51,7 +51,7 @@ double lead_block(const ScannedBody& body, const View& view, double row, double 
 }
 
 // The depth of the first surface on the ray, 0 for none.
-double trace_ray(const ScannedBody& body, const Ray& ray, double depth, double farthest) {
+double trace_ray(const ScannedBody& body, const ScanRay& ray, double depth, double farthest) {
     constexpr int most_steps = 200;
     constexpr double touching = 2e-6;
     const double length = ray.direction.norm();
@@ -64,7 +64,7 @@ double trace_ray(const ScannedBody& body, const Ray& ray, double depth, double f
 }
 
 // Whether the scanner gets the return: steeply met surfaces send it, grazed ones swallow it.
-bool comes_back(const ScannedBody& body, const Ray& ray, double depth, double gradient, Random& random) {
+bool comes_back(const ScannedBody& body, const ScanRay& ray, double depth, double gradient, Random& random) {
     constexpr double never_below = 0.06; // cosine of the angle to the normal
     constexpr double always_above = 0.35;
     const Vec3d place = ray.at(depth);
@@ -90,7 +90,7 @@ void trace_block(const ScannedBody& body, const Block& block, const DepthRange& 
     const std::size_t column_end = std::min(view.columns, block.column + block_side);
     for (std::size_t row = block.row; row < row_end; ++row) {
         for (std::size_t column = block.column; column < column_end; ++column) {
-            const Ray ray = ray_of(view, image.seed, row, column);
+            const ScanRay ray = ray_of(view, image.seed, row, column);
             const double depth = trace_ray(body, ray, start, range.farthest);
             if (depth == 0) continue;
             const std::size_t at = row * view.columns + column;
@@ -131,7 +131,7 @@ View view_of(const ScannedBody& body, const Viewpoint& viewpoint, double pixel) 
     return view;
 }
 
-Ray ray_of(const View& view, std::uint64_t seed, std::size_t row, std::size_t column) {
+ScanRay ray_of(const View& view, std::uint64_t seed, std::size_t row, std::size_t column) {
     Random random(seed, purpose_ray, row * view.columns + column);
     const double in_row = static_cast<double>(row) + random.between(0.25, 0.75);
     const double in_column = static_cast<double>(column) + random.between(0.25, 0.75);

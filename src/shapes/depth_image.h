@@ -26,7 +26,7 @@ struct View {
 // Sees the whole box; a pixel is `pixel` / sharpness wide.
 View view_of(const ScannedBody& body, const Viewpoint& viewpoint, double pixel);
 
-struct Ray {
+struct ScanRay {
     Vec3d eye;
     Vec3d direction; // its part along `ahead` is 1, so depths are measured along `ahead`
 
@@ -34,7 +34,7 @@ struct Ray {
 };
 
 // A ray goes anywhere through the inner half of its pixel's width and height.
-Ray ray_of(const View& view, std::uint64_t seed, std::size_t row, std::size_t column);
+ScanRay ray_of(const View& view, std::uint64_t seed, std::size_t row, std::size_t column);
 
 struct DepthImage {
     View view;

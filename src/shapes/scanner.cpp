@@ -158,7 +158,7 @@ struct Return {
     Colour colour;
 };
 
-Return surface_return(const ScannedBody& body, const ScanOptions& options, const Ray& ray, double depth,
+Return surface_return(const ScannedBody& body, const ScanOptions& options, const ScanRay& ray, double depth,
                       Random& random) {
     const Vec3d place = ray.at(depth);
     Vec3d normal = field_normal(body.distance, place);
@@ -172,7 +172,7 @@ Return surface_return(const ScannedBody& body, const ScanOptions& options, const
 }
 
 // Beams that an edge splits come back from between it and what is far behind; dust comes from anywhere.
-Return stray_return(const ScannedBody& body, const Ray& ray, double edge_depth, Random& random) {
+Return stray_return(const ScannedBody& body, const ScanRay& ray, double edge_depth, Random& random) {
     const Vec3d middle = 0.5 * (body.lowest + body.highest);
     const double reach = 0.5 * (body.highest - body.lowest).norm();
     const double to_middle = (middle - ray.eye).dot(ray.direction) / ray.direction.squaredNorm();
@@ -198,7 +198,7 @@ void emit_row(const ScannedBody& body, const Scan& scan, std::size_t look, std::
         const Kind kind = kind_of(image, row, column);
         if (kind == kinds || !walks[kind].takes()) continue;
         Random random(image.seed, purpose_echo, row * image.view.columns + column);
-        const Ray ray = ray_of(image.view, image.seed, row, column);
+        const ScanRay ray = ray_of(image.view, image.seed, row, column);
         const double depth = static_cast<double>(image.at(row, column));
         const double edge = kind == behind_silhouette ? image.neighbour_depth(row, column) : 0;
         const Return found = kind == on_surface ? surface_return(body, options, ray, depth, random)

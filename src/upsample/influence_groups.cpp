@@ -172,7 +172,7 @@ void InfluenceGroups::make_all(const UpsampleInput& input, Workers& workers) {
     }
     const std::size_t size = used_ + used_ / entries_for_one_spare;
     if (size > no_index)
-        throw Error(Trouble::numeric, "", "these are more points than can be moved; take fewer of them");
+        throw Error(Trouble::input, "", "these are more points than can be moved; take fewer of them");
     resize_in_large_pages(motion_, size, workers);
     resize_in_large_pages(share_, points_in_group * size, workers);
     write_entries(all, input, workers);

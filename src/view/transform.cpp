@@ -385,10 +385,6 @@ Transform transform_of(const TransformDrag& drag) {
     return transform;
 }
 
-Transform transform_of(const TransformDrag& drag, const Camera&, Viewport) {
-    return transform_of(drag);
-}
-
 namespace {
 
 // Never "-0.00".
@@ -460,10 +456,6 @@ std::string amount_text(const TransformDrag& drag) {
     }
     return "S  × " + (typed ? typed_factor_text(drag) : number(factor_of(drag), 2)) +
            constraint_words(drag, "along");
-}
-
-std::string amount_text(const TransformDrag& drag, const Camera&, Viewport) {
-    return amount_text(drag);
 }
 
 } // namespace knead

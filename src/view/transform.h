@@ -93,13 +93,10 @@ bool type_character(TransformDrag& drag, char character);
 // The key Tab: the next of these lengths, or the one before; what is typed at that becomes it. A shift that
 // is held to one axis, and has its length typed, is free from there on, with that length along that axis.
 void next_field(TransformDrag& drag, bool back);
-// The transform as it stands. The camera is no longer asked: what the drag has followed decides, so that
-// nothing moves or flips with the camera.
-Transform transform_of(const TransformDrag& drag, const Camera& camera, Viewport viewport);
+// The transform as it stands, by what the drag has followed: nothing moves or flips with the camera.
 Transform transform_of(const TransformDrag& drag);
 // What is done, for beside the cursor: the key, the amount, what it is held to; what was typed stands in
 // brackets. "R  45.0°", "G  X 1.250  along world X", "S  × [1.3]  in own YZ".
-std::string amount_text(const TransformDrag& drag, const Camera& camera, Viewport viewport);
 std::string amount_text(const TransformDrag& drag);
 
 } // namespace knead

@@ -147,6 +147,45 @@ TEST_F(BarEditor, HandlesOfAnotherSessionAreNoWayRoundThat) {
     EXPECT_EQ(editor_.past.size(), steps + 1);
 }
 
+TEST_F(BarEditor, AStepThatIsRefusedLosesNothingToRedo) {
+    make_handles();
+    turn_chosen("40");
+    const std::vector<float> turned = editor_.frame.positions;
+    apply(editor_, UndoStep{});
+    calm();
+    ASSERT_TRUE(can_redo(editor_));
+    Transform far;
+    far.shift = {1e25, 0, 0};
+    apply(editor_, BeginDrag{});
+    apply(editor_, DragTo{far});
+    apply(editor_, EndDrag{});
+    calm();
+    ASSERT_FALSE(editor_.notices.empty());
+    EXPECT_NE(editor_.notices.back().words.find("out of all range"), std::string::npos)
+        << editor_.notices.back().words;
+    EXPECT_EQ(editor_.notices.back().words.find("frames"), std::string::npos) << "there is no file here";
+    ASSERT_TRUE(can_redo(editor_));
+    apply(editor_, RedoStep{});
+    calm();
+    EXPECT_EQ(editor_.frame.positions, turned);
+}
+
+TEST_F(BarEditor, AnUndoThatIsStillToBeCarriedOutIsUnsaved) {
+    make_handles();
+    turn_chosen("40");
+    save_session(editor_, folder_ / "a.knead", false);
+    calm();
+    ASSERT_FALSE(has_unsaved_session(editor_));
+    apply(editor_, UndoStep{});
+    EXPECT_TRUE(has_unsaved_session(editor_)) << "whoever closes the window now has to be asked";
+    calm();
+    EXPECT_TRUE(has_unsaved_session(editor_));
+    apply(editor_, RedoStep{});
+    EXPECT_TRUE(has_unsaved_session(editor_)) << "nobody knows yet that this leads back";
+    calm();
+    EXPECT_FALSE(has_unsaved_session(editor_));
+}
+
 TEST_F(BarEditor, WhoeverLooksBackLosesNothingByAnAct) {
     make_handles();
     turn_chosen("40");

@@ -144,6 +144,27 @@ TEST(Journal, DiscardedIsGone) {
     EXPECT_TRUE(find_lost_work(folder.path()).empty());
 }
 
+TEST(Journal, ThatCannotBeReadIsToldOfAndKept) {
+    const ScratchFolder folder;
+    const std::filesystem::path good = abandoned(folder), bad = folder / "bad.knead";
+    const std::string text = std::string(header) + "\n{\"op\":\"comm\n" + commit + "\n";
+    write_text(bad, text);
+    const std::vector<LostWork> lost = find_lost_work(folder.path());
+    ASSERT_EQ(lost.size(), 2U);
+    const LostWork& damaged = lost[0].journal == bad ? lost[0] : lost[1];
+    EXPECT_EQ(damaged.journal, bad);
+    EXPECT_NE(damaged.trouble.find("bad.knead:2"), std::string::npos) << damaged.trouble;
+    EXPECT_TRUE((damaged.journal == lost[0].journal ? lost[1] : lost[0]).trouble.empty());
+    EXPECT_EQ(read_text(bad), text);
+}
+
+TEST(Journal, WithHalfAFirstLineIsRemoved) {
+    const ScratchFolder folder;
+    write_text(folder / "half.knead", std::string(header).substr(0, 12));
+    EXPECT_TRUE(find_lost_work(folder.path()).empty());
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(Journal, AFolderThatIsNotThereHoldsNothing) {
     EXPECT_TRUE(find_lost_work("/nowhere/at/all").empty());
     EXPECT_THROW(Journal::create("/proc/nowhere", header), Error);

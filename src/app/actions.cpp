@@ -34,6 +34,9 @@ bool moving_handle_is_chosen(const Ui& ui) {
 bool something_is_posed(const Ui& ui) {
     return ui.has_cloud() && ui.editor.document->posed;
 }
+bool samples_are_there(const Ui& ui) {
+    return ui.has_cloud() && ui.editor.document->sample_vertices != nullptr;
+}
 bool handles_are_there(const Ui& ui) {
     return ui.has_cloud() && !ui.editor.document->handles.empty();
 }
@@ -175,7 +178,7 @@ const Action file_actions[] = {
     {"File", "Save session", "Ctrl+S",
      "Saves everything done so far as a session file, to go on with or to replay", on('S', ctrl),
      [](const Ui& ui) { ui.wish(WishSaveSession{}); }, cloud_is_open, nullptr, true},
-    {"File", "Save session as…", "Ctrl+Alt+S", "Saves the session under another name", on('S', ctrl_alt),
+    {"File", "Save session as…", "Ctrl+Shift+S", "Saves the session under another name", on('S', ctrl_shift),
      browse<BrowseFor::save_session>, cloud_is_open},
     {"File", "Export cloud…", "Ctrl+E", "Saves the points as they are now, with every attribute of the file",
      on('E', ctrl), browse<BrowseFor::save_cloud>, cloud_is_open},
@@ -251,14 +254,15 @@ const Action handle_actions[] = {
     {"Handles", "Local axes", ",", "The gizmo's axes turn with the handle", on(','),
      [](const Ui& ui) { ui.wish(WishLocalAxes{!ui.editor.local_axes}); }, cloud_is_open,
      [](const Ui& ui) { return ui.editor.local_axes; }, true},
-    {"Handles", "Move the pivot", ".", "The gizmo's arrows and G move the point that the handle turns about, and not the handle",
-     on('.'), [](const Ui& ui) { ui.wish(WishMovePivot{!ui.editor.tools.move_pivot}); },
-     moving_handle_is_chosen, [](const Ui& ui) { return ui.editor.tools.move_pivot; }},
+    {"Handles", "Move the pivot", ".",
+     "The gizmo's arrows and G move the point that the handle turns about, and not the handle", on('.'),
+     [](const Ui& ui) { ui.wish(WishMovePivot{!ui.editor.tools.move_pivot}); }, moving_handle_is_chosen,
+     [](const Ui& ui) { return ui.editor.tools.move_pivot; }},
     {"Handles", "Pivot to the middle", "Alt+.", "Puts the pivot into the middle of the handle", on('.', alt),
      [](const Ui& ui) { ui.tell(SetPivot{}); }, moving_handle_is_chosen},
     {"Handles", "Next handle", "Tab", "Chooses the next handle of the list", on(Key::tab),
      choose_next_handle<1>, handles_are_there, nullptr, true},
-    {"Handles", "Handle before", "Shift+Tab", "Chooses the handle before it", on(Key::tab, shift),
+    {"Handles", "Previous handle", "Shift+Tab", "Chooses the handle before it", on(Key::tab, shift),
      choose_next_handle<-1>, handles_are_there},
     {"Handles/Its points", "Select its points", "Shift+L", "Selects the points of the chosen handle",
      on('L', shift),
@@ -329,14 +333,17 @@ const Action view_actions[] = {
     {"View", "Axes", "", "Shows the directions of x, y and z in the corner", std::nullopt,
      toggle<&Display::axes>, always, is_on<&Display::axes>},
     {"View", "Samples", "", "Shows the points that are solved for; all others follow those near them",
-     std::nullopt, toggle<&Display::samples>, always, is_on<&Display::samples>},
+     std::nullopt, toggle<&Display::samples>, samples_are_there, is_on<&Display::samples>},
     {"View", "Sample links", "", "Shows which samples hold each other", std::nullopt,
-     toggle<&Display::sample_graph>, always, is_on<&Display::sample_graph>},
+     toggle<&Display::sample_graph>, samples_are_there, is_on<&Display::sample_graph>},
     {"View", "Handle names", "", "Writes the names of the handles beside them", std::nullopt,
      toggle<&Display::names>, always, is_on<&Display::names>},
     {"View", "Panels", "N", "Shows or hides the panels at the right", on('N'),
      [](const Ui& ui) { ui.state.show_panels = !ui.state.show_panels; }, always,
      [](const Ui& ui) { return ui.state.show_panels; }, true},
+    {"View", "Full screen", "F11", "Gives the whole screen to the window, and back", on(Key::f11),
+     [](const Ui& ui) { ui.state.full_screen = !ui.state.full_screen; }, always,
+     [](const Ui& ui) { return ui.state.full_screen; }},
 };
 
 const Action session_actions[] = {
@@ -344,7 +351,7 @@ const Action session_actions[] = {
      toggle_playing, document_has_steps, [](const Ui& ui) { return ui.state.playback.playing; }},
     {"Session", "Next frame", "Right", "Shows the next frame that was recorded, and stops there",
      on(Key::right), [](const Ui& ui) { play_frame(ui, 1); }, document_has_steps},
-    {"Session", "Frame before", "Left", "Shows the frame before; between two steps, the step before",
+    {"Session", "Previous frame", "Left", "Shows the frame before; between two steps, the step before",
      on(Key::left), [](const Ui& ui) { play_frame(ui, -1); }, document_has_steps},
     {"Session", "To the beginning", "", "Goes back to the cloud as it was opened", std::nullopt,
      [](const Ui& ui) { play_to(ui, 0); }, document_has_steps},
@@ -382,7 +389,7 @@ std::vector<Action> all_actions() {
 // Second keys of actions: the same as another one.
 KeyPress usual_key(KeyPress press) {
     if (press.key == key('Y') && press.held == ctrl) return {key('Z'), ctrl_shift, press.repeated};
-    if (press.key == key('S') && press.held == ctrl_shift) return {key('E'), ctrl, press.repeated};
+    if (press.key == key('S') && press.held == ctrl_alt) return {key('S'), ctrl_shift, press.repeated};
     if (press.key == key('+') || press.key == key('=')) {
         press.key = key('=');
         press.held.shift = false; // where + is Shift and =
@@ -424,11 +431,12 @@ std::span<const Gesture> gestures() {
                 "Along x, of the gizmo's axes; again: of the other ones; again: free (Y, Z alike)"},
         Gesture{"While moving, turning or scaling", "Shift+X", "In the plane across x (Y, Z alike)"},
         Gesture{"While moving, turning or scaling", "0…9", "Type the amount; − turns its sign round"},
-        Gesture{"While moving, turning or scaling", "Tab", "Type the length along the next axis"},
+        Gesture{"While moving, turning or scaling", "Tab", "Type the length or factor along the next axis"},
         Gesture{"While moving, turning or scaling", "Ctrl", "Whole steps"},
         Gesture{"While moving, turning or scaling", "Shift", "Ten times slower"},
         Gesture{"While moving, turning or scaling", "Enter", "Done (or click)"},
         Gesture{"While moving, turning or scaling", "Esc", "As it was (or right click)"},
+        Gesture{"In the panels", "F10", "Menus; arrows walk through them, Enter chooses"},
         Gesture{"In the panels", "Ctrl+click", "Type the number of a slider"},
     };
     return list;

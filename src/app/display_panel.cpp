@@ -82,7 +82,7 @@ void size_slider(const Ui& ui) {
     if (look.size_by_distance) {
         bar_slider("Point size", look.scale, smallest_scale, largest_scale, "× %.2f",
                    ImGuiSliderFlags_Logarithmic);
-        explain("Times the size at which points just close the surface (+ and -)");
+        explain("1: points just touch, so that the surface looks closed (+ and -)");
     } else {
         bar_slider("Point size", look.pixels, smallest_point, largest_point, "%.1f px",
                    ImGuiSliderFlags_Logarithmic);

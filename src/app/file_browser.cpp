@@ -345,7 +345,7 @@ void bottom_row(const Ui& ui) {
     ImGui::SetNextItemWidth(-1);
     const bool entered = ImGui::InputText("##path", &browser.typed, ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::PopID();
-    if (ImGui::Checkbox(has_line_of_columns(ui) ? "All" : "Every file", &browser.every_file))
+    if (ImGui::Checkbox(has_line_of_columns(ui) ? "All" : "All files", &browser.every_file))
         read_folder(browser);
     explain("Also shows files that are neither clouds (" + known_extensions() + ") nor sessions (.knead)");
     if (browser.purpose == BrowseFor::save_cloud) column_choice(browser);

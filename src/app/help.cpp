@@ -113,7 +113,10 @@ void draw_about(const Ui& ui) {
     ImGui::PopFont();
     wrapped_text("Bends, twists and stretches raw point clouds with handles, in real time and with no mesh. "
                  "After “Efficient Non-Linear Editing of Large Point Clouds”.");
-    if (ui.has_cloud()) faint_text("Points are moved by " + ui.editor.document->device + ".");
+    if (ui.has_cloud()) faint_text("The points are moved on " + ui.editor.document->device + ".");
+    ImGui::Dummy({0, ui.scaled(4)});
+    if (main_button("Close", {-1, 0}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false))
+        ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 

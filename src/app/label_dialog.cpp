@@ -64,13 +64,16 @@ void buttons(const Ui& ui, const LabelDialog& dialog) {
     const auto count = std::ranges::count_if(dialog.roles, [](const auto& role) { return role.has_value(); });
     const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
     const bool escaped = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
-    if (ImGui::Button(dialog.columns.empty() ? "Close" : "Cancel", {width, 0}) || escaped)
-        ImGui::CloseCurrentPopup();
-    if (dialog.columns.empty()) return;
+    const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+    if (dialog.columns.empty()) {
+        if (main_button("Close", {-1, 0}) || escaped || entered) ImGui::CloseCurrentPopup();
+        return;
+    }
+    if (ImGui::Button("Cancel", {width, 0}) || escaped) ImGui::CloseCurrentPopup();
     ImGui::SameLine();
     ImGui::BeginDisabled(count == 0);
     const std::string label = "Make " + counted(static_cast<std::size_t>(count), "handle");
-    if (main_button(label.c_str(), {width, 0})) {
+    if (main_button(label.c_str(), {width, 0}) || (entered && count > 0)) {
         make_handles(ui, dialog);
         ImGui::CloseCurrentPopup();
     }

@@ -3,11 +3,13 @@
 #include "app/actions.h"
 #include "app/loop.h"
 #include "app/timeline.h"
+#include "app/widgets.h"
 
 #include <epoxy/gl.h>
 
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -21,6 +23,16 @@ constexpr double rest_seconds = 0.15;
 // How long the processor fills the picture of something that rests with points that are missing, until events
 // are looked at again.
 constexpr double filling_seconds = 0.02;
+
+// Whether the keys walk through a menu or drop-down; from one menu of the bar to the next they go by
+// themselves, and questions have keys of their own.
+bool keys_walk(MenuWalk& menus) {
+    const auto is_down = [](ImGuiKey key) { return ImGui::IsKeyDown(ImGui::GetKeyIndex(key)); };
+    menus.stepped &= is_down(ImGuiKey_LeftArrow) || is_down(ImGuiKey_RightArrow);
+    if (menus.step != 0) menus.stepped = true;
+    return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel) &&
+           !ImGui::GetTopMostPopupModal() && !ImGui::GetIO().WantTextInput && !menus.stepped;
+}
 
 float status_height(const Loop& loop) {
     return loop.editor.document ? std::round(28 * loop.state.scale) : 0;
@@ -48,7 +60,7 @@ void show_title(Loop& loop) {
 void draw_panels(Loop& loop) {
     const Ui& ui = loop.ui;
     const Rectangle& view = loop.state.view;
-    if (std::exchange(loop.close_menus, false)) ImGui::ClosePopupToLevel(0, false);
+    if (std::exchange(loop.close_menus, false)) close_popups();
     if (loop.saves) ImGui::ClearActiveID(); // what was being typed is taken, and saved as well
     draw_menu_bar(ui);
     draw_overlay(ui);
@@ -171,7 +183,7 @@ void draw(Loop& loop) {
     const Window::Size size = loop.window.framebuffer();
     if (size.width == 0 || size.height == 0) return;
     const Stopwatch clock;
-    loop.window.begin_frame(loop.press_is_hands || hand_is_full(loop));
+    loop.window.begin_frame(loop.press_is_hands || hand_is_full(loop), keys_walk(loop.state.menus));
     loop.press_is_hands &= loop.button_is_ours;
     draw_panels(loop);
     const bool played = loop.state.playback.playing;
@@ -179,6 +191,7 @@ void draw(Loop& loop) {
     if (played && !loop.state.playback.playing) // the panels have said otherwise
         loop.frames_to_draw = std::max(loop.frames_to_draw, 2);
     carry_out_wishes(loop);
+    loop.window.set_full_screen(loop.state.full_screen);
     clear_window(loop, size);
     const bool another_cloud = loop.editor.changes.cloud;
     const DrawResult result = draw_scene(loop, size.height);

@@ -83,11 +83,24 @@ void take(Loop& loop, Wheel event) {
     handle_input(loop.editor, event);
 }
 
+// From one menu of the bar to the next: by F10, which opens the first, and by the arrows where there is no
+// other menu to go into or out of.
+bool walks_bar(Loop& loop, const KeyPress& event) {
+    MenuWalk& menus = loop.state.menus;
+    const bool bar_is_top = menus.open >= 0 && ImGui::GetCurrentContext()->OpenPopupStack.Size == 1;
+    const bool opens = event.key == Key::f10 && !hand_is_full(loop) && (menus.open >= 0 || !popup_is_open());
+    const bool next = bar_is_top && event.key == Key::right && !menus.at_submenu;
+    const bool before = bar_is_top && event.key == Key::left;
+    if (opens || next || before) menus.step = before ? -1 : 1;
+    return opens || next || before;
+}
+
 void take(Loop& loop, const KeyPress& event) {
     // ImGui closes menus by Escape only where the keyboard walks through them. Questions see to it
     // themselves.
     if (event.key == Key::escape && popup_is_open() && !ImGui::GetTopMostPopupModal())
         loop.close_menus = true;
+    if (walks_bar(loop, event)) return;
     const bool saves = event.key == key('S') && event.held.ctrl && !event.held.alt && !event.held.shift;
     if (saves && ImGui::GetIO().WantTextInput && !popup_is_open()) loop.saves = event;
     if (ImGui::GetIO().WantTextInput || popup_is_open()) return;

@@ -3,14 +3,21 @@
 #include "app/actions.h"
 #include "app/widgets.h"
 
+#include <imgui_internal.h>
+
+#include <array>
+#include <span>
 #include <string_view>
+#include <utility>
 
 namespace knead {
 
 namespace {
 
 void recent_menu(const Ui& ui) {
-    if (!ImGui::BeginMenu("Open recent", !ui.state.recent.empty())) return;
+    const bool open = ImGui::BeginMenu("Open recent", !ui.state.recent.empty());
+    if (!open) ui.state.menus.at_submenu |= ImGui::IsItemFocused();
+    if (!open) return;
     for (const std::filesystem::path& file : ui.state.recent) {
         ImGui::PushID(file.c_str());
         if (ImGui::MenuItem(file.filename().c_str())) ui.wish(WishOpen{file});
@@ -43,11 +50,40 @@ void items(const Ui& ui, std::string_view menu) {
         } else {
             inner = of;
             const std::string title(of.substr(menu.size() + 1));
-            if (!ImGui::BeginMenu(title.c_str())) continue;
+            const bool open = ImGui::BeginMenu(title.c_str());
+            if (!open) ui.state.menus.at_submenu |= ImGui::IsItemFocused();
+            if (!open) continue;
             for (const Action& within : actions())
                 if (within.menu == of) item(ui, within);
             ImGui::EndMenu();
         }
+    }
+}
+
+// The next menu, where the keys ask for it.
+void go_on(MenuWalk& walk, std::span<const char* const> names) {
+    if (walk.step == 0) return;
+    const int count = static_cast<int>(names.size());
+    const int next = (walk.open + std::exchange(walk.step, 0) + count) % count;
+    close_popups();
+    ImGui::OpenPopup(names[static_cast<std::size_t>(next)]);
+    ImGui::GetCurrentContext()->NavDisableMouseHover = true; // the cursor is where it was before
+}
+
+void menus(const Ui& ui) {
+    static constexpr std::array names{"File", "Edit", "Select", "Handles", "View", "Session", "Help"};
+    MenuWalk& walk = ui.state.menus;
+    go_on(walk, names);
+    walk.open = -1;
+    walk.at_submenu = false;
+    for (std::size_t number = 0; number < names.size(); ++number) {
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.scaled(12), ui.scaled(10)});
+        const bool open = ImGui::BeginMenu(names[number]);
+        ImGui::PopStyleVar();
+        if (!open) continue;
+        walk.open = static_cast<int>(number);
+        items(ui, names[number]);
+        ImGui::EndMenu();
     }
 }
 
@@ -60,14 +96,7 @@ void draw_menu_bar(const Ui& ui) {
         return;
     }
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.scaled(10), ui.scaled(9)});
-    for (const char* menu : {"File", "Edit", "Select", "Handles", "View", "Session", "Help"}) {
-        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.scaled(12), ui.scaled(10)});
-        const bool open = ImGui::BeginMenu(menu);
-        ImGui::PopStyleVar();
-        if (!open) continue;
-        items(ui, menu);
-        ImGui::EndMenu();
-    }
+    menus(ui);
     ImGui::PopStyleVar();
     if (ui.has_cloud()) { // what is open, at the right
         const std::filesystem::path& session = ui.editor.document->session;

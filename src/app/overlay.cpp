@@ -186,7 +186,7 @@ void draw_brush(const Ui& ui, ImDrawList& list) {
     const float radius = static_cast<float>(tools.brush_radius) / ui.state.pixel_ratio;
     const ImVec2 at = in_window(ui, tools.cursor);
     list.AddCircle(at, radius, palette::rgb(0x101114, 120), 0, ui.scaled(3));
-    list.AddCircle(at, radius, tools.band.empty() ? palette::text : band_color(tools.band_mode), 0,
+    list.AddCircle(at, radius, tools.band.empty() ? palette::accent : band_color(tools.band_mode), 0,
                    ui.scaled(1.4f));
 }
 

@@ -50,6 +50,7 @@ bool take_news(Loop& loop) {
         else
             remember_file(loop.state.recent, request.file);
         loop.state.handle_colors = {};
+        loop.state.display.look.scale = 1; // another cloud is another matter
         loop.state.last_export.clear();
         loop.state.last_session.clear();
         loop.state.overwriting.reset(); // which asked about the document before, as these would

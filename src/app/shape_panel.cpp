@@ -65,8 +65,8 @@ void material_choice(const Ui& ui, const Settings& settings) {
         change(ui, wanted);
     }
     explain(
-        "Poisson's ratio: how much the cloud thins across where it is stretched, as a part of the stretch "
-        "(of their logarithms). 0.49 keeps the volume, 0 the width; below 0 it swells.");
+        "Poisson's ratio: how much the cloud thins across for how much it is stretched along. 0.49 keeps the "
+        "volume, 0 the width; below 0 it swells where it is pulled.");
     int chosen = -1;
     for (int m = 0; m < static_cast<int>(std::size(materials)); ++m)
         if (settings.poisson == materials[m].poisson) chosen = m;
@@ -107,7 +107,7 @@ const char* reason_for(const SampleChoice& choice) {
     case SampleReason::handles:
         return "As many as the handles ask for";
     default:
-        return "What this machine moves live";
+        return "As many as this machine moves at once";
     }
 }
 

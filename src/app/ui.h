@@ -135,6 +135,14 @@ struct AfterSaving {
     std::optional<std::uint64_t> discarded = {}; // the state (DocumentView) that need not be saved
 };
 
+// The keys in the menus of the bar.
+struct MenuWalk {
+    int open = -1;           // which menu of the bar is, in the last frame; -1: none
+    bool at_submenu = false; // the arrows are at one that is closed
+    int step = 0;            // in the next frame the next menu opens, or the one before (-1)
+    bool stepped = false;    // by an arrow that is not let go yet
+};
+
 struct UiState {
     Fonts fonts;
     float scale = 1;
@@ -158,6 +166,8 @@ struct UiState {
     bool show_help = false;
     bool show_about = false;
     bool show_panels = true;
+    MenuWalk menus;
+    bool full_screen = false;          // asked for
     bool ask_unsaved = false;          // the dialog is to be opened
     bool choose_samples = true;        // by themselves, of the next cloud; remembered
     std::uint64_t some_samples = 1000; // the number there was last, for after All

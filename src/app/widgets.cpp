@@ -252,6 +252,10 @@ bool section(const char* title, ImFont* font, bool unfold) {
     return open;
 }
 
+void close_popups() {
+    if (ImGui::GetCurrentContext()->OpenPopupStack.Size > 0) ImGui::ClosePopupToLevel(0, false);
+}
+
 void caption(const char* words) {
     ImGui::PushStyleColor(ImGuiCol_Text, palette::faint);
     ImGui::TextUnformatted(words);

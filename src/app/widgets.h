@@ -61,4 +61,7 @@ float key_caps(ImDrawList* list, ImVec2 corner, const char* keys);
 // "12.4 MB"
 std::string byte_size(std::uintmax_t bytes);
 
+// Menus, drop-downs and whatever else is open over the window; there may be nothing.
+void close_popups();
+
 } // namespace knead

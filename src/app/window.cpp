@@ -263,6 +263,38 @@ void Window::take_in(double seconds) {
         glfwPollEvents();
 }
 
+namespace {
+
+GLFWmonitor* monitor_at(int x, int y) {
+    int count = 0;
+    GLFWmonitor** const all = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        int left = 0, top = 0;
+        glfwGetMonitorPos(all[i], &left, &top);
+        const GLFWvidmode* mode = glfwGetVideoMode(all[i]);
+        if (mode && x >= left && x < left + mode->width && y >= top && y < top + mode->height) return all[i];
+    }
+    return glfwGetPrimaryMonitor();
+}
+
+} // namespace
+
+void Window::set_full_screen(bool full) {
+    if (full == before_full_screen_.has_value()) return;
+    if (!full) {
+        const Place place = *std::exchange(before_full_screen_, std::nullopt);
+        return glfwSetWindowMonitor(window_, nullptr, place.x, place.y, place.width, place.height, 0);
+    }
+    Place place;
+    glfwGetWindowPos(window_, &place.x, &place.y);
+    glfwGetWindowSize(window_, &place.width, &place.height);
+    GLFWmonitor* const monitor = monitor_at(place.x + place.width / 2, place.y + place.height / 2);
+    const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    if (!mode) return;
+    before_full_screen_ = place;
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
 void Window::renew_fonts() {
     if (!has_fonts_) return;
     ImGui_ImplOpenGL3_DestroyFontsTexture();
@@ -271,7 +303,7 @@ void Window::renew_fonts() {
 
 // A key that went down and up again between two frames is shown to ImGui as down for one frame. ImGui checks
 // that its modifiers do not change within a frame, so it is let go when the next one begins.
-void Window::begin_frame(bool mouse_is_taken) {
+void Window::begin_frame(bool mouse_is_taken, bool keys_walk) {
     ImGui_ImplOpenGL3_NewFrame(); // the first makes the fonts' texture
     has_fonts_ = true;
     ImGui_ImplGlfw_NewFrame();
@@ -292,6 +324,11 @@ void Window::begin_frame(bool mouse_is_taken) {
         shown_as_down_.push_back(tapped.key);
     }
     tapped_.clear();
+    io.ConfigFlags = keys_walk ? io.ConfigFlags | ImGuiConfigFlags_NavEnableKeyboard
+                               : io.ConfigFlags & ~ImGuiConfigFlags_NavEnableKeyboard;
+    // Of itself ImGui takes Space alone.
+    if (keys_walk && (io.KeysDown[GLFW_KEY_ENTER] || io.KeysDown[GLFW_KEY_KP_ENTER]))
+        io.NavInputs[ImGuiNavInput_Activate] = 1;
     if (mouse_is_taken) {
         io.MousePos = {-FLT_MAX, -FLT_MAX};
         std::ranges::fill(io.MouseDown, false);

@@ -4,6 +4,7 @@
 #include "edit/input.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -46,8 +47,12 @@ public:
     // ImGui's fonts are others from the next frame on.
     void renew_fonts();
 
-    // Of ImGui. `mouse_is_taken`: its panels see neither the cursor nor the buttons.
-    void begin_frame(bool mouse_is_taken);
+    // On the whole of the screen that most of the window is on, or where it was before.
+    void set_full_screen(bool full);
+
+    // Of ImGui. `mouse_is_taken`: its panels see neither the cursor nor the buttons. `keys_walk`: arrows walk
+    // through what is open, Enter and Space choose there.
+    void begin_frame(bool mouse_is_taken, bool keys_walk);
     void end_frame(); // draws ImGui's part into the window
     void swap();      // shows what was drawn
 
@@ -63,6 +68,10 @@ private:
     GLFWwindow* window_ = nullptr;
     std::vector<WindowEvent> events_;
     std::string title_;
+    struct Place {
+        int x = 0, y = 0, width = 0, height = 0;
+    };
+    std::optional<Place> before_full_screen_;
     glm::dvec2 cursor_{0.0};
 
     // Keys pressed since the last frame: ImGui looks at the keyboard once a frame, and would miss those that

@@ -98,6 +98,12 @@ void fulfil(Work& work, const WishCancelOpening&) {
     cancel_opening(work.editor);
 }
 
+// The demonstration is knead's own, and there for the next one who wants to see it.
+bool has_session_of_its_own(const Editor& editor) {
+    const std::filesystem::path& session = editor.document->session;
+    return !session.empty() && session != data_file(demonstration_session);
+}
+
 // The nearest folder above that is there.
 std::filesystem::path folder_around(const std::filesystem::path& file) {
     std::error_code ignored;
@@ -116,9 +122,11 @@ std::string free_name_in(const std::filesystem::path& folder, const std::filesys
     return free.string();
 }
 
-// Where the last one went; the first time such a name.
-void propose(FileBrowser& browser, const std::filesystem::path& last, const std::string& first) {
-    if (!last.empty()) browser.folder = folder_around(last);
+// Where the last one went; the first time beside what is open, under such a name. Wherever was looked for
+// something else to open.
+void propose(FileBrowser& browser, const std::filesystem::path& last, const std::filesystem::path& beside,
+             const std::string& first) {
+    browser.folder = folder_around(last.empty() ? beside : last);
     browser.typed = last.empty() ? free_name_in(browser.folder, first) : last.filename().string();
 }
 
@@ -143,14 +151,16 @@ void fulfil(Work& work, const WishBrowse& wish) {
             browser.folder = work.state.recent.front().parent_path();
     }
     if (!work.editor.document) return;
+    const bool has_own = has_session_of_its_own(work.editor);
+    const std::filesystem::path& beside = has_own ? work.editor.document->session : opened;
     if (wish.purpose == BrowseFor::save_session)
-        propose(browser, work.state.last_session, opened.stem().string() + ".knead");
+        propose(browser, work.state.last_session, beside, opened.stem().string() + ".knead");
     if (wish.purpose == BrowseFor::save_cloud && looks_back(work.editor))
         add_toast(work.state, {Notice::Kind::warning,
                                "This is an earlier step: the cloud is saved as it was then, without what was "
                                "done later."});
     if (wish.purpose == BrowseFor::save_cloud)
-        propose(browser, work.state.last_export, name_of_export(opened));
+        propose(browser, work.state.last_export, beside, name_of_export(opened));
 }
 
 void save(Work& work, const WishSaveTo& wish) {
@@ -164,12 +174,6 @@ void save(Work& work, const WishSaveTo& wish) {
         work.state.last_export = wish.file;
     }
     if (work.state.after.waiting_for_save) work.state.after.save_was_posted = true;
-}
-
-// The demonstration is knead's own, and there for the next one who wants to see it.
-bool has_session_of_its_own(const Editor& editor) {
-    const std::filesystem::path& session = editor.document->session;
-    return !session.empty() && session != data_file(demonstration_session);
 }
 
 void fulfil(Work& work, const WishSaveSession&) {

@@ -43,11 +43,11 @@ void LiveWork::carry_out_line(const SessionAction& line, bool joins, bool pose_i
         carry_out_and_record(CommitLine{}, done > 0 || joins);
         ++done;
         if (pose_is_seen)
-            publisher_.say(
-                Notice::Kind::information,
-                "The pose was committed first, since this cannot change while one stands: it counts "
-                "from the next pose on. Ctrl+Z takes both back.",
-                Notice::About::committed);
+            publisher_.say(Notice::Kind::information,
+                           "The pose became the new rest shape first: this cannot change while handles are "
+                           "moved. Ctrl+Z "
+                           "takes both back.",
+                           Notice::About::committed);
     }
     carry_out_and_record(line, done > 0 || joins);
     ++done;

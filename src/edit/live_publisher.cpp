@@ -113,14 +113,12 @@ void LivePublisher::view(const Document& document, const LiveRecording& recordin
     });
 }
 
-void LivePublisher::tell(Notice::About about, std::string words, std::string& told) {
+void LivePublisher::tell(Notice::Kind kind, Notice::About about, std::string words, std::string& told) {
     if (words == told) return;
     told = words;
     if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
     if (!words.empty()) words += '.';
-    shared_.with([&](LiveShared& s) {
-        s.notices.push_back({Notice::Kind::information, std::move(words), about});
-    });
+    shared_.with([&](LiveShared& s) { s.notices.push_back({kind, std::move(words), about}); });
 }
 
 void LivePublisher::strays(const Pipeline::LooseParts& strays) {
@@ -130,15 +128,16 @@ void LivePublisher::strays(const Pipeline::LooseParts& strays) {
             "; \"Strays\" in the shape panel can make all such parts follow, or join them to what they "
             "lie next to. Changing it makes the pose the new rest shape, so undo first (Ctrl+Z) what tore "
             "them off";
-    tell(Notice::About::strays, std::move(words), told_of_strays_);
+    tell(Notice::Kind::information, Notice::About::strays, std::move(words), told_of_strays_);
 }
 
 void LivePublisher::demand(const HandleDemand& demand) {
-    tell(Notice::About::demand, words_about_demand(demand), told_of_demand_);
+    tell(Notice::Kind::warning, Notice::About::demand, words_about_demand(demand), told_of_demand_);
 }
 
 void LivePublisher::swallowed(const Document& document, const std::string& handle) {
-    tell(Notice::About::swallowed, words_about_swallowed(document, handle), told_of_swallowed_);
+    tell(Notice::Kind::warning, Notice::About::swallowed, words_about_swallowed(document, handle),
+         told_of_swallowed_);
 }
 
 void LivePublisher::loose(const Document& document, const std::string& handle) {
@@ -146,7 +145,7 @@ void LivePublisher::loose(const Document& document, const std::string& handle) {
     if (!words.empty() && document.settings().strays != Strays::bridge)
         words += "; \"Strays: Join\" in the shape panel joins them. Changing it makes the pose the new rest "
                  "shape, so undo that first (Ctrl+Z)";
-    tell(Notice::About::loose, std::move(words), told_of_loose_);
+    tell(Notice::Kind::warning, Notice::About::loose, std::move(words), told_of_loose_);
 }
 
 void LivePublisher::note_spacings(const Pipeline& pipeline) {

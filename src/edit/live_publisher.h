@@ -51,7 +51,7 @@ private:
     void copy_changes(std::span<const float> from, std::vector<float>& to);
     void note_samples(const Pipeline& pipeline);
     void note_spacings(const Pipeline& pipeline);
-    void tell(Notice::About about, std::string words, std::string& told);
+    void tell(Notice::Kind kind, Notice::About about, std::string words, std::string& told);
 
     Locked<LiveShared>& shared_;
     Workers& workers_;

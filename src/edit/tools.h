@@ -15,7 +15,8 @@
 //   click sets the camera's pivot. A all, Alt+A none (Esc too), Ctrl+I invert, Ctrl+plus/minus grow and
 //   shrink, L connected, V hides (Shift: the others, Alt: shows all). Tools: C click, B box, Q lasso, P
 //   polygon, K brush, [ ] (as Characters) its size, T through.
-// Handles. H makes a moving one, Shift+H a fixed one, Ctrl+H the region of interest.
+// Handles. H makes a moving one, Shift+H a fixed one, Ctrl+H the region of interest. Where the pivot is moved
+//   (move_pivot), Esc ends that first.
 // Moving. A press on the gizmo drags its part until the release; G, R, S follow the hand until a click
 //   or Enter. X, Y, Z constrain (press_axis() in view/transform.h), Ctrl snaps, Shift slows, digits and . -
 //   arrive as Characters, Tab goes to the next length. Esc, Ctrl+Z or right click cancels; another of G, R, S

@@ -158,6 +158,7 @@ bool resize_brush(Tools& tools, double factor) {
 bool idle_key(const Hand& hand, const KeyPress& press) {
     const Key pressed = without_pad(press.key);
     if (is_refused(hand.tools, pressed, press.held)) return true;
+    if (pressed == Key::escape && std::exchange(hand.tools.move_pivot, false)) return true;
     if (command_key(hand, pressed, press)) return true;
     return press.held == plain && tool_key(hand, pressed, press.repeated);
 }

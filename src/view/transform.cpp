@@ -184,9 +184,10 @@ bool leaves(const Constraint& constraint, int axis) {
     return (axis == constraint.axis) == (constraint.kind == Constraint::Kind::axis);
 }
 
-// So many numbers can be typed.
+// So many numbers can be typed. One factor goes for all axes that are left, until Tab asks for others.
 int fields_of(const TransformDrag& drag) {
-    if (drag.kind != TransformKind::translate) return 1;
+    if (drag.kind == TransformKind::rotate || (drag.kind == TransformKind::scale && !drag.each_axis))
+        return 1;
     int count = 0;
     for (int axis = 0; axis < 3; ++axis) count += leaves(drag.constraint, axis) ? 1 : 0;
     return count;
@@ -237,10 +238,25 @@ double angle_of(const TransformDrag& drag) {
     return drag.snap ? round_to(drag.turned, snap_angle) : drag.turned;
 }
 
+double typed_factor(const TransformDrag& drag, std::size_t field) {
+    return std::max(typed_number(drag, field).value_or(1), least_factor);
+}
+
+// Of all axes that are left.
 double factor_of(const TransformDrag& drag) {
-    if (is_typed(drag)) return std::max(typed_number(drag).value_or(1), least_factor);
+    if (is_typed(drag)) return typed_factor(drag, 0);
     const double factor = factor_by_cursor(drag);
     return std::max(drag.snap ? round_to(factor, snap_factor) : factor, least_factor);
+}
+
+glm::dvec3 factors_of(const TransformDrag& drag) {
+    const bool each = drag.each_axis && is_typed(drag);
+    const double even = each ? 1 : factor_of(drag);
+    glm::dvec3 factors(1.0);
+    std::size_t field = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        if (leaves(drag.constraint, axis)) factors[axis] = each ? typed_factor(drag, field++) : even;
+    return factors;
 }
 
 // 1, 2 or 5 times a power of ten.
@@ -307,7 +323,7 @@ void press_axis(TransformDrag& drag, int axis, bool plane) {
     const Constraint::Kind kind = plane ? Constraint::Kind::plane : Constraint::Kind::axis;
     const Grip grip = grip_of(drag);
     const bool faced = dial_of(drag, grip).cosine >= 0;
-    if (!plane && drag.kind == TransformKind::translate && drag.constraint.kind == Constraint::Kind::free)
+    if (!plane && drag.kind != TransformKind::rotate && drag.constraint.kind == Constraint::Kind::free)
         keep_length_along(drag, axis);
     if (drag.constraint.kind != kind || drag.constraint.axis != axis)
         drag.constraint = {kind, axis, drag.own_first};
@@ -342,7 +358,7 @@ bool type_character(TransformDrag& drag, char character) {
 
 namespace {
 
-// A shift along one axis is free again, and its length that along this axis.
+// What is held to one axis is free again, and its number that of this axis.
 void leave_axis(TransformDrag& drag) {
     const int axis = drag.constraint.axis;
     drag.constraint = {Constraint::Kind::free, 0, drag.constraint.local};
@@ -355,9 +371,9 @@ void leave_axis(TransformDrag& drag) {
 } // namespace
 
 void next_field(TransformDrag& drag, bool back) {
-    if (drag.kind == TransformKind::translate && drag.constraint.kind == Constraint::Kind::axis &&
-        is_typed(drag))
-        leave_axis(drag);
+    if (drag.kind == TransformKind::rotate) return;
+    if (drag.constraint.kind == Constraint::Kind::axis && is_typed(drag)) leave_axis(drag);
+    drag.each_axis = drag.kind == TransformKind::scale;
     const int count = fields_of(drag);
     drag.field = (field_of(drag) + (back ? count - 1 : 1)) % count;
 }
@@ -373,14 +389,10 @@ Transform transform_of(const TransformDrag& drag) {
         transform.axis = axis_of(drag);
         transform.angle = angle_of(drag);
         break;
-    case TransformKind::scale: {
-        const double factor = factor_of(drag);
-        transform.scale = glm::dvec3(factor);
-        for (int axis = 0; axis < 3; ++axis)
-            if (!leaves(drag.constraint, axis)) transform.scale[axis] = 1;
+    case TransformKind::scale:
+        transform.scale = factors_of(drag);
         transform.axes = frame_of(drag);
         break;
-    }
     }
     return transform;
 }
@@ -416,17 +428,15 @@ std::string typed_text(const TransformDrag& drag, std::size_t field = 0) {
 }
 
 // With what a factor comes to that is too small to be taken.
-std::string typed_factor_text(const TransformDrag& drag) {
-    const bool is_less = typed_number(drag).value_or(1) < least_factor;
-    return typed_text(drag) + (is_less ? " is " + number(least_factor, 2) : "");
+std::string typed_factor_text(const TransformDrag& drag, std::size_t field = 0) {
+    const bool is_less = typed_number(drag, field).value_or(1) < least_factor;
+    return typed_text(drag, field) + (is_less ? " is " + number(least_factor, 2) : "");
 }
 
-// Lengths are told to a hundredth of the grid, each with the letter of its axis. Which of them is typed at is
-// seen as soon as there is a choice.
-std::string lengths_text(const TransformDrag& drag) {
-    const int decimals =
-        drag.grid > 0 ? std::clamp(static_cast<int>(std::ceil(1.5 - std::log10(drag.grid))), 0, 9) : 3;
-    const glm::dvec3 parts = glm::conjugate(frame_of(drag)) * shift_of(drag);
+// One number for each axis that is left, with its letter. Which of them is typed at is seen as soon as there
+// is a choice.
+template<typename Typed>
+std::string numbers_text(const TransformDrag& drag, const glm::dvec3& parts, int decimals, Typed&& typed) {
     const bool begun = is_typed(drag) || field_of(drag) > 0;
     std::string text;
     int field = 0;
@@ -434,11 +444,25 @@ std::string lengths_text(const TransformDrag& drag) {
         if (!leaves(drag.constraint, axis)) continue;
         const auto at = static_cast<std::size_t>(field);
         const bool as_typed = !drag.typed[at].empty() || (begun && field == field_of(drag));
-        text += std::string("  ") + letter(axis) + " " +
-                (as_typed ? typed_text(drag, at) : number(parts[axis], decimals));
+        text +=
+            std::string("  ") + letter(axis) + " " + (as_typed ? typed(at) : number(parts[axis], decimals));
         ++field;
     }
     return text;
+}
+
+// Lengths are told to a hundredth of the grid.
+std::string lengths_text(const TransformDrag& drag) {
+    const int decimals =
+        drag.grid > 0 ? std::clamp(static_cast<int>(std::ceil(1.5 - std::log10(drag.grid))), 0, 9) : 3;
+    return numbers_text(drag, glm::conjugate(frame_of(drag)) * shift_of(drag), decimals,
+                        [&](std::size_t field) { return typed_text(drag, field); });
+}
+
+std::string factors_text(const TransformDrag& drag) {
+    if (!drag.each_axis) return " " + (is_typed(drag) ? typed_factor_text(drag) : number(factor_of(drag), 2));
+    return numbers_text(drag, factors_of(drag), 2,
+                        [&](std::size_t field) { return typed_factor_text(drag, field); });
 }
 
 } // namespace
@@ -454,8 +478,7 @@ std::string amount_text(const TransformDrag& drag) {
     case TransformKind::scale:
         break;
     }
-    return "S  × " + (typed ? typed_factor_text(drag) : number(factor_of(drag), 2)) +
-           constraint_words(drag, "along");
+    return "S  ×" + factors_text(drag) + constraint_words(drag, "along");
 }
 
 } // namespace knead

@@ -58,10 +58,11 @@ struct TransformDrag {
     glm::dvec2 start{0.0};             // where the cursor was
     glm::dvec2 cursor{0.0};            // where it is now (with Shift's slowness taken out)
     double turned = 0;                 // radians followed so far about the axis, whole turns included
-    // "45", "-1.5"; of a shift one number for each axis that the constraint leaves, else the first alone. All
-    // empty: the cursor drives.
+    // "45", "-1.5"; of a shift one number for each axis that the constraint leaves, of a scaling as well once
+    // Tab was pressed, else the first alone. All empty: the cursor drives.
     std::array<std::string, 3> typed;
     int field = 0;          // which of them is typed at
+    bool each_axis = false; // of a scaling: a factor for each axis that is left, and not one for all
     bool own_first = false; // X, Y, Z ask for the handle's own axis before the world's
     bool snap = false;      // whole steps: 5° in rotation, a tenth in scale, `grid` in translation
     double grid = 0;        // a round length that suits the view
@@ -90,13 +91,15 @@ void press_axis(TransformDrag& drag, int axis, bool plane);
 // are not taken: returns false. Degrees in rotation, a factor in scale; in translation a length along the
 // axis, and first along x where it is free, along the first of a plane's two axes.
 bool type_character(TransformDrag& drag, char character);
-// The key Tab: the next of these lengths, or the one before; what is typed at that becomes it. A shift that
-// is held to one axis, and has its length typed, is free from there on, with that length along that axis.
+// The key Tab: the next of these lengths, or the one before; what is typed at that becomes it. Likewise of
+// factors, of which there is one for each axis from there on. What is held to one axis, and has its number
+// typed, is free then, with that number for that axis. Nothing of a rotation.
 void next_field(TransformDrag& drag, bool back);
 // The transform as it stands, by what the drag has followed: nothing moves or flips with the camera.
 Transform transform_of(const TransformDrag& drag);
 // What is done, for beside the cursor: the key, the amount, what it is held to; what was typed stands in
-// brackets. "R  45.0°", "G  X 1.250  along world X", "S  × [1.3]  in own YZ".
+// brackets. "R  45.0°", "G  X 1.250  along world X", "S  × [1.3]  in own YZ",
+// "S  ×  X 1.50  Y [2]  Z 1.00".
 std::string amount_text(const TransformDrag& drag);
 
 } // namespace knead

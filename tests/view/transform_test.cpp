@@ -494,6 +494,36 @@ TEST(AmountText, SaysWhatWasDone) {
     EXPECT_EQ(amount_text(shift.drag), "G  Y [2]  Z 0.000  in world YZ");
 }
 
+TEST(Scaling, TabGoesToTheFactorOfTheNextAxis) {
+    Scene scene(TransformKind::scale);
+    const auto type = [&](std::string_view text) {
+        for (const char c : text) type_character(scene.drag, c);
+    };
+    scene.constrain(0);
+    type("1.5");
+    next_field(scene.drag, false);
+    EXPECT_TRUE(near(scene.now().scale, {1.5, 1, 1}, 1e-12));
+    type("2");
+    EXPECT_TRUE(near(scene.now().scale, {1.5, 2, 1}, 1e-12));
+    EXPECT_EQ(amount_text(scene.drag), "S  ×  X [1.5]  Y [2]  Z 1.00");
+    next_field(scene.drag, false);
+    type("0");
+    EXPECT_TRUE(near(scene.now().scale, {1.5, 2, 0.01}, 1e-12)) << "never to nothing";
+    next_field(scene.drag, true);
+    type("\b");
+    EXPECT_TRUE(near(scene.now().scale, {1.5, 1, 0.01}, 1e-12)) << "what is not typed stays as large";
+    press_axis(scene.drag, 2, false);
+    EXPECT_TRUE(near(scene.now().scale, {1, 1, 0.01}, 1e-12)) << "each axis keeps its own";
+}
+
+TEST(Rotating, TabChangesNothing) {
+    Scene scene(TransformKind::rotate);
+    for (const char c : std::string_view("45")) type_character(scene.drag, c);
+    const double before = scene.now().angle;
+    next_field(scene.drag, false);
+    EXPECT_EQ(scene.now().angle, before);
+}
+
 TEST(AmountText, NothingIsNeverNegative) {
     Scene shift(TransformKind::translate);
     shift.move({499.99, 300.01});

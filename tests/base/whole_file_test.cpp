@@ -62,6 +62,26 @@ TEST(WholeFile, stops_reading_when_told) {
     EXPECT_THROW(read_whole_file(folder / "file", stop), Cancelled);
 }
 
+TEST(WholeFile, refuses_a_file_that_becomes_shorter_while_it_is_read) {
+    class Shortening final : public Progress {
+    public:
+        explicit Shortening(std::filesystem::path file) : file_(std::move(file)) {}
+        void report(std::string_view /*stage*/, double /*fraction*/) override {
+            std::filesystem::resize_file(file_, 0);
+            ++reports_;
+        }
+        bool cancelled() const override { return reports_ > 9; } // it need not try for ever
+
+    private:
+        std::filesystem::path file_;
+        int reports_ = 0;
+    };
+    const ScratchFolder folder;
+    write_text(folder / "file", "some text");
+    Shortening shortening(folder / "file");
+    EXPECT_THROW(read_whole_file(folder / "file", shortening), Error);
+}
+
 TEST(FileInTheMaking, replaces_its_target_at_the_commit) {
     const ScratchFolder folder;
     write_text(folder / "file", "old");

@@ -65,6 +65,16 @@ TEST(LasWriter, rounds_to_the_nearest_step_of_the_files_own_scale) {
     EXPECT_EQ(back.file_position(0), cloud.file_position(0));
 }
 
+TEST(LasWriter, keeps_bounds_in_order_where_a_scale_is_negative) {
+    LasKind kind;
+    kind.scale = {0.01, 0.01, -0.01};
+    const PointCloud cloud = read_bytes(las_sample(kind));
+    const std::string saved = written(cloud, {moved(cloud, 2, {0, 0, -0.5F}), {}}, "out.las");
+    EXPECT_NEAR(get<double>(saved, 211), 0, 1e-9); // the number 0, of point 0
+    EXPECT_NEAR(get<double>(saved, 219), -0.62, 1e-9);
+    EXPECT_NEAR(read_bytes(saved).file_position(2).z(), -0.62, 1e-9);
+}
+
 TEST(LasWriter, takes_a_new_offset_only_where_the_pose_leaves_the_range_and_says_so) {
     LasKind kind;
     kind.minor = 4;
@@ -161,6 +171,43 @@ TEST(LasWriter, adds_columns_to_every_kind_of_file) {
     }
 }
 
+TEST(LasWriter, moves_the_places_of_what_lies_behind_the_points) {
+    constexpr std::size_t waveforms = 227, extended = 235; // in the header
+    const std::vector<float> far(5, 1);
+    for (const unsigned minor : {3U, 4U})
+        for (const bool has_any : {false, true}) {
+            LasKind kind;
+            kind.minor = minor;
+            kind.extended = has_any && minor == 4 ? 2 : 0;
+            std::string bytes = las_sample(kind);
+            if (has_any) {
+                put(bytes, waveforms, std::uint64_t{bytes.size()});
+                bytes += "waveforms";
+            }
+            const std::string saved = written(read_bytes(bytes), {{}, {}, {{"far", far}}}, "out.las");
+            const std::uint64_t grown = has_any ? saved.size() - bytes.size() : 0; // a place of 0 is none
+            EXPECT_EQ(get<std::uint64_t>(saved, waveforms), get<std::uint64_t>(bytes, waveforms) + grown);
+            if (minor == 4) {
+                EXPECT_EQ(get<std::uint64_t>(saved, extended), get<std::uint64_t>(bytes, extended) + grown);
+            }
+        }
+}
+
+TEST(LasWriter, adds_columns_where_a_description_ends_in_half_an_entry) {
+    LasKind kind;
+    kind.extra = {{"serial", 7}};
+    std::string bytes = las_sample(kind);
+    bytes.insert(las_points_begin(kind), 7, 'h');
+    put(bytes, 227 + 20, std::uint16_t{192 + 7});
+    put(bytes, 96, static_cast<std::uint32_t>(las_points_begin(kind) + 7));
+    const std::vector<float> far{0, 0.5F, 1, -2, 3};
+    const PointCloud back = read_bytes(written(read_bytes(bytes), {{}, {}, {{"far", far}}}, "out.las"));
+    for (std::size_t i = 0; i < far.size(); ++i) {
+        EXPECT_EQ(value_of(back, "serial", i), static_cast<double>(i));
+        EXPECT_EQ(value_of(back, "far", i), static_cast<double>(far[i]));
+    }
+}
+
 // --- New files ---------------------------------------------------------------------------------------------
 
 const std::string ply_header = "ply\nformat ascii 1.0\nelement vertex 3\n";
@@ -229,6 +276,17 @@ TEST(LasWriter, counts_returns_by_their_own_place_only) {
     const PointCloud back = read_bytes(bytes, "out.las");
     EXPECT_EQ(value_at(back.attributes[find_attribute(back, "return_number").value()], 1), 1);
     EXPECT_EQ(value_at(back.attributes[find_attribute(back, "return_number_2").value()], 1), 300);
+}
+
+TEST(LasWriter, counts_all_fifteen_returns_of_wide_points_which_tell_their_system_as_wkt) {
+    const std::string saved = written(read_bytes(ply_header + ply_double_xyz +
+                                                 "property uchar return_number\nend_header\n"
+                                                 "0 0 0 15\n1 0 0 1\n2 0 0 15\n"),
+                                      {}, "out.las");
+    ASSERT_EQ(file_kind(read_bytes(saved)).encoding, "1.4, point format 6");
+    EXPECT_EQ(get<std::uint64_t>(saved, 255), 1U);
+    EXPECT_EQ(get<std::uint64_t>(saved, 255 + 8 * 14), 2U);
+    EXPECT_EQ(get<std::uint16_t>(saved, 6), 16U);
 }
 
 TEST(LasWriter, makes_a_new_file_in_a_pose) {

@@ -282,6 +282,14 @@ TEST(Pcd, AddsColumnsBehindThoseOfEveryKindOfFile) {
     }
 }
 
+TEST(Pcd, AddsColumnsWhateverTheOrderOfTheHeader) {
+    const std::vector<float> far{7};
+    const PointCloud cloud =
+        read(text("COUNT 1 1 1\nTYPE F F F\nSIZE 4 4 4\nFIELDS x y z\nPOINTS 1", "1 2 3\n"));
+    EXPECT_EQ(written(cloud, {{}, {}, {{"far", far}}}, "out.pcd"),
+              text("COUNT 1 1 1 1\nTYPE F F F F\nSIZE 4 4 4 4\nFIELDS x y z far\nPOINTS 1", "1 2 3 7\n"));
+}
+
 TEST(Pcd, UnderstandsOldAndShortHeaders) {
     EXPECT_EQ(read("COLUMNS x y z\nPOINTS 1\nDATA ascii\n1 2 3").file_position(0), Vec3d(1, 2, 3));
     EXPECT_EQ(read("VERSION .5\nFIELDS x y z\nWIDTH 2\nDATA ascii\n1 2 3\n4 5 6\n").size(), 2U);

@@ -100,6 +100,20 @@ TEST(PlyWriter, rounds_whole_numbers_and_refuses_those_that_do_not_fit) {
     EXPECT_NE(words.find("int8"), std::string::npos) << words;
 }
 
+TEST(PlyWriter, knows_the_largest_whole_number_of_each_type) {
+    for (const auto& [type, beyond] :
+         {std::pair("char", 128), {"uchar", 256}, {"short", 32768}, {"ushort", 65536}}) {
+        const PointCloud cloud =
+            read_bytes(std::string("ply\nformat ascii 1.0\nelement vertex 1\nproperty ") + type +
+                       " x\nproperty float y\nproperty float z\nend_header\n0 0 0\n");
+        std::vector<float> posed = cloud.positions;
+        posed[0] += static_cast<float>(beyond - 1);
+        EXPECT_EQ(read_bytes(written(cloud, {posed, {}})).file_position(0).x(), beyond - 1) << type;
+        posed[0] += 1;
+        EXPECT_NE(refusal_to_write(cloud, {posed, {}}), "") << type;
+    }
+}
+
 std::string with_normals(const std::string& type, const std::string& normals) {
     return "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
            "property " +

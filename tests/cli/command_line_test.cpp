@@ -1,8 +1,13 @@
 // The program's command line before any subcommand.
 
 #include "support/run_knead.h"
+#include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include <sys/wait.h>
 
 namespace knead::test {
 namespace {
@@ -25,6 +30,18 @@ TEST(CommandLine, AnOptionWithNothingBehindItsEqualsSignTakesNoOther) {
     const Outcome outcome = run_knead({"replay", "--out=", "--json", "no-such-session.knead"});
     EXPECT_EQ(outcome.code, 2);
     EXPECT_EQ(outcome.err, "knead: --out: must not be empty\n");
+}
+
+TEST(CommandLine, SaysThatNobodyCouldReadWhatItSaid) {
+    const ScratchFolder folder;
+    for (const std::string asked : {"devices", "--help"}) {
+        const std::string command =
+            knead_binary().string() + ' ' + asked + " > /dev/full 2> " + (folder / "err").string();
+        const int status = std::system(command.c_str()); // NOLINT(concurrency-mt-unsafe)
+        ASSERT_TRUE(WIFEXITED(status));
+        EXPECT_EQ(WEXITSTATUS(status), 5) << asked;
+        EXPECT_EQ(read_text(folder / "err"), "knead: standard output: cannot be written\n") << asked;
+    }
 }
 
 } // namespace

@@ -73,6 +73,17 @@ TEST(Diff, tells_absolute_distances_where_there_is_no_diagonal) {
     EXPECT_NE(outcome.err.find("diagonal is 0"), std::string::npos);
 }
 
+TEST(Diff, says_what_is_odd_about_either_cloud) {
+    const ScratchFolder folder;
+    write_text(folder / "plain.ply", cloud("2", "", "0 0 0\n6 8 0\n"));
+    write_text(folder / "odd.ply", cloud("2", "", "0 0 0\n6 8 0\n") + "more");
+    for (const auto& [a, b] : {std::pair("plain.ply", "odd.ply"), {"odd.ply", "plain.ply"}}) {
+        const Outcome outcome = run_knead({"diff", a, b}, folder.path());
+        EXPECT_EQ(outcome.code, 0);
+        EXPECT_NE(outcome.err.find("odd.ply: "), std::string::npos) << outcome.err;
+    }
+}
+
 TEST(Diff, refuses_clouds_of_different_sizes) {
     const ScratchFolder folder;
     write_text(folder / "a.ply", cloud("1", "", "1 1 1\n"));

@@ -60,6 +60,16 @@ TEST(Info, prints_a_table_for_people) {
         EXPECT_NE(outcome.out.find(words), std::string::npos) << outcome.out;
 }
 
+TEST(Info, takes_points_that_are_not_finite_for_no_duplicates) {
+    const ScratchFolder folder;
+    write_text(folder / "cloud.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                                     "property float y\nproperty float z\nend_header\n"
+                                     "inf 0 0\ninf 0 0\n1 0 0\n1 0 0\n");
+    const Outcome outcome = run_knead({"info", "cloud.ply", "--json"}, folder.path());
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(nlohmann::json::parse(outcome.out)["duplicates"], 1);
+}
+
 TEST(Info, takes_a_cloud_of_no_points) {
     const ScratchFolder folder;
     write_text(folder / "cloud.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"

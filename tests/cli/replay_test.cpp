@@ -318,6 +318,17 @@ TEST_F(Replay, RecordingWithOtherSettingsThanTheSessionHasSaysSo) {
     EXPECT_NE(replay({"--record-checks", "--samples", "all"}).err.find("other settings"), std::string::npos);
 }
 
+TEST_F(Replay, RecordingWithAnotherCloudThanTheSessionHasSaysSo) {
+    session(edit);
+    std::filesystem::copy_file(folder / "bar.ply", folder / "other.ply");
+    const Outcome outcome = replay({"--record-checks", "--cloud", "other.ply", "--json"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_NE(outcome.err.find("the cloud of --cloud"), std::string::npos) << outcome.err;
+    const auto warnings = json::parse(outcome.out)["warnings"];
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].get<std::string>().find("the cloud of --cloud"), std::string::npos);
+}
+
 TEST_F(Replay, RecordingLeavesChecksThatItDidNotRecord) {
     session(edit + R"({"op":"check","positions":"s-check-by-hand.ply","tolerance":1e-9})"
                    "\n");

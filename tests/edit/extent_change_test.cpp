@@ -5,16 +5,17 @@
 namespace knead {
 namespace {
 
+using namespace test;
+
 struct Measured {
     ExtentChange change;
 
-    // Of a made shape under a linear map, without any handle.
-    Measured(Shape shape, const Mat3d& map, bool with_normals = true) {
-        ShapeOptions options;
-        options.points = 4000;
+    // Of a cloud under a linear map, without any handle.
+    Measured(Shape shape, const Mat3d& map, bool with_normals = true)
+        : Measured(made(shape, 4000), map, with_normals) {}
+    Measured(const PointCloud& cloud, const Mat3d& map, bool with_normals = true) {
         Workers workers(2);
         SilentProgress progress;
-        const PointCloud cloud = make_shape(shape, options, workers, progress);
         const auto upsampler = make_reference_upsampler(workers);
         Pipeline pipeline(cloud, workers, *upsampler);
         pipeline.prepare_ahead(Settings{}, progress);
@@ -52,6 +53,24 @@ TEST(ExtentChange, OfAnOpenSurfaceIsItsArea) {
     const Measured plane(Shape::plane, 2 * Mat3d::Identity());
     EXPECT_NEAR(plane.change.area.value(), 3, 1e-3);
     EXPECT_FALSE(plane.change.volume);
+}
+
+TEST(ExtentChange, OfHalfASphereIsItsArea) {
+    const PointCloud sphere = made(Shape::sphere, 8000);
+    std::vector<float> positions;
+    for (std::size_t i = 0; i < sphere.positions.size(); i += 3)
+        if (sphere.positions[i + 2] > 0)
+            positions.insert(positions.end(), &sphere.positions[i], &sphere.positions[i] + 3);
+    PointCloud half = make_cloud(positions);
+    const char* const names[] = {"nx", "ny", "nz"}; // which point away from the middle
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::vector<float> component;
+        for (std::size_t i = axis; i < positions.size(); i += 3) component.push_back(positions[i]);
+        add_attribute(half, names[axis], component);
+    }
+    const Measured bowl(half, 2 * Mat3d::Identity());
+    EXPECT_NEAR(bowl.change.area.value(), 3, 1e-3);
+    EXPECT_FALSE(bowl.change.volume);
 }
 
 TEST(ExtentChange, HasNoVolumeWhereNormalsAreMissing) {

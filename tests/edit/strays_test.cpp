@@ -1,5 +1,6 @@
 // What becomes of parts that hold no handle: frozen, carried, bridged.
 
+#include "edit/carried_parts.h"
 #include "edit/editing.h"
 
 #include <random>
@@ -108,6 +109,18 @@ TEST(CarriedParts, BesideAHandleDoWhatItDoes) {
         const Vec3d expected = pivot + turned * (file - pivot) + Vec3d(0.5, 0, 0.25);
         EXPECT_LT((at(shape, i) + desk.document().cloud().origin - expected).norm(), 1e-5);
     }
+}
+
+TEST(CarriedParts, StayOverTheMiddleOfWhatIsScaledUnderThem) {
+    CarriedParts parts;
+    parts.first = {0, 1};
+    parts.motion = {0};
+    parts.weight = {1};
+    parts.anchor = {Vec3d(100, 0, 0)};
+    const Motion doubling{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+    const Motion motion = carried_motion(parts, 0, {&doubling, 1});
+    const Motion shift{{0, 0, 0, 100, 0, 0, 0, 0, 0, 0, 0, 0}};
+    for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(motion.map[i], shift.map[i], 1e-4F) << i;
 }
 
 TEST(CarriedParts, KeepEveryBitWhereNothingMoves) {

@@ -197,6 +197,18 @@ TEST(Document, WhilePosedRefusesWhatNeedsACommit) {
     for (const std::string& line : commands) EXPECT_EQ(refusal(desk, line), "accepted");
 }
 
+TEST(Document, KnowsWhatNeedsACommit) {
+    Desk desk(bar());
+    SetLine strays, stiffness;
+    strays.change.strays = Strays::carry;
+    stiffness.change.stiffness = 0.1;
+    desk.play(ends);
+    EXPECT_FALSE(desk.document().needs_commit(strays));
+    desk.play(drag(lift));
+    EXPECT_TRUE(desk.document().needs_commit(strays));
+    EXPECT_FALSE(desk.document().needs_commit(stiffness));
+}
+
 TEST(Document, RenamesAndDeletes) {
     Desk desk(bar());
     desk.play(ends + R"({"op":"rename","handle":"top","to":"hat"})");
@@ -222,6 +234,15 @@ TEST(Document, RefusesPosesOfAbsurdSize) {
     Desk desk(bar());
     desk.play(ends + drag(R"({"translate":[0,0,1e6]})") + settle(5)); // far, but not absurd
     EXPECT_TRUE(all_finite(desk.shape()));
+}
+
+TEST(Document, RefusesScalesBeyondWhatFloatsHold) {
+    std::vector<float> positions = bar().positions;
+    for (float& coordinate : positions) coordinate *= 1e25F;
+    Desk desk(make_cloud(positions));
+    desk.play(R"({"op":"handle","name":"top","role":"moving","region":"all"})");
+    EXPECT_EQ(refusal(desk, drag(R"({"scale":1e3})")), "accepted");
+    EXPECT_SAYS(refusal(desk, drag(R"({"scale":1e6})")), "frame 0 (from 0)");
 }
 
 // --- Poses

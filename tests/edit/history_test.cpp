@@ -87,6 +87,21 @@ TEST(History, NothingIsLeftOfAnotherRestShapeOrOfOtherSamples) {
     }
 }
 
+// In all that was made ready for another value.
+TEST(History, ASettingThatIsChangedIsAsIfItHadBeenSoFromTheStart) {
+    const std::string coarsely = drag(coarse(turn('z', 40)) + "," + coarse(turn('z', 80)));
+    for (const char* samples : {"300", "1000"})
+        for (const char* setting : {R"("weights":"paper")", R"("poisson":0.4)", R"("stiffness":0.1)"}) {
+            const std::string begin = set("\"samples\":" + std::string(samples)) + ends;
+            EXPECT_TRUE(same_bits(shape_after(begin + bend + undo + set(setting) + twist),
+                                  shape_after(begin + set(setting) + twist)))
+                << samples << ", " << setting;
+            EXPECT_TRUE(same_bits(shape_after(begin + bend + undo + set(setting) + coarsely),
+                                  shape_after(begin + set(setting) + coarsely)))
+                << samples << ", " << setting;
+        }
+}
+
 TEST(History, TakesBackHandlesSettingsAndNames) {
     Desk desk(bar());
     desk.play(ends + set(R"("samples":77)") + R"({"op":"rename","handle":"top","to":"hat"})" +
@@ -171,6 +186,31 @@ TEST(History, ACancelledDragLeavesTheDocumentAsItWas) {
         }
     }
     EXPECT_TRUE(same_bits(posed.shape(), both));
+}
+
+TEST(History, ACancelledFrameLeavesThoseThatFewSamplesAnswerForAsTheyWere) {
+    const auto shape = [](bool cancels) {
+        Desk desk(bar());
+        Document& document = desk.play(ends).document();
+        SilentProgress silent;
+        document.begin_drag("top", {0, 0, 2.5}, "s:1", silent);
+        HandlePose pose;
+        pose.coarse = true;
+        pose.rotate = Eigen::AngleAxisd(0.4, Vec3d::UnitY());
+        document.drag_frame(pose, "s:1", silent);
+        EXPECT_TRUE(desk.pipeline().has_coarse_samples());
+        HandlePose fine;
+        fine.translate = {0.5, 0, 0};
+        StopsAt stop(1); // before the first iteration
+        if (cancels) {
+            EXPECT_THROW(document.drag_frame(fine, "s:1", stop), Cancelled);
+        }
+        pose.rotate = Eigen::AngleAxisd(0.8, Vec3d::UnitY());
+        document.drag_frame(pose, "s:1", silent);
+        document.end_drag();
+        return desk.shape();
+    };
+    EXPECT_TRUE(same_bits(shape(true), shape(false)));
 }
 
 // The flood of a handle's samples, stopped half-way, must not stay in the lists.
@@ -343,6 +383,14 @@ TEST(History, WhatItKeepsDoesNotGrowWithTheSteps) {
         desk.play(undo).shape();
         EXPECT_LE(desk.document().kept_bytes(), kept[3]);
     }
+}
+
+TEST(History, NothingIsKeptOfWhatWasForgotten) {
+    Desk desk(bar()), fresh(bar());
+    desk.play(ends + bend + commit + twist + commit + bend + undo + undo + undo + undo + undo + twist);
+    fresh.play(ends + twist);
+    EXPECT_GT(fresh.document().kept_bytes(), 0U);
+    EXPECT_EQ(desk.document().kept_bytes(), fresh.document().kept_bytes());
 }
 
 } // namespace

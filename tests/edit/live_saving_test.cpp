@@ -222,6 +222,23 @@ TEST_F(LiveBar, ASavedSessionKnowsItsCloudAgain) {
     EXPECT_EQ(read_session(folder_ / "b.knead").cloud, "elsewhere.ply");
 }
 
+TEST_F(LiveBar, ASavedSessionNamesItsChecksFromWhereItLies) {
+    std::filesystem::create_directory(folder_ / "from");
+    std::filesystem::create_directory(folder_ / "to");
+    std::filesystem::copy_file(folder_ / "bar.ply", folder_ / "from/check.ply");
+    write_text(folder_ / "from/a.knead", R"({"knead":1,"cloud":{"path":"../bar.ply"}})"
+                                         "\n"
+                                         R"({"op":"check","positions":"check.ply","tolerance":0})"
+                                         "\n");
+    LiveDocument live(request_for(folder_ / "from/a.knead"));
+    wait_until_open(live);
+    live.save_session(folder_ / "to/b.knead");
+    wait_until_idle(live);
+    const Session saved = read_session(folder_ / "to/b.knead");
+    ASSERT_EQ(saved.lines.size(), 1U);
+    EXPECT_EQ(std::get<CheckLine>(saved.lines[0].action).positions, "../from/check.ply");
+}
+
 TEST_F(LiveBar, ACloudThatWasOnlyTouchedOrCopiedBackIsTheSameOne) {
     const std::filesystem::path cloud = folder_ / "bar.ply", session = folder_ / "a.knead";
     const std::string digest = sha256_of_file(cloud);

@@ -157,5 +157,33 @@ TEST(LostDevice, AFaultThatNobodyForesawDoesNotKeepADragFromEnding) {
     }
 }
 
+TEST(LostDevice, AFrameThatFailedLeavesWhatFewSamplesFollowedAsItWas) {
+    const auto shape = [](int failing_call) {
+        Desk desk(bar(), {}, 2, "reference", Document::Mode::real,
+                  [failing_call](const std::string&, Workers& workers, unsigned) {
+                      UpsamplerChoice choice;
+                      choice.upsampler = std::make_unique<AstrayUpsampler>(workers, failing_call);
+                      return choice;
+                  });
+        Document& document = desk.play(ends).document();
+        SilentProgress silent;
+        document.begin_drag("top", {0, 0, 2.5}, "s:1", silent);
+        const auto turn_by = [&](double angle) {
+            HandlePose pose;
+            pose.coarse = true;
+            pose.rotate = Eigen::AngleAxisd(angle, Vec3d::UnitY());
+            document.drag_frame(pose, "s:1", silent);
+        };
+        turn_by(0.3);
+        if (failing_call > 0) {
+            EXPECT_THROW(turn_by(1.2), std::logic_error);
+        }
+        turn_by(0.6);
+        document.end_drag();
+        return desk.shape();
+    };
+    EXPECT_TRUE(same_bits(shape(2), shape(0)));
+}
+
 } // namespace
 } // namespace knead::test

@@ -131,6 +131,21 @@ TEST(Replay, KeepsAllTurnsOfATwist) {
     EXPECT_LT(farthest(desk, every, stays), 1e-3 * desk.diagonal());
 }
 
+// A program that writes quaternions with w ≥ 0 flips their sign once a turn.
+TEST(Replay, TurnsGoOnWhateverTheSignsOfTheirQuaternions) {
+    std::string steady, flipping;
+    for (int degrees = 30; degrees <= 360; degrees += 30) {
+        const char* const comma = steady.empty() ? "" : ",";
+        steady += comma + turn('z', degrees);
+        flipping += comma + turn('z', degrees > 180 ? degrees - 360 : degrees);
+    }
+    Desk desk(bar()), other(bar());
+    desk.play(ends + drag(steady));
+    other.play(ends + drag(flipping));
+    EXPECT_NE(desk.shape(), bar().positions);
+    EXPECT_TRUE(same_bits(desk.shape(), other.shape()));
+}
+
 // --- Reports
 
 TEST(Replay, ReportsWhatItDid) {
@@ -247,6 +262,20 @@ TEST(Replay, AnEditWithNoIterationsIsEquationOneAlone) {
     EXPECT_EQ(report.iterations, 0U);
     EXPECT_EQ(report.solve, 0);
     EXPECT_LT(report.handle_error, 1e-6);
+}
+
+TEST(Replay, ACheckWithAPointThatIsNotFiniteFails) {
+    const ScratchFolder folder;
+    std::vector<float> positions = bar(3000).positions;
+    positions[3 * 7] = std::nanf("");
+    SilentProgress progress;
+    write_cloud(folder / "holed.ply", make_cloud(positions), {}, progress);
+    const Session session = session_in(folder, R"({"op":"check","positions":"holed.ply","tolerance":1e-4})");
+    const ReplayReport report = told(session).report;
+    ASSERT_EQ(report.checks.size(), 1U);
+    EXPECT_FALSE(report.checks[0].held);
+    EXPECT_FALSE(report.all_checks_held());
+    EXPECT_SAYS(report.checks[0].words, "point 7 is not finite");
 }
 
 TEST(Replay, WarnsThatItReplacedItsOwnCloud) {

@@ -236,6 +236,14 @@ TEST(SessionWriter, IsCompact) {
         R"("stiffness":0.01,"poisson":0,"weights":"smooth","strays":"freeze"}})");
 }
 
+TEST(SessionWriter, KeepsTheSignOfZeros) {
+    DragLine drag{"ear", Vec3d::Zero(), {HandlePose{}}};
+    drag.frames[0].translate.x() = -0.0;
+    drag.frames[0].rotate.y() = -0.0;
+    const Session back = read_back(session_of_a_cloud(), {to_text(drag)});
+    EXPECT_TRUE(same(back.lines.at(0).action, drag)) << back.lines.at(0).text;
+}
+
 TEST(SessionWriter, RefusesAPathThatJsonCannotHold) {
     EXPECT_THROW(to_text(CheckLine{"caf\xE9.ply", 0}), Error);
 }

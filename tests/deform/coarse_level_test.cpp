@@ -209,6 +209,19 @@ TEST(CoarseFollowing, LeavesASettledShapeAsItIs) {
     EXPECT_LT(bar.between(state, settled), 1e-8);
 }
 
+TEST(CoarseFollowing, StandsUpFromAShapeThatIsFlat) {
+    Dragged bar;
+    HandleMotion pressed;
+    pressed.linear = Vec3d(1, 1, 0).asDiagonal();
+    SampleState state = rest_state(bar.system);
+    for (std::size_t s = 0; s < state.displacement.size(); ++s)
+        state.displacement[s].z() = -bar.system.rest.position[s].z();
+    anchor(bar.system, bar.coarse, std::vector{pressed, pressed}, state, bar.following, bar.workers);
+    follow_coarsely(bar.system, bar.coarse, bar.on_the_way(0), 3, bar.following, state, bar.workers);
+    for (std::size_t s = 0; s < state.displacement.size(); ++s)
+        ASSERT_LT(test::posed(bar.system, state, s).norm(), 2 * bar.system.rest.cloud_size);
+}
+
 TEST(CoarseFollowing, MovesASettledShapeWithItsHandlesAsAWhole) {
     Dragged bar;
     SampleState state = bar.after_accelerated(300);

@@ -3,7 +3,9 @@
 #include "graph/bridges.h"
 
 #include "graph/clouds.h"
+#include "graph/dust.h"
 #include "graph/outliers.h"
+#include "graph/symmetric_graph.h"
 
 #include <cmath>
 
@@ -166,6 +168,41 @@ TEST(Outliers, AreNotFoundWhereThereAreNone) {
     EXPECT_FALSE(hung_of(cloud_of(shape_positions(Shape::knot, 20000))));
     EXPECT_FALSE(hung_of(cloud_of(plates(5))));
     EXPECT_FALSE(hung_of(cloud_of({})));
+}
+
+TEST(Outliers, TieThePiecesBesideThemToTheLargest) {
+    // Pieces of 2, 3 and 2 vertices in a row, and one outlier amid them.
+    const std::vector<float> positions{0, 0, 0, 1, 0, 0, 4,  0, 0, 5, 0, 0,
+                                       6, 0, 0, 9, 0, 0, 10, 0, 0, 5, 5, 0};
+    const std::pair<Index, Index> links[] = {{0, 1}, {2, 3}, {3, 4}, {5, 6}, {7, 1}, {7, 3}, {7, 5}};
+    Graph graph;
+    graph.first.assign(9, 0);
+    Machine machine;
+    graph = with_edges(graph, links, machine.workers);
+    const Components pieces{{{0, 0, 1, 1, 1, 2, 2, 3}, 4}, {2, 3, 2, 1}};
+    const std::vector<std::uint8_t> outlier{0, 0, 0, 0, 0, 0, 0, 1};
+    const Dust dust = gather_dust(graph, pieces, outlier, positions);
+    const std::vector<std::pair<Index, Index>> expected{{1, 3}, {5, 3}};
+    EXPECT_EQ(dust.ties, expected);
+    EXPECT_EQ(dust.hanging, outlier);
+}
+
+// Points of a thread lie on one plane with the two that they are linked to, wherever these are.
+TEST(Outliers, OfFewLinksAreNoSurface) {
+    Machine machine;
+    Cloud cloud = cloud_of(grid_positions(20, 20));
+    std::vector<std::pair<Index, Index>> thread;
+    for (int i = 0; i < 9; ++i) {
+        const auto next = static_cast<Index>(cloud.size());
+        append(cloud.positions, Vec3d(3 * i, 10 + i % 2, 12));
+        cloud.graph.first.push_back(cloud.graph.first.back());
+        if (i > 0) thread.emplace_back(next - 1, next);
+    }
+    cloud.graph = with_edges(cloud.graph, thread, machine.workers);
+    const Spacings spacings = find_spacings(cloud.graph, cloud.positions, machine.workers);
+    const auto hanging = find_outliers(cloud.graph, cloud.positions, spacings, machine.workers);
+    EXPECT_EQ(std::accumulate(hanging.begin(), hanging.end(), 0), 9);
+    EXPECT_EQ(std::accumulate(hanging.end() - 9, hanging.end(), 0), 9);
 }
 
 // A scan is sparse where the scanner saw it from afar.

@@ -204,14 +204,12 @@ private:
         document.rename(line, place);
     }
     void act(Document& document, const UndoLine& /*line*/, std::size_t /*number*/, const std::string& place) {
-        const bool was_posed = document.is_posed();
         document.undo(place);
-        if (was_posed || document.is_posed()) checked_ = false;
+        if (document.is_posed()) checked_ = false;
     }
     void act(Document& document, const RedoLine& /*line*/, std::size_t /*number*/, const std::string& place) {
-        const bool was_posed = document.is_posed();
         document.redo(place);
-        if (was_posed || document.is_posed()) checked_ = false;
+        if (document.is_posed()) checked_ = false;
     }
 
     void check(Document& document, const CheckLine& line, std::size_t number) {

@@ -1,6 +1,7 @@
 // The program's command line before any subcommand.
 
 #include "support/run_knead.h"
+#include "support/scans.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
@@ -42,6 +43,19 @@ TEST(CommandLine, SaysThatNobodyCouldReadWhatItSaid) {
         EXPECT_EQ(WEXITSTATUS(status), 5) << asked;
         EXPECT_EQ(read_text(folder / "err"), "knead: standard output: cannot be written\n") << asked;
     }
+}
+
+TEST(CommandLine, EveryOptionIsInTheManualPage) {
+    const std::string page = read_text(in_repository("data/knead.1"));
+    const std::string help = run_knead({"--help-all"}).out;
+    std::size_t count = 0;
+    for (std::size_t at = help.find("  --"); at != std::string::npos; at = help.find("  --", at + 1)) {
+        const std::size_t begin = at + 3, end = help.find_first_of(" ,:\n", begin);
+        const std::string option = help.substr(begin, end - begin); // "-json"
+        EXPECT_NE(page.find("Fl " + option), std::string::npos) << '-' << option;
+        ++count;
+    }
+    EXPECT_GT(count, 40U);
 }
 
 } // namespace

@@ -227,10 +227,10 @@ TEST_F(Replay, TellsMistakesOfASessionByFileAndLine) {
 
 TEST_F(Replay, RefusesCloudsThatAreNotTheRecordedOne) {
     session(edit, R"("path":"bar.ply","points":799)");
-    expect_failure(3, "s.knead:1: \"points\"");
+    expect_failure(3, "s.knead:1: \"cloud.points\"");
     expect_failure(3, "799", {"--cloud", "bar.ply"}); // another cloud must have as many points, too
     session(edit, R"("path":"bar.ply","points":800,"sha256":")" + std::string(64, '0') + "\"");
-    expect_failure(3, "s.knead:1: \"sha256\"");
+    expect_failure(3, "s.knead:1: \"cloud.sha256\"");
     expect_failure(3, "say with --cloud which file to use");
     EXPECT_EQ(replay({"--cloud", "bar.ply"}).code, 0);
     session(edit, R"("path":"missing.ply")");

@@ -1,6 +1,7 @@
 #include "bench/evaluation.h"
 
 #include "base/error.h"
+#include "base/quoted.h"
 #include "bench/made_cloud.h"
 #include "io/cloud_file.h"
 #include "upsample/devices.h"
@@ -47,7 +48,7 @@ void refuse_unknown_names(const EvaluationOptions& options) {
     const std::vector<std::string> known = evaluation_names(options);
     for (const std::string& name : options.shapes) {
         if (std::ranges::find(known, name) != known.end()) continue;
-        std::string words = "there is no shape \"" + name + "\" to evaluate; there are";
+        std::string words = "there is no shape " + quoted(name) + " to evaluate; there are";
         for (const std::string& other : known) words += " " + other;
         throw Error(Trouble::usage, "", words);
     }

@@ -1,6 +1,7 @@
 #include "bench/survey.h"
 
 #include "base/error.h"
+#include "base/quoted.h"
 
 #include <charconv>
 #include <fstream>
@@ -40,7 +41,7 @@ public:
         Number value{};
         const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), value);
         if (failed != std::errc() || end != word.data() + word.size())
-            refuse("\"" + word + "\" is no " + (std::is_integral_v<Number> ? "whole number" : "number"));
+            refuse(quoted(word) + " is no " + (std::is_integral_v<Number> ? "whole number" : "number"));
         return value;
     }
 

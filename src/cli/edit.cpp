@@ -1,6 +1,7 @@
 // knead edit [FILE]: the editor window.
 
 #include "base/error.h"
+#include "base/quoted.h"
 #include "cli/commands.h"
 
 #include <CLI/CLI.hpp>
@@ -29,7 +30,7 @@ void take_size(const std::string& text, EditorOptions& options) {
     const Viewport size = parse_size(text, 16384);
     if (size.width < 640 || size.height < 420)
         throw Error(Trouble::usage, "--size",
-                    "must be a width and a height of at least 640x420, as 1440x900, not \"" + text + "\"");
+                    "must be a width and a height of at least 640x420, as 1440x900, not " + quoted(text));
     options.width = size.width;
     options.height = size.height;
 }

@@ -2,6 +2,7 @@
 // code.
 
 #include "base/error.h"
+#include "base/quoted.h"
 #include "base/require.h"
 #include "cli/commands.h"
 #include "cli/cures.h"
@@ -60,10 +61,10 @@ bool is_missing(const std::string& word) {
     if (word.starts_with('-') || std::filesystem::exists(word, ignored)) return false;
     knead::Terminal terminal;
     const bool looks_like_file = word.find_first_of("./") != std::string::npos;
-    terminal.say("knead: " + (looks_like_file ? "there is no file \"" + word + "\""
-                                              : "\"" + word +
-                                                    "\" is no file, and no subcommand either; "
-                                                    "knead --help names these"));
+    terminal.say("knead: " + (looks_like_file
+                                  ? "there is no file " + knead::quoted(word)
+                                  : knead::quoted(word) + " is no file, and no subcommand either; "
+                                                          "knead --help names these"));
     return true;
 }
 

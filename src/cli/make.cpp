@@ -2,6 +2,7 @@
 
 #include "base/counts.h"
 #include "base/error.h"
+#include "base/quoted.h"
 #include "base/workers.h"
 #include "cli/commands.h"
 #include "io/cloud_file.h"
@@ -40,7 +41,7 @@ int make(const MakeArguments& arguments, Terminal& terminal) {
     const std::optional<Shape> shape = shape_named(arguments.shape);
     if (!shape)
         throw Error(Trouble::usage, "",
-                    "no shape is called \"" + arguments.shape + "\"; there are " + shape_names());
+                    "no shape is called " + quoted(arguments.shape) + "; there are " + shape_names());
     ShapeOptions options;
     // A count below 0 is refused with the same words as 0.
     options.points = arguments.points > 0 ? static_cast<std::size_t>(arguments.points) : 0;

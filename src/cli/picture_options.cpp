@@ -1,6 +1,7 @@
 #include "cli/picture_options.h"
 
 #include "base/error.h"
+#include "base/quoted.h"
 #include "base/whole_file.h"
 #include "view/framing.h"
 #include "view/standing.h"
@@ -19,7 +20,7 @@ namespace knead {
 namespace {
 
 [[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& wanted) {
-    throw Error(Trouble::usage, "", option + " \"" + text + "\": " + wanted);
+    throw Error(Trouble::usage, "", option + " " + quoted(text) + ": " + wanted);
 }
 
 // Two numbers with a character between them, and nothing else.

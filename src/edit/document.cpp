@@ -281,8 +281,8 @@ std::string words_about_swallowed(const Document& document, const std::string& h
     if (found == handles.end() ||
         document.pipeline().moves_points(static_cast<Index>(found - handles.begin())))
         return {};
-    return "handle \"" + handle +
-           "\" moves nothing: handles that were made later hold all of its points; make it again to "
+    return "handle " + quoted(handle) +
+           " moves nothing: handles that were made later hold all of its points; make it again to "
            "give them back to it";
 }
 
@@ -293,8 +293,8 @@ std::string words_about_loose(const Document& document, const std::string& handl
     if (found == handles.end() || std::ranges::none_of(handles, stays) ||
         !document.pipeline().is_on_loose_part(static_cast<Index>(found - handles.begin())))
         return {};
-    return "the part of the cloud that \"" + handle +
-           "\" is on has nothing that stays: what is fixed lies on other parts, and they do not hang "
+    return "the part of the cloud that " + quoted(handle) +
+           " is on has nothing that stays: what is fixed lies on other parts, and they do not hang "
            "together";
 }
 

@@ -1,6 +1,7 @@
 // What the editor does to handles: making, changing, mirroring and dragging them.
 
 #include "base/counts.h"
+#include "base/quoted.h"
 #include "edit/editor_steps.h"
 #include "edit/handle_lines.h"
 #include "edit/mirroring.h"
@@ -87,13 +88,13 @@ void tell_who_is_robbed(Editor& editor, HandleRole role, const std::string& name
         if (handle.role == HandleRole::region_of_interest || handle.name == name) continue;
         const Held& held = each[h];
         if (held.selected == 0) continue;
-        words += (words.empty() ? " takes " : ", and ") + counted(held.selected, "point") + " from \"" +
-                 handle.name + "\"";
+        words += (words.empty() ? " takes " : ", and ") + counted(held.selected, "point") + " from " +
+                 quoted(handle.name);
         if (held.selected == held.points) words += ", which holds none any more";
     }
     if (!words.empty())
         say(editor, Notice::Kind::information,
-            "\"" + name + "\"" + words + ": what several hold follows the one that took it last.");
+            quoted(name) + words + ": what several hold follows the one that took it last.");
 }
 
 } // namespace
@@ -138,7 +139,7 @@ void carry_out(Editor& editor, const RenameHandle& command) {
     const bool is_blank = std::ranges::all_of(command.to, [](char letter) { return letter == ' '; });
     if (!number_of(editor, command.handle) || is_blank || command.to == command.handle) return;
     if (number_of(editor, command.to))
-        return say(editor, Notice::Kind::error, "There is a handle \"" + command.to + "\" already.");
+        return say(editor, Notice::Kind::error, "There is a handle " + quoted(command.to) + " already.");
     const StepNumber step = post_step(editor, {RenameLine{command.handle, command.to}});
     editor.posted_names.emplace_back(step, command.to);
     put_pivot_with(editor.past.back(), editor, command.to, pivot_of(editor, command.handle));
@@ -160,7 +161,7 @@ void carry_out(Editor& editor, const AssignPoints& command) {
     if (!has_pending_steps(editor) && !changes(editor.document->handles, edit)) {
         const bool takes_away = command.mode == SelectMode::remove;
         return say(editor, Notice::Kind::information,
-                   "\"" + handle.name + "\" " +
+                   quoted(handle.name) + " " +
                        (!takes_away ? "holds just these points already."
                         : held_by_each(editor)[*number].selected > 0
                             ? "would hold no point any more: delete it."
@@ -253,8 +254,8 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     const double place = plane.at + editor.opened.cloud->origin[command.axis];
     if (points.empty())
         return say(editor, Notice::Kind::error,
-                   "There is nothing across " + words_about(plane, place) + ", where \"" + handle.name +
-                       "\" would be mirrored to.");
+                   "There is nothing across " + words_about(plane, place) + ", where " + quoted(handle.name) +
+                       " would be mirrored to.");
     if (!plane.is_middle)
         say(editor, Notice::Kind::information, "Mirrored across " + words_about(plane, place) + ".");
     HandleLine line = line_of(handle);
@@ -274,8 +275,8 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
         post_step(editor, {std::move(line)});
         if (handle.role == HandleRole::moving)
             say(editor, Notice::Kind::information,
-                "Only the handle was mirrored: \"" + handle.name +
-                    "\" is where it was at rest, so there is no pose to mirror.");
+                "Only the handle was mirrored: " + quoted(handle.name) +
+                    " is where it was at rest, so there is no pose to mirror.");
     }
     editor.posted_names.emplace_back(editor.last_step, name);
     choose_with_step(editor, name);
@@ -332,8 +333,8 @@ void carry_out(Editor& editor, const RefuseTransform& command) {
     if (!chosen) return say(editor, Notice::Kind::information, next_step(editor));
     if (chosen->role != HandleRole::moving)
         return say(editor, Notice::Kind::information,
-                   "\"" + chosen->name +
-                       "\" is no moving handle: choose one that is, or right-click this one in "
+                   quoted(chosen->name) +
+                       " is no moving handle: choose one that is, or right-click this one in "
                        "the list to make it one.");
     if (!gizmo_of(editor)) return;
     const bool scales = command.kind == TransformKind::scale;

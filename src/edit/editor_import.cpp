@@ -2,6 +2,7 @@
 
 #include "base/counts.h"
 #include "base/error.h"
+#include "base/quoted.h"
 #include "edit/cures.h"
 #include "edit/editor_steps.h"
 #include "edit/json_text.h"
@@ -120,7 +121,7 @@ void handles_from_labels(Editor& editor, const std::string& column, std::span<co
     const auto number = find_attribute(cloud, column);
     if (!number || cloud.attributes[*number].is_list() || !may_hold_labels(cloud.attributes[*number].type))
         return say(editor, Notice::Kind::error,
-                   "The cloud has no column of whole numbers called \"" + column + "\".");
+                   "The cloud has no column of whole numbers called " + quoted(column) + ".");
     std::unordered_map<std::int64_t, std::vector<IndexRange>> points;
     for (const LabelChoice& choice : choices) points[choice.value] = {};
     for (std::size_t i = 0; i < cloud.size(); ++i) {

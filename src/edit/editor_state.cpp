@@ -1,5 +1,6 @@
 // What follows from the editor's state.
 
+#include "base/quoted.h"
 #include "edit/editor_steps.h"
 #include "edit/falloffs.h"
 #include "edit/measures.h"
@@ -229,8 +230,7 @@ std::string next_step(const Editor& editor) {
     if (!chosen_handle(editor) || chosen_handle(editor)->role != HandleRole::moving)
         return "Click a moving handle to choose it.";
     if (followers_of(editor, *chosen_handle(editor)) == 0)
-        return "\"" + editor.chosen +
-               "\" moves nothing: handles that were made later hold all of its points.";
+        return quoted(editor.chosen) + " moves nothing: handles that were made later hold all of its points.";
     if (editor.tools.move_pivot)
         return "Dragging the gizmo's arrows moves its pivot alone; press . to move the handle again.";
     if (!editor.document->posed) return "Drag the gizmo, or press G to move, R to turn, S to scale.";

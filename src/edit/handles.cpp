@@ -1,6 +1,7 @@
 #include "edit/handles.h"
 
 #include "base/error.h"
+#include "base/quoted.h"
 #include "base/workers.h"
 #include "graph/point_order.h"
 
@@ -175,7 +176,7 @@ void append_point(std::vector<IndexRange>& ranges, std::uint64_t point) {
 std::vector<Index> resolve_points(const HandleLine& line, const PointCloud& cloud,
                                   const std::function<Vec3d(std::size_t)>& file_position,
                                   const std::string& place) {
-    const std::string named = "the handle \"" + line.name + "\"";
+    const std::string named = "the handle " + quoted(line.name);
     std::vector<Index> points;
     if (const auto* ranges = std::get_if<std::vector<IndexRange>>(&line.points)) {
         points = points_of(*ranges, cloud, place);

@@ -1,5 +1,6 @@
 // What a Pipeline does in every frame, and what is told of the frame that it showed last.
 
+#include "base/quoted.h"
 #include "base/require.h"
 #include "deform/rotation.h"
 #include "edit/pipeline.h"
@@ -140,7 +141,7 @@ HandleDemand Pipeline::demand(const SampleState& state) const {
         strain_of(system_, state), parting.factor, {}, {}, rounding_of(posed().positions, cloud_size_)};
     const auto name_of = [&](Index label) {
         const Index handle = handle_of(label);
-        return handle < input_.handles.size() ? '"' + input_.handles[handle].name + '"'
+        return handle < input_.handles.size() ? quoted(input_.handles[handle].name)
                                               : std::string("what lies outside the region");
     };
     if (parting.one != no_index) demand.one = name_of(parting.one), demand.other = name_of(parting.other);

@@ -1,4 +1,5 @@
 #include "edit/session_settings.h"
+#include "base/quoted.h"
 
 #include <algorithm>
 
@@ -96,7 +97,7 @@ SettingsChange parse_setting(std::string_view assignment) {
     const std::string key(assignment.substr(0, equals));
     if (std::find(setting_keys.begin(), setting_keys.end(), key) == setting_keys.end())
         throw Error(Trouble::usage, place.text,
-                    "there is no setting \"" + key + "\"; there are " + all_keys());
+                    "there is no setting " + quoted(key) + "; there are " + all_keys());
     nlohmann::json object;
     object[key] = value_of_argument(std::string(assignment.substr(equals + 1)));
     return settings_change(Value{&object, &place});

@@ -1,4 +1,5 @@
 #include "edit/session_values.h"
+#include "base/quoted.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,7 +149,7 @@ void allow_keys(const Value& object, std::span<const std::string_view> keys) {
         if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
         std::string allowed;
         for (const std::string_view one : keys) allowed += (allowed.empty() ? "" : ", ") + std::string(one);
-        refuse(object, "has an unknown key \"" + shortened(key) + "\"; what it may have: " + allowed);
+        refuse(object, "has an unknown key " + quoted(shortened(key)) + "; what it may have: " + allowed);
     }
 }
 
@@ -158,7 +159,7 @@ void allow_keys(const Value& object, std::initializer_list<std::string_view> key
 
 Value member(const Value& object, std::string_view key) {
     const std::optional<Value> found = optional_member(object, key);
-    if (!found) refuse(object, "has no \"" + std::string(key) + "\", which it needs");
+    if (!found) refuse(object, "has no " + quoted(std::string(key)) + ", which it needs");
     return *found;
 }
 

@@ -1,6 +1,7 @@
 // The lines of a session file, from values to text.
 
 #include "base/error.h"
+#include "base/quoted.h"
 #include "base/require.h"
 #include "edit/session.h"
 
@@ -30,8 +31,8 @@ void append_text(std::string& text, std::string_view value) {
         text += nlohmann::json(value).dump();
     } catch (const nlohmann::json::type_error&) {
         throw Error(Trouble::output, "",
-                    "a session cannot hold the name \"" + std::string(value) +
-                        "\", which is not UTF-8; rename it");
+                    "a session cannot hold the name " + quoted(std::string(value)) +
+                        ", which is not UTF-8; rename it");
     }
 }
 

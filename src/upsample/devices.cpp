@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/lower_case.h"
+#include "base/quoted.h"
 #include "upsample/opencl_devices.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ bool is_number(const std::string& text) {
     std::string choices;
     for (std::size_t i = 0; i < devices.size(); ++i)
         choices += std::to_string(i) + " (" + devices[i].name + "), ";
-    throw Error(Trouble::usage, "device \"" + request + "\"", why + "; there are: " + choices + "reference");
+    throw Error(Trouble::usage, "device " + quoted(request), why + "; there are: " + choices + "reference");
 }
 
 std::size_t device_numbered(const std::string& request, const std::vector<DeviceDescription>& devices) {

@@ -1,6 +1,7 @@
 #include "view/coloring.h"
 
 #include "base/error.h"
+#include "base/quoted.h"
 #include "base/require.h"
 #include "cloud/colors.h"
 
@@ -108,7 +109,7 @@ std::vector<float> column_values(const PointsToColor& points, const std::string&
         std::string others;
         for (const std::string& other : scalar_columns(cloud)) others += (others.empty() ? "" : ", ") + other;
         throw Error(Trouble::usage, "",
-                    "the cloud has no column of numbers called \"" + name + "\"" +
+                    "the cloud has no column of numbers called " + quoted(name) +
                         (others.empty() ? "" : "; it has " + others));
     }
     std::vector<float> values(points.file_index.size());

@@ -115,8 +115,9 @@ void draw_about(const Ui& ui) {
                  "After “Efficient Non-Linear Editing of Large Point Clouds”.");
     if (ui.has_cloud()) faint_text("The points are moved on " + ui.editor.document->device + ".");
     ImGui::Dummy({0, ui.scaled(4)});
-    if (main_button("Close", {-1, 0}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false))
-        ImGui::CloseCurrentPopup();
+    // The Enter that chose this in the menu is no answer to it.
+    const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+    if (main_button("Close", {-1, 0}) || (entered && !ImGui::IsWindowAppearing())) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 

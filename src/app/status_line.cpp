@@ -26,7 +26,8 @@ const char* transform_hint(const TransformDrag& drag) {
     case TransformKind::rotate:
         return "X Y Z axis · type degrees · Ctrl steps · Shift slow · Enter done · Esc as it was";
     default:
-        return "X Y Z axis · type a factor · Ctrl steps · Shift slow · Enter done · Esc as it was";
+        return "X Y Z axis · type a factor, Tab the next · Ctrl steps · Shift slow · Enter done · Esc as it "
+               "was";
     }
 }
 

@@ -19,13 +19,19 @@ namespace {
 constexpr float patience = 0.4f;
 
 // Of what stands in a panel at the right side beside that panel, at the lower edge above it: at the cursor it
-// would hide what comes next. The farther right or down it is, the more of it is on the other side of there,
-// so that none goes over the edge. Returns how wide it may be.
+// would hide what comes next; of what stands in a menu beside that. The farther right or down it is, the more
+// of it is on the other side of there, so that none goes over the edge. Returns how wide it may be.
 float place_explanation() {
     const ImVec2 panel = ImGui::GetWindowPos(), item = ImGui::GetItemRectMin(), cursor = ImGui::GetMousePos();
     const ImVec2 all = ImGui::GetIO().DisplaySize;
     constexpr float gap = 6;
     const bool beside = panel.x > all.x / 2;
+    const ImGuiWindow& window = *ImGui::GetCurrentWindow();
+    if (!beside && (window.Flags & ImGuiWindowFlags_Popup) && !(window.Flags & ImGuiWindowFlags_Modal)) {
+        const float right = panel.x + window.Size.x + gap;
+        ImGui::SetNextWindowPos({right, item.y}, ImGuiCond_Always);
+        return all.x - right - gap;
+    }
     if (beside)
         ImGui::SetNextWindowPos({panel.x - gap, item.y}, ImGuiCond_Always, {1, item.y / all.y});
     else if (panel.y > 0.8f * all.y)

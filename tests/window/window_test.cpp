@@ -225,6 +225,23 @@ TEST_F(WindowTest, AsksBeforeItOverwritesWhatSomebodyElseSaved) {
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
 }
 
+TEST_F(WindowTest, MenusAndQuestionsGoByTheKeyboard) {
+    open_cat();
+    make_handles();
+    desktop_->move(640, 600);                           // off the menus
+    desktop_->keys({"F10", "Right", "Down", "Return"}); // Edit, Undo
+    EXPECT_TRUE(wait_for_act("undo", 1));
+    desktop_->keys({"F10", "Left", "Right", "Up", "Return"}); // File, Quit
+    pause(1);
+    EXPECT_TRUE(editor_.runs()) << "it asks first";
+    desktop_->keys({"Escape"});
+    pause(0.5);
+    EXPECT_TRUE(editor_.runs());
+    desktop_->keys({"ctrl+q", "Tab", "Return"}); // Discard
+    EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+    EXPECT_TRUE(recording().empty());
+}
+
 TEST_F(WindowTest, ANameThatCannotBeSavedStaysToBeMended) {
     open_cat();
     make_handles();

@@ -38,16 +38,11 @@ std::string words_beyond(double distance, double allowed, const std::string& fro
 // What a `set` line changes where these overrides win. A key that the line does not have stays away: a line
 // that is allowed while handles are posed must not become one that is not.
 SettingsChange overridden(SettingsChange line, const SettingsChange& overrides) {
-    const auto yield = [](auto& own, const auto& over) {
+    for_each_setting([&](const auto& setting) {
+        auto& own = line.*setting.change;
+        const auto& over = overrides.*setting.change;
         if (own && over) own = over;
-    };
-    yield(line.neighbors, overrides.neighbors);
-    yield(line.samples, overrides.samples);
-    yield(line.iterations, overrides.iterations);
-    yield(line.stiffness, overrides.stiffness);
-    yield(line.poisson, overrides.poisson);
-    yield(line.weights, overrides.weights);
-    yield(line.strays, overrides.strays);
+    });
     return line;
 }
 

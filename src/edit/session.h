@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -43,6 +44,28 @@ struct SettingsChange {
     std::optional<InfluenceWeights> weights;
     std::optional<Strays> strays;
 };
+
+// A setting, by which all code goes that is the same for each of them.
+template<typename Value>
+struct Setting {
+    std::string_view key; // in a session
+    Value Settings::*value;
+    std::optional<Value> SettingsChange::*change;
+};
+inline constexpr std::tuple all_settings{
+    Setting{"neighbors", &Settings::neighbors, &SettingsChange::neighbors},
+    Setting{"samples", &Settings::samples, &SettingsChange::samples},
+    Setting{"iterations", &Settings::iterations, &SettingsChange::iterations},
+    Setting{"stiffness", &Settings::stiffness, &SettingsChange::stiffness},
+    Setting{"poisson", &Settings::poisson, &SettingsChange::poisson},
+    Setting{"weights", &Settings::weights, &SettingsChange::weights},
+    Setting{"strays", &Settings::strays, &SettingsChange::strays}};
+
+template<typename Function>
+void for_each_setting(Function&& function) {
+    std::apply([&](const auto&... setting) { (function(setting), ...); }, all_settings);
+}
+
 Settings changed(Settings settings, const SettingsChange& change);
 // Both changes, `later` winning.
 SettingsChange merged(SettingsChange earlier, const SettingsChange& later);

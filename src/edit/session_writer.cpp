@@ -160,18 +160,26 @@ void append_frame(std::string& text, const HandlePose& pose) {
     text += '}';
 }
 
-void append_samples(std::string& text, const std::optional<std::uint64_t>& samples) {
+void append_value(std::string& text, const std::optional<std::uint64_t>& samples) {
     text += samples ? std::to_string(*samples) : "\"all\"";
+}
+void append_value(std::string& text, unsigned number) {
+    text += std::to_string(number);
+}
+void append_value(std::string& text, double number) {
+    append_number(text, number);
+}
+void append_value(std::string& text, InfluenceWeights weights) {
+    text += word(weights);
+}
+void append_value(std::string& text, Strays strays) {
+    text += word(strays);
 }
 
 void append_settings(std::string& text, const SettingsChange& change) {
-    if (change.neighbors) key(text, "neighbors") += std::to_string(*change.neighbors);
-    if (change.samples) append_samples(key(text, "samples"), *change.samples);
-    if (change.iterations) key(text, "iterations") += std::to_string(*change.iterations);
-    if (change.stiffness) append_number(key(text, "stiffness"), *change.stiffness);
-    if (change.poisson) append_number(key(text, "poisson"), *change.poisson);
-    if (change.weights) key(text, "weights") += word(*change.weights);
-    if (change.strays) key(text, "strays") += word(*change.strays);
+    for_each_setting([&](const auto& setting) {
+        if (const auto& wanted = change.*setting.change) append_value(key(text, setting.key), *wanted);
+    });
 }
 
 // --- Lines: all but their `{"op":"…"` and the closing brace
@@ -244,10 +252,9 @@ std::string header_text(const Session& session) {
     append_text(text, session.cloud.string());
     if (session.points) key(text, "points") += std::to_string(*session.points);
     if (session.sha256) append_text(key(text, "sha256"), *session.sha256);
-    const Settings& settings = session.settings;
-    append_settings(text += R"(},"settings":{)",
-                    {settings.neighbors, settings.samples, settings.iterations, settings.stiffness,
-                     settings.poisson, settings.weights, settings.strays});
+    SettingsChange all;
+    for_each_setting([&](const auto& setting) { all.*setting.change = session.settings.*setting.value; });
+    append_settings(text += R"(},"settings":{)", all);
     return text += "}}";
 }
 

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <ctime>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -81,13 +82,15 @@ std::optional<LostWork> look_at(const std::filesystem::path& file) {
             return LostWork{file, session.resolve(session.cloud), facts.session, lost,
                             std::filesystem::last_write_time(file)};
         remove_journal(file);
-    } catch (const Error& error) { // a damaged one, or of another version
+    } catch (const std::filesystem::filesystem_error&) { // it is gone meanwhile
+        return std::nullopt;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) { // a damaged one, or of another version
         LostWork damaged;
         damaged.journal = file;
         damaged.trouble = error.what();
         return damaged;
-    } catch (const std::filesystem::filesystem_error&) {
-        // It is gone meanwhile.
     }
     return std::nullopt;
 }

@@ -1,4 +1,5 @@
 #include "edit/session_values.h"
+
 #include "base/quoted.h"
 
 #include <algorithm>

@@ -191,7 +191,7 @@ TEST_F(Replay, RefusesWrongArgumentsWithTwo) {
     expect_failure(2, "", {"--threads", "0"});
     expect_failure(2, "", {"--no-such-option"});
     for (const char* option : {"--out", "--cloud", "--samples", "--set", "--device", "--picture", "--frames"})
-        expect_failure(2, option, {option, ""}); // as a script has it whose variable is not set
+        expect_failure(2, option, {option, ""});      // as a script has it whose variable is not set
     expect_failure(2, "--view", {"--view", "front"}); // no picture is asked for
     EXPECT_EQ(run_knead({"replay"}).code, 2);
     EXPECT_EQ(run_knead({}).code, 2);

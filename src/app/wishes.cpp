@@ -7,6 +7,7 @@
 #include "io/cloud_file.h"
 
 #include <array>
+#include <cstdlib>
 #include <utility>
 
 namespace knead {
@@ -104,6 +105,17 @@ bool has_session_of_its_own(const Editor& editor) {
     return !session.empty() && session != data_file(demonstration_session);
 }
 
+// What is open, as a place for something new to lie beside; knead's own creature counts as lying at home.
+std::filesystem::path place_of(const Editor& editor) {
+    if (has_session_of_its_own(editor)) return editor.document->session;
+    const std::filesystem::path& opened = editor.opened.file;
+    const auto own = data_file("creature.ply");
+    const char* home = std::getenv("HOME");
+    if (home && own && std::filesystem::absolute(opened).parent_path() == own->parent_path())
+        return std::filesystem::path(home) / opened.filename();
+    return opened;
+}
+
 // The nearest folder above that is there.
 std::filesystem::path folder_around(const std::filesystem::path& file) {
     std::error_code ignored;
@@ -151,8 +163,7 @@ void fulfil(Work& work, const WishBrowse& wish) {
             browser.folder = work.state.recent.front().parent_path();
     }
     if (!work.editor.document) return;
-    const bool has_own = has_session_of_its_own(work.editor);
-    const std::filesystem::path& beside = has_own ? work.editor.document->session : opened;
+    const std::filesystem::path beside = place_of(work.editor);
     if (wish.purpose == BrowseFor::save_session)
         propose(browser, work.state.last_session, beside, opened.stem().string() + ".knead");
     if (wish.purpose == BrowseFor::save_cloud && looks_back(work.editor))

@@ -64,7 +64,7 @@ void buttons(const Ui& ui, const LabelDialog& dialog) {
     const auto count = std::ranges::count_if(dialog.roles, [](const auto& role) { return role.has_value(); });
     const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
     const bool escaped = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
-    const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+    const bool entered = popup_has_keys() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
     if (dialog.columns.empty()) {
         if (main_button("Close", {-1, 0}) || escaped || entered) ImGui::CloseCurrentPopup();
         return;

@@ -262,6 +262,11 @@ void close_popups() {
     if (ImGui::GetCurrentContext()->OpenPopupStack.Size > 0) ImGui::ClosePopupToLevel(0, false);
 }
 
+bool popup_has_keys() {
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    return context.OpenPopupStack.Size == context.BeginPopupStack.Size;
+}
+
 void caption(const char* words) {
     ImGui::PushStyleColor(ImGuiCol_Text, palette::faint);
     ImGui::TextUnformatted(words);

@@ -63,5 +63,7 @@ std::string byte_size(std::uintmax_t bytes);
 
 // Menus, drop-downs and whatever else is open over the window; there may be nothing.
 void close_popups();
+// Whether nothing is open above the popup that is being drawn: keys are meant for it.
+bool popup_has_keys();
 
 } // namespace knead

@@ -84,7 +84,6 @@ struct Editor {
     std::shared_ptr<const DocumentView> document; // null: nothing is open
     PosedFrame frame;                             // the points as they are now
     LiveDocument::Status status;                  // of `live`, or of `opening` while there is one
-    LiveDocument::Saved saved;
     bool saving = false; // a file of `live` is being written; what comes of it is among the notices then
     bool chooses_samples = false; // by itself, as the document was told last
     std::vector<Index> ordered;   // of each point of the file: its place in the order; no_index: left out

@@ -130,7 +130,6 @@ bool refresh(Editor& editor) {
     changed |= playing != editor.status.playing;
     forget_refused(editor);
     changed |= refresh_view(editor);
-    editor.saved = editor.live->saved();
     if (editor.live->take_frame(editor.frame)) {
         editor.changes.positions = true;
         changed = true;

@@ -19,6 +19,15 @@ LiveDocument::LiveDocument(OpenRequest request) : shared_(std::make_unique<Locke
     });
 }
 
+std::size_t LiveShared::*count_of(const LiveTask& task) {
+    if (std::holds_alternative<task::SaveCloud>(task) || std::holds_alternative<task::SaveSession>(task))
+        return &LiveShared::saves;
+    const auto* undo = std::get_if<task::Undo>(&task);
+    const auto* redo = std::get_if<task::Redo>(&task);
+    const bool counts = (undo && !undo->to_look) || (redo && !redo->to_look);
+    return counts ? &LiveShared::undos : nullptr;
+}
+
 LiveDocument::~LiveDocument() {
     shared_->change([](LiveShared& shared) { shared.stop = true; });
     thread_.reset();
@@ -48,14 +57,10 @@ OpenedCloud LiveDocument::opened() const {
 namespace {
 
 void put(Locked<LiveShared>& shared, LiveTask task) {
-    shared.change([&](LiveShared& s) { s.inbox.push_back(std::move(task)); });
-}
-
-// Counted, until it is done with.
-void put(Locked<LiveShared>& shared, LiveTask task, std::size_t LiveShared::*count) {
+    const auto count = count_of(task);
     shared.change([&](LiveShared& s) {
         s.inbox.push_back(std::move(task));
-        ++(s.*count);
+        if (count) ++(s.*count);
     });
 }
 
@@ -106,13 +111,11 @@ void LiveDocument::reset_pose(StepNumber step, std::string handle) {
 }
 
 void LiveDocument::undo(StepNumber step, bool to_look) {
-    if (to_look) return put(*shared_, task::Undo{step, to_look});
-    put(*shared_, task::Undo{step, to_look}, &LiveShared::undos);
+    put(*shared_, task::Undo{step, to_look});
 }
 
 void LiveDocument::redo(StepNumber step, bool to_look) {
-    if (to_look) return put(*shared_, task::Redo{step, to_look});
-    put(*shared_, task::Redo{step, to_look}, &LiveShared::undos);
+    put(*shared_, task::Redo{step, to_look});
 }
 
 void LiveDocument::play(StepNumber step) {
@@ -128,11 +131,11 @@ void LiveDocument::advance_play(int frames) {
 }
 
 void LiveDocument::save_cloud(std::filesystem::path target, SaveColumns columns, bool anyway) {
-    put(*shared_, task::SaveCloud{std::move(target), columns, anyway}, &LiveShared::saves);
+    put(*shared_, task::SaveCloud{std::move(target), columns, anyway});
 }
 
 void LiveDocument::save_session(std::filesystem::path target, bool anyway) {
-    put(*shared_, task::SaveSession{std::move(target), anyway}, &LiveShared::saves);
+    put(*shared_, task::SaveSession{std::move(target), anyway});
 }
 
 void LiveDocument::draw_drags_on_device(bool yes) {

@@ -101,6 +101,9 @@ struct LiveShared {
     LiveDocument::Saved saved;
 };
 
+// How many such tasks were asked for and are not done with, where somebody wants to know; null: nobody does.
+std::size_t LiveShared::*count_of(const LiveTask& task);
+
 // Tells the user of the exception that is being handled.
 void tell_of_exception(Locked<LiveShared>& shared) noexcept;
 

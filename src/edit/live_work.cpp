@@ -30,16 +30,6 @@ bool ends_drag(const LiveTask& task) {
     return std::holds_alternative<task::EndDrag>(task) || std::holds_alternative<task::CancelDrag>(task);
 }
 
-bool is_save(const LiveTask& task) {
-    return std::holds_alternative<task::SaveCloud>(task) || std::holds_alternative<task::SaveSession>(task);
-}
-
-bool is_undo(const LiveTask& task) {
-    const auto* undo = std::get_if<task::Undo>(&task);
-    const auto* redo = std::get_if<task::Redo>(&task);
-    return (undo && !undo->to_look) || (redo && !redo->to_look);
-}
-
 } // namespace
 
 LiveWork::LiveWork(OpenRequest request, Locked<LiveShared>& shared)
@@ -181,8 +171,7 @@ void LiveWork::take_turn(std::list<LiveTask>& task) {
     // A cloud is saved as it is seen; whatever else comes, comes after the whole step.
     if (!std::holds_alternative<task::SaveCloud>(one)) guarded([&] { finish_playing(); });
     guarded([&] { std::visit([&](auto& t) { carry_out(t); }, one); });
-    if (is_save(one)) shared_.with([](LiveShared& s) { --s.saves; });
-    if (is_undo(one)) shared_.with([](LiveShared& s) { --s.undos; });
+    if (const auto count = count_of(one)) shared_.with([&](LiveShared& s) { --(s.*count); });
     if (since_look_.seconds() > between_looks) guarded([&] { look_for_others(); });
 }
 

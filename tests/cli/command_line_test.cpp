@@ -41,7 +41,8 @@ TEST(CommandLine, SaysThatNobodyCouldReadWhatItSaid) {
         const int status = std::system(command.c_str()); // NOLINT(concurrency-mt-unsafe)
         ASSERT_TRUE(WIFEXITED(status));
         EXPECT_EQ(WEXITSTATUS(status), 5) << asked;
-        EXPECT_EQ(read_text(folder / "err"), "knead: standard output: cannot be written\n") << asked;
+        const std::string said = read_text(folder / "err"); // where there is no device, of that before
+        EXPECT_TRUE(said.ends_with("knead: standard output: cannot be written\n")) << asked << ": " << said;
     }
 }
 

@@ -6,6 +6,7 @@
 #include "bench/page_studio.h"
 #include "bench/posing.h"
 #include "bench/text_table.h"
+#include "edit/handle_motion.h"
 
 #include <functional>
 #include <numbers>
@@ -130,8 +131,8 @@ PageRow row_of(PageStudio& studio, const Close& close, PointCloud cloud,
          {{"fixed", HandleRole::fixed, held(task.fixed)}, {"handle", HandleRole::moving, held(task.handle)}},
          nullptr},
         studio.progress);
-    const std::vector<HandleMotion> motions{
-        HandleMotion{}, motion_of(task.pose, task.pivot, task.cloud.origin, Quatd::Identity())};
+    const std::vector<HandleMotion> motions{HandleMotion{},
+                                            motion_of(task.pose, task.pivot, task.cloud.origin, {})};
     SampleState state = pipeline.rest_state();
     pipeline.follow_handles(motions, state);
     Acceleration acceleration;

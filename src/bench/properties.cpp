@@ -4,6 +4,7 @@
 #include "bench/automatic_handles.h"
 #include "bench/posing.h"
 #include "edit/document.h"
+#include "edit/handle_motion.h"
 #include "upsample/devices.h"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ void check_rigid_frame(const PointCloud& cloud, const AutomaticHandles& automati
     input.handles = {{"lower", HandleRole::moving, held(automatic.fixed)},
                      {"upper", HandleRole::moving, held(automatic.moving)}};
     pipeline.prepare(input, progress);
-    const HandleMotion motion = motion_of(pose, automatic.pivot, cloud.origin, Quatd::Identity());
+    const HandleMotion motion = motion_of(pose, automatic.pivot, cloud.origin, {});
     const std::vector<HandleMotion> motions(2, motion);
     SampleState state = pipeline.rest_state();
     pipeline.follow_handles(motions, state);
@@ -109,7 +110,7 @@ void check_document(const PointCloud& cloud, const AutomaticHandles& automatic, 
     document.drag({"upper", automatic.pivot, {pose}}, "", progress);
     document.settle({settle_iterations}, progress);
     result.iterations_in_turns = document.log().iteration.size() - before;
-    const HandleMotion motion = motion_of(pose, automatic.pivot, cloud.origin, Quatd::Identity());
+    const HandleMotion motion = motion_of(pose, automatic.pivot, cloud.origin, {});
     const Pipeline& pipeline = document.pipeline();
     result.rigid_in_turns =
         deviation_from(motion, pipeline, in_pipeline_order(pipeline, document.positions(progress)),

@@ -7,6 +7,7 @@
 #include "bench/automatic_handles.h"
 #include "bench/made_cloud.h"
 #include "bench/upsampler_probe.h"
+#include "edit/handle_motion.h"
 #include "edit/pipeline.h"
 #include "io/cloud_file.h"
 #include "upsample/devices.h"
@@ -123,8 +124,8 @@ void measure_frames(const PointCloud& cloud, const BendingPipelineInput& bending
     for (std::size_t f = 0; f < warm_up_frames + frames; ++f) {
         progress.step("bending", static_cast<double>(f) / (warm_up_frames + frames));
         const double degrees = bend_degrees * static_cast<double>(f + 1) / (warm_up_frames + frames);
-        motions[1] = motion_of(bent_by(bending.automatic, degrees), bending.automatic.pivot, cloud.origin,
-                               motions[1].rotation);
+        motions[1] =
+            motion_of(bent_by(bending.automatic, degrees), bending.automatic.pivot, cloud.origin, motions[1]);
         forget(acceleration);
         Stopwatch clock;
         for (unsigned i = 0; i < bending.input.settings.iterations; ++i) {

@@ -78,6 +78,7 @@ struct HandleMotion {
         Quatd::Identity(); // unit; continues its own hemisphere from frame to frame, so that turns are kept
     Mat3d linear = Mat3d::Identity(); // the rotation, times the stretch of a scaling handle
     Vec3d offset = Vec3d::Zero();
+    Vec3d turned = Vec3d::Zero(); // the rotation again, for whoever tells of it: edit/handle_motion.h
 };
 
 // A free sample that a handle with a falloff pulls.

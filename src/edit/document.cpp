@@ -4,6 +4,7 @@
 #include "base/quoted.h"
 #include "base/stopwatch.h"
 #include "cloud/splats.h"
+#include "edit/handle_motion.h"
 
 #include <algorithm>
 #include <utility>

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
+#include "edit/handle_motion.h"
 #include "edit/keeping.h"
 
 #include <algorithm>
@@ -120,11 +121,11 @@ std::vector<HandleMotion> Document::way_of(const std::string& handle) const {
     for (const Posed* posed = now().posed.get(); posed; posed = history_[posed->made_from].posed.get())
         if (posed->handle == index) drags.push_back(&std::get<DragLine>(posed->act));
     std::vector<HandleMotion> way;
-    Quatd before = Quatd::Identity();
+    HandleMotion motion;
     for (auto drag = drags.rbegin(); drag != drags.rend(); ++drag)
         for (const HandlePose& pose : (*drag)->frames) {
-            way.push_back(motion_of(pose, (*drag)->pivot, cloud_.origin, before));
-            before = way.back().rotation;
+            motion = motion_of(pose, (*drag)->pivot, cloud_.origin, motion);
+            way.push_back(motion);
         }
     return way;
 }
@@ -183,8 +184,7 @@ void Document::repeat(const Posed& posed, SampleState& samples, Progress& progre
     for (std::size_t f = 0; f < drag.frames.size(); ++f) {
         progress.step("following the handle again", static_cast<double>(f) / frames);
         const HandlePose& pose = drag.frames[f];
-        const HandleMotion motion =
-            motion_of(pose, drag.pivot, cloud_.origin, motions[posed.handle].rotation);
+        const HandleMotion motion = motion_of(pose, drag.pivot, cloud_.origin, motions[posed.handle]);
         follow(posed.handle, motion, pose.coarse, from.settings.iterations, motions, samples, memory,
                progress);
     }

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "base/stopwatch.h"
+#include "edit/handle_motion.h"
 
 #include <algorithm>
 #include <utility>
@@ -90,7 +91,7 @@ void Document::drag(const DragLine& line, const std::string& place, Progress& pr
     const Index handle = movable_handle(line.handle, place);
     HandleMotion motion = motions_[handle];
     for (std::size_t f = 0; f < line.frames.size(); ++f) {
-        motion = motion_of(line.frames[f], line.pivot, cloud_.origin, motion.rotation);
+        motion = motion_of(line.frames[f], line.pivot, cloud_.origin, motion);
         refuse_absurd(motion, bounds_.diagonal(), f, place);
     }
     if (mode_ == Mode::rehearsal) {
@@ -144,7 +145,7 @@ double Document::drag_frame(const HandlePose& pose, const std::string& place, Pr
     UnderWay& drag = *under_way_;
     HandleMotion& motion = drag.motions[drag.handle];
     const HandleMotion before = motion;
-    const HandleMotion next = motion_of(pose, drag.line.pivot, cloud_.origin, before.rotation);
+    const HandleMotion next = motion_of(pose, drag.line.pivot, cloud_.origin, before);
     refuse_absurd(next, bounds_.diagonal(), drag.line.frames.size(), place);
     drag.samples_before = drag.samples; // into the same memory, frame by frame
     CoarseFollowing& following = drag.memory.following;

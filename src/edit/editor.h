@@ -152,6 +152,13 @@ std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle);
 std::optional<Gizmo> gizmo_of(const Editor& editor); // of the chosen moving handle, where it is now
 // Where the user put a handle's pivot, as it is now; nothing: it is the handle's middle.
 std::optional<glm::dvec3> pivot_of(const Editor& editor, const std::string& handle);
+// The pose of the chosen moving handle, and where its pivot is: as they are, or as the drag that goes on
+// wants them. Nothing where none is chosen.
+struct ChosenPose {
+    HandleMotion motion;
+    glm::dvec3 pivot{0.0};
+};
+std::optional<ChosenPose> pose_of_chosen(const Editor& editor);
 // How far the handle pulls what is around it, whatever its own falloff is; 0 for one that is large enough.
 double least_falloff(const Editor& editor, const Handle& handle);
 // Of one of the document's: how many points follow it, those not that later handles hold, too.

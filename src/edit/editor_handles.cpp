@@ -4,6 +4,7 @@
 #include "base/quoted.h"
 #include "edit/editor_steps.h"
 #include "edit/handle_lines.h"
+#include "edit/handle_motion.h"
 #include "edit/mirroring.h"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "base/quoted.h"
 #include "edit/editor_steps.h"
 #include "edit/falloffs.h"
+#include "edit/handle_motion.h"
 #include "edit/measures.h"
 
 #include <algorithm>
@@ -118,6 +119,14 @@ std::optional<Gizmo> gizmo_of(const Editor& editor) {
     if (editor.local_axes) gizmo.axes = axes;
     if (!pivot) gizmo.rotate = gizmo.scale = !is_free_place(editor, *handle);
     return gizmo;
+}
+
+std::optional<ChosenPose> pose_of_chosen(const Editor& editor) {
+    const std::optional<Gizmo> gizmo = gizmo_of(editor);
+    if (!gizmo) return std::nullopt;
+    const auto number = static_cast<std::size_t>(chosen_handle(editor) - editor.document->handles.data());
+    const HandleMotion& motion = editor.document->motions[number];
+    return ChosenPose{editor.drag ? followed_by(motion, editor.drag->transform) : motion, gizmo->center};
 }
 
 double least_falloff(const Editor& editor, const Handle& handle) {

@@ -5,7 +5,7 @@
 // send the cloud so far that floats there lie apart.
 
 #include "deform/strain.h"
-#include "edit/handles.h"
+#include "edit/handle_labels.h"
 #include "graph/csr.h"
 #include "graph/point_order.h"
 

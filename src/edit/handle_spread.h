@@ -1,7 +1,7 @@
 #pragma once
 // How finely the handles divide a cloud, and so how many samples they ask for (edit/sample_choice.h).
 
-#include "edit/handles.h"
+#include "edit/handle_labels.h"
 #include "graph/csr.h"
 
 #include <span>

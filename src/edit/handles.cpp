@@ -2,27 +2,17 @@
 
 #include "base/error.h"
 #include "base/quoted.h"
-#include "base/workers.h"
-#include "graph/point_order.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <utility>
 
 namespace knead {
 
 namespace {
-
-// Scales that differ from one by less are rounding.
-constexpr double unit_scale = 1e-12;
-
-constexpr std::size_t grain = 1 << 14;
 
 struct Contains {
     Vec3d p;
@@ -88,66 +78,7 @@ void exchange(const std::optional<HandleChange::Place>& gone, const std::optiona
     if (coming) handles.insert(handles.begin() + coming->at, std::move(coming->handle));
 }
 
-// Which of two labels a vertex takes that has points of both.
-Index stronger(Index a, Index b, Index outside) {
-    if (a == no_index) return b;
-    if (b == no_index) return a;
-    if (a == outside) return b;
-    if (b == outside) return a;
-    return std::max(a, b);
-}
-
-// Labels in numbers that are as narrow as will do: they are looked up in no order, and should fit into a
-// cache.
-template<typename Label>
-void label_by(const std::vector<Handle>& handles, const PointOrder& order, std::size_t file_points,
-              Workers& workers, HandleLabels& labels) {
-    constexpr Label free = std::numeric_limits<Label>::max();
-    const auto is_region = [](const Handle& handle) { return handle.role == HandleRole::region_of_interest; };
-    const auto outside = static_cast<Label>(handles.size());
-    std::vector<Label> of_file_point(file_points, std::ranges::any_of(handles, is_region) ? outside : free);
-    for (const bool region_pass : {true, false})
-        for (std::size_t h = 0; h < handles.size(); ++h) {
-            if (!handles[h].points || is_region(handles[h]) != region_pass) continue;
-            const Label label = region_pass ? free : static_cast<Label>(h);
-            const std::vector<Index>& points = *handles[h].points;
-            workers.for_each(points.size(), grain, [&](std::size_t i) { of_file_point[points[i]] = label; });
-        }
-
-    labels.outside = outside;
-    labels.point.resize(order.points(), no_index);
-    labels.vertex.resize(order.vertices(), no_index);
-    labels.held.resize(blocks_of_rows(order.vertices()), 0);
-    labels.changed.resize(labels.held.size(), 0);
-    workers.for_each(labels.held.size(), grain / rows_in_block, [&](std::size_t block) {
-        const std::size_t begin = block * rows_in_block;
-        const std::size_t end = std::min(begin + rows_in_block, order.vertices());
-        const auto is_held = [&](Index file_index) { return of_file_point[file_index] != free; };
-        const bool held = std::any_of(order.file_index.begin() + order.first_point[begin],
-                                      order.file_index.begin() + order.first_point[end], is_held);
-        if (!held && !labels.held[block]) return;
-        bool changed = false;
-        for (Index i = order.first_point[begin]; i < order.first_point[end]; ++i) {
-            const Label label = of_file_point[order.file_index[i]];
-            const Index before = std::exchange(labels.point[i], label == free ? no_index : Index{label});
-            changed |= labels.point[i] != before;
-        }
-        if (!changed) return;
-        labels.held[block] = held ? 1 : 0;
-        labels.changed[block] = 1;
-        for (std::size_t v = begin; v < end; ++v) {
-            labels.vertex[v] = no_index;
-            for (Index i = order.first_point[v]; i < order.first_point[v + 1]; ++i)
-                labels.vertex[v] = stronger(labels.vertex[v], labels.point[i], outside);
-        }
-    });
-}
-
 } // namespace
-
-bool leaves_rest(const HandleMotion& motion) {
-    return motion.linear != Mat3d::Identity() || motion.offset != Vec3d::Zero();
-}
 
 bool holds_the_same(const Handle& a, const Handle& b) {
     return a.role == b.role && a.points == b.points && a.free_rotation == b.free_rotation &&
@@ -191,71 +122,6 @@ std::vector<Index> resolve_points(const HandleLine& line, const PointCloud& clou
                             whereabouts(cloud, file_position));
     }
     return points;
-}
-
-HandleMotion motion_of(const HandlePose& pose, const Vec3d& pivot, const Vec3d& origin, const Quatd& before) {
-    HandleMotion motion;
-    motion.rotation = pose.rotate.normalized();
-    if (motion.rotation.dot(before) < 0) motion.rotation.coeffs() = -motion.rotation.coeffs();
-    const Mat3d axes = pose.axes.normalized().toRotationMatrix();
-    const Mat3d stretch = axes * pose.scale.asDiagonal() * axes.transpose();
-    const bool stretched = pose.scale != Vec3d::Ones();
-    motion.linear = motion.rotation.toRotationMatrix();
-    if (stretched) motion.linear = motion.linear * stretch;
-    const Vec3d center = pivot - origin;
-    motion.offset = center - motion.linear * center + pose.translate;
-    return motion;
-}
-
-HandlePose pose_of(const HandleMotion& motion, const Vec3d& pivot, const Vec3d& origin) {
-    // linear = R S; what is written must give the very rotation back, whose turns are counted.
-    const Mat3d rotation = motion.rotation.toRotationMatrix();
-    const Mat3d stretch = rotation.transpose() * motion.linear;
-    const Eigen::SelfAdjointEigenSolver<Mat3d> split(0.5 * (stretch + stretch.transpose()));
-    if (!(split.eigenvalues().minCoeff() > 0))
-        throw Error(Trouble::usage, "", "a handle cannot be mirrored or flattened");
-    HandlePose pose;
-    pose.rotate = motion.rotation;
-    const Vec3d& scale = split.eigenvalues();
-    if ((scale - Vec3d::Ones()).cwiseAbs().maxCoeff() > unit_scale) {
-        pose.scale = scale;
-        Mat3d axes = split.eigenvectors();
-        if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
-        if (scale.maxCoeff() - scale.minCoeff() > unit_scale) pose.axes = Quatd(axes);
-    }
-    const Vec3d center = pivot - origin;
-    pose.translate = motion.offset - center + motion.linear * center;
-    return pose;
-}
-
-HandleMotion followed_by(const HandleMotion& motion, const Transform& change) {
-    const auto vector = [](const glm::dvec3& v) { return Vec3d(v.x, v.y, v.z); };
-    const Quatd turn(Eigen::AngleAxisd(change.angle, vector(change.axis)));
-    const Mat3d axes = Quatd(change.axes.w, change.axes.x, change.axes.y, change.axes.z).toRotationMatrix();
-    const Mat3d map = turn.toRotationMatrix() * axes * vector(change.scale).asDiagonal() * axes.transpose();
-    const Vec3d pivot = vector(change.pivot);
-
-    HandleMotion result;
-    result.linear = map * motion.linear;
-    result.offset = map * (motion.offset - pivot) + pivot + vector(change.shift);
-    if (change.scale == glm::dvec3(1.0)) {
-        result.rotation = (turn * motion.rotation).normalized();
-        return result;
-    }
-    // The rotation in the polar decomposition; that of unequal scales is no longer the product of the turns.
-    const Eigen::JacobiSVD<Mat3d> svd(result.linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    result.rotation = Quatd(Mat3d(svd.matrixU() * svd.matrixV().transpose())).normalized();
-    const Quatd expected = turn * motion.rotation;
-    if (result.rotation.dot(expected) < 0) result.rotation.coeffs() = -result.rotation.coeffs();
-    return result;
-}
-
-void label_points(const std::vector<Handle>& handles, const PointOrder& order, std::size_t file_points,
-                  Workers& workers, HandleLabels& labels) {
-    if (handles.size() < std::numeric_limits<std::uint8_t>::max())
-        label_by<std::uint8_t>(handles, order, file_points, workers, labels);
-    else
-        label_by<Index>(handles, order, file_points, workers, labels);
 }
 
 } // namespace knead

@@ -3,6 +3,7 @@
 #include "edit/live_work.h"
 
 #include "base/error.h"
+#include "edit/handle_motion.h"
 
 #include <algorithm>
 #include <cmath>

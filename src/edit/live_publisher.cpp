@@ -1,5 +1,6 @@
 #include "edit/live_publisher.h"
 
+#include "edit/handle_motion.h"
 #include "graph/local_spacing.h"
 
 #include <algorithm>

@@ -31,6 +31,7 @@
 #include "edit/carried_parts.h"
 #include "edit/falloffs.h"
 #include "edit/handle_demand.h"
+#include "edit/handle_labels.h"
 #include "edit/handle_slots.h"
 #include "graph/changing_territories.h"
 #include "graph/neighbors.h"

@@ -1,7 +1,7 @@
 #pragma once
 // The way of a handle back to where it was at rest, and to where another one is. Private to this room.
 
-#include "edit/handles.h"
+#include "edit/handle_motion.h"
 
 #include <numbers>
 #include <span>

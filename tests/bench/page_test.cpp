@@ -8,6 +8,7 @@
 #include "bench/posing.h"
 
 #include "base/error.h"
+#include "edit/handle_motion.h"
 #include "support/scratch_folder.h"
 #include "upsample/devices.h"
 
@@ -77,7 +78,7 @@ TEST(AirNeighbors, CountOnlyWhereThePathsDiffer) {
     EXPECT_TRUE(std::ranges::equal(posed_through_the_air(pipeline, motions, state, workers),
                                    pipeline.opened().positions));
 
-    motions[1] = motion_of(bent_by(ends, 30), ends.pivot, cloud.origin, Quatd::Identity());
+    motions[1] = motion_of(bent_by(ends, 30), ends.pivot, cloud.origin, {});
     pipeline.follow_handles(motions, state);
     Acceleration acceleration;
     for (int i = 0; i < 30; ++i) pipeline.iterate(motions, state, acceleration);

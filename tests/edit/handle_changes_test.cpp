@@ -1,6 +1,7 @@
 // A pipeline whose handles change one after the other is the one that had them from the start.
 
 #include "edit/editing.h"
+#include "edit/handle_motion.h"
 
 #include <random>
 
@@ -76,7 +77,7 @@ RestShape posed(Pipeline& pipeline, std::size_t handles) {
         HandlePose pose;
         pose.translate = Vec3d(0.1 * static_cast<double>(h), 0, 0.05);
         pose.rotate = Eigen::AngleAxisd(0.3 + static_cast<double>(h), Vec3d::UnitX());
-        motions[h] = motion_of(pose, Vec3d::Zero(), Vec3d::Zero(), Quatd::Identity());
+        motions[h] = motion_of(pose, Vec3d::Zero(), Vec3d::Zero(), {});
     }
     SampleState state = pipeline.rest_state();
     Acceleration acceleration;

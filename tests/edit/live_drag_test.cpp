@@ -1,6 +1,6 @@
 // The way of a live drag from one pose to the next.
 
-#include "edit/handles.h"
+#include "edit/handle_motion.h"
 #include "edit/live_drag.h"
 #include "edit/way_back.h"
 
@@ -26,7 +26,7 @@ HandleMotion follow(Transform& shown, const Transform& wanted, HandleMotion moti
         const Transform next = next_on_the_way(shown, wanted);
         const HandleMotion before = motion;
         motion = motion_of(pose_of(followed_by({}, next), Vec3d::Zero(), Vec3d::Zero()), Vec3d::Zero(),
-                           Vec3d::Zero(), before.rotation);
+                           Vec3d::Zero(), before);
         const double cosine = std::min(1.0, before.rotation.dot(motion.rotation));
         EXPECT_LE(2 * std::acos(cosine), widest_turn * (1 + 1e-6)) << "a frame turns no farther";
         shown = next;

@@ -29,16 +29,16 @@ void wind(std::vector<HandleMotion>& way, const Vec3d& axis, int steps) {
 
 // What the frames turn in all, none of them more than it may.
 double turned_in_all(const DragLine& line, const HandleMotion& start) {
-    Quatd before = start.rotation;
+    HandleMotion before = start;
     double sum = 0;
     for (const HandlePose& pose : line.frames) {
         const HandleMotion motion = motion_of(pose, line.pivot, origin, before);
-        const double turn = 2 * std::acos(std::min(1.0, before.dot(motion.rotation)));
+        const double turn = 2 * std::acos(std::min(1.0, before.rotation.dot(motion.rotation)));
         EXPECT_LE(turn, widest_turn * 1.001);
         sum += turn;
-        before = motion.rotation;
+        before = motion;
     }
-    EXPECT_NEAR(before.dot(Quatd::Identity()), 1, 1e-12) << "and not its negative";
+    EXPECT_NEAR(before.rotation.dot(Quatd::Identity()), 1, 1e-12) << "and not its negative";
     return sum;
 }
 
@@ -64,7 +64,7 @@ TEST(WayBack, TheWayThereIsWoundUpAsOftenAndEndsWhereItDid) {
     HandleMotion motion;
     double turned = 0;
     for (const HandlePose& pose : line.frames) {
-        const HandleMotion next = motion_of(pose, line.pivot, origin, motion.rotation);
+        const HandleMotion next = motion_of(pose, line.pivot, origin, motion);
         turned += 2 * std::acos(std::min(1.0, motion.rotation.dot(next.rotation)));
         motion = next;
     }

@@ -1,6 +1,7 @@
 // What the document's thread makes of acts where memory runs out: document and recording have the same ones,
 // and what comes after is carried out.
 
+#include "edit/handle_motion.h"
 #include "edit/live.h"
 #include "edit/live_work.h"
 #include "edit/replay.h"

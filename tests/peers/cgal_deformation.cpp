@@ -3,7 +3,7 @@
 #include "base/stopwatch.h"
 #include "bench/deviation.h"
 #include "bench/statistics.h"
-#include "edit/handles.h"
+#include "edit/handle_motion.h"
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -44,7 +44,7 @@ std::vector<float> positions_of(const Mesh& mesh) {
 
 template<typename Deformation>
 void set_targets(const DeformationTask& task, const Mesh& mesh, Deformation& deformation) {
-    const HandleMotion motion = motion_of(task.pose, task.pivot, task.cloud.origin, Quatd::Identity());
+    const HandleMotion motion = motion_of(task.pose, task.pivot, task.cloud.origin, {});
     for (const Index held : task.handle) {
         const Point& rest = mesh.point(Mesh::Vertex_index(held));
         const Vec3d target = motion.linear * Vec3d(rest.x(), rest.y(), rest.z()) + motion.offset;

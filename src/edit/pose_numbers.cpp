@@ -1,0 +1,99 @@
+#include "edit/pose_numbers.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <numbers>
+
+namespace knead {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+// A stretch whose axes are off by less is along the handle's own.
+constexpr double aligned = 1e-9;
+
+glm::dvec3 to_view(const Vec3d& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+glm::dquat to_view(const Quatd& q) {
+    return {q.w(), q.x(), q.y(), q.z()};
+}
+
+Vec3d at_rest(const HandleMotion& motion, const Vec3d& point) {
+    return motion.linear.inverse() * (point - motion.offset);
+}
+
+// R = R_z R_y R_x: the axis about which this angle alone turns.
+Vec3d axis_of_angle(const Vec3d& angles, int axis) {
+    const Eigen::AngleAxisd about_y(angles.y(), Vec3d::UnitY()), about_z(angles.z(), Vec3d::UnitZ());
+    if (axis == 2) return Vec3d::UnitZ();
+    if (axis == 1) return about_z * Vec3d::UnitY();
+    return about_z * (about_y * Vec3d::UnitX());
+}
+
+void turn_by(double angle, const Vec3d& axis, Transform& transform) {
+    transform.axis = to_view(axis);
+    transform.angle = angle;
+}
+
+// `map` = Q S with S along some axes. Of what was scaled along other axes than the handle's own, a turn is
+// part of what makes one of these longer and leaves the others as long as they are.
+void map_by(const Mat3d& map, Transform& transform) {
+    const Eigen::SelfAdjointEigenSolver<Mat3d> split(map.transpose() * map);
+    Mat3d axes = split.eigenvectors();
+    if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
+    const Vec3d scale = split.eigenvalues().cwiseSqrt();
+    const Eigen::AngleAxisd turn(Mat3d(map * axes * scale.cwiseInverse().asDiagonal() * axes.transpose()));
+    turn_by(turn.angle(), turn.axis(), transform);
+    transform.scale = to_view(scale);
+    transform.axes = to_view(Quatd(axes));
+}
+
+void scale_to(const HandleMotion& motion, int axis, double factor, Transform& transform) {
+    Vec3d longer = Vec3d::Ones();
+    longer[axis] = factor / motion.linear.col(axis).norm();
+    const Mat3d stretch = motion.rotation.toRotationMatrix().transpose() * motion.linear;
+    const Mat3d apart = stretch - Mat3d(stretch.diagonal().asDiagonal());
+    if (apart.cwiseAbs().maxCoeff() > aligned * stretch.norm())
+        return map_by(motion.linear * longer.asDiagonal() * motion.linear.inverse(), transform);
+    transform.scale = to_view(longer);
+    transform.axes = to_view(motion.rotation);
+}
+
+} // namespace
+
+PoseNumbers numbers_of(const HandleMotion& motion, const Vec3d& pivot) {
+    PoseNumbers numbers;
+    numbers.place = pivot;
+    numbers.moved = pivot - at_rest(motion, pivot);
+    numbers.turned = motion.turned / degree;
+    numbers.scaled = motion.linear.colwise().norm();
+    return numbers;
+}
+
+Transform transform_to(const HandleMotion& motion, const Vec3d& pivot, PoseRow row, int axis, double value) {
+    const PoseNumbers now = numbers_of(motion, pivot);
+    Transform transform;
+    transform.pivot = to_view(pivot);
+    switch (row) {
+    case PoseRow::place:
+        transform.shift[axis] = value - now.place[axis];
+        break;
+    case PoseRow::moved:
+        transform.shift[axis] = value - now.moved[axis];
+        break;
+    case PoseRow::turned:
+        turn_by((value - now.turned[axis]) * degree, axis_of_angle(motion.turned, axis), transform);
+        break;
+    case PoseRow::scaled:
+        scale_to(motion, axis, value, transform);
+        break;
+    }
+    return transform;
+}
+
+} // namespace knead

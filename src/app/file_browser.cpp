@@ -6,6 +6,7 @@
 #include "app/ui.h"
 #include "app/widgets.h"
 #include "base/error.h"
+#include "base/quoted.h"
 #include "base/whole_file.h"
 #include "io/cloud_file.h"
 
@@ -105,7 +106,7 @@ bool can_save(FileBrowser& browser, const std::filesystem::path& file) {
 void choose(const Ui& ui) {
     FileBrowser& browser = ui.state.browser;
     if (browser.typed.empty()) return;
-    const std::filesystem::path file = typed_path(browser);
+    const std::filesystem::path file = chosen_path(browser);
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) {
         go_to(browser, file);
@@ -247,7 +248,7 @@ void entry_row(const Ui& ui, const FolderEntry& entry, int number) {
 }
 
 // What is not in the folder.
-const char* nothing_words(BrowseFor purpose) {
+std::string nothing_words(BrowseFor purpose) {
     switch (purpose) {
     case BrowseFor::save_cloud:
     case BrowseFor::cloud_of_session:
@@ -271,12 +272,15 @@ void entry_table(const Ui& ui) {
         if (!narrow) ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed, ui.scaled(80));
         if (!narrow) ImGui::TableSetupColumn("Changed", ImGuiTableColumnFlags_WidthFixed, ui.scaled(140));
         ImGui::TableHeadersRow();
-        for (std::size_t i = 0; i < browser.entries.size(); ++i)
-            entry_row(ui, browser.entries[i], static_cast<int>(i));
-        if (browser.entries.empty()) {
+        const std::vector<int> shown = shown_entries(browser);
+        for (const int number : shown)
+            entry_row(ui, browser.entries[static_cast<std::size_t>(number)], number);
+        if (shown.empty()) {
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
-            faint_text(nothing_words(browser.purpose));
+            faint_text(browser.entries.empty()
+                           ? nothing_words(browser.purpose)
+                           : "Nothing here has " + knead::quoted(browser.filter) + " in its name");
         }
         ImGui::EndTable();
     }
@@ -290,15 +294,17 @@ void entry_table(const Ui& ui) {
 
 // Arrows move the choice, Backspace goes up, while nothing is typed.
 void keys(FileBrowser& browser) {
-    const int count = static_cast<int>(browser.entries.size());
     const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
     int step = 0;
     if (pressed(ImGuiKey_DownArrow)) step = 1;
     if (pressed(ImGuiKey_UpArrow)) step = -1;
     if (pressed(ImGuiKey_PageDown)) step = 12;
     if (pressed(ImGuiKey_PageUp)) step = -12;
-    if (step != 0 && count > 0) {
-        browser.chosen = std::clamp(browser.chosen + step, 0, count - 1);
+    if (const std::vector<int> shown = shown_entries(browser); step != 0 && !shown.empty()) {
+        const auto at = std::ranges::find(shown, browser.chosen);
+        const auto from = at == shown.end() ? std::ptrdiff_t{-1} : at - shown.begin();
+        const auto last = static_cast<std::ptrdiff_t>(shown.size()) - 1;
+        browser.chosen = shown[static_cast<std::size_t>(std::clamp(from + step, std::ptrdiff_t{0}, last))];
         browser.scroll_to_chosen = true;
         const FolderEntry& entry = browser.entries[static_cast<std::size_t>(browser.chosen)];
         browser.typed = entry.name;
@@ -344,6 +350,11 @@ void bottom_row(const Ui& ui) {
     browser.focus_name = false;
     ImGui::SetNextItemWidth(-1);
     const bool entered = ImGui::InputText("##path", &browser.typed, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (ImGui::IsItemEdited() && reads_file(browser.purpose)) {
+        const bool is_path = browser.typed.find('/') != std::string::npos || browser.typed.starts_with('~');
+        browser.filter = is_path ? std::string() : browser.typed;
+        browser.chosen = -1;
+    }
     ImGui::PopID();
     if (ImGui::Checkbox(has_line_of_columns(ui) ? "All" : "All files", &browser.every_file))
         read_folder(browser);
@@ -373,6 +384,7 @@ void draw_file_browser(const Ui& ui) {
     FileBrowser& browser = ui.state.browser;
     if (browser.open_now) {
         browser.open_now = false;
+        browser.filter.clear();
         browser.name_changed_outside = true; // selects it whole, so that typing replaces it
         ImGui::OpenPopup("browser");
         read_folder(browser);

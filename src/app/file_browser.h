@@ -33,6 +33,7 @@ struct FileBrowser {
     std::vector<FolderEntry> entries; // folders first, by name
     std::string trouble;              // why the folder could not be read; empty: it was
     std::string typed;                // the name, or a path
+    std::string filter;               // what was typed of a name that is looked for; empty: all is shown
     SaveColumns columns;              // of an exported cloud
     bool every_file = false;          // also those that are neither cloud nor session
     int chosen = -1;                  // among the entries
@@ -46,11 +47,18 @@ struct FileBrowser {
 // Reads the folder, `entries` and `trouble` anew. Never throws.
 void read_folder(FileBrowser& browser);
 
+// The entries that are shown, as numbers: those whose names have the filter somewhere, in letters of any
+// case.
+std::vector<int> shown_entries(const FileBrowser& browser);
+
 // Goes to a folder, or to the folder of a file.
 void go_to(FileBrowser& browser, const std::filesystem::path& place);
 
 // The path that `typed` means: absolute, under ~, or in the folder; with the purpose's extension where it has
 // none and is to be written.
 std::filesystem::path typed_path(const FileBrowser& browser);
+
+// The same; and where there is no such file and the filter leaves one entry, that one.
+std::filesystem::path chosen_path(const FileBrowser& browser);
 
 } // namespace knead

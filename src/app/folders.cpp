@@ -67,12 +67,22 @@ void read_folder(FileBrowser& browser) {
     std::sort(browser.entries.begin(), browser.entries.end(), by_name);
 }
 
+std::vector<int> shown_entries(const FileBrowser& browser) {
+    const std::string filter = lower_case(browser.filter);
+    std::vector<int> shown;
+    for (std::size_t i = 0; i < browser.entries.size(); ++i)
+        if (lower_case(browser.entries[i].name).find(filter) != std::string::npos)
+            shown.push_back(static_cast<int>(i));
+    return shown;
+}
+
 void go_to(FileBrowser& browser, const std::filesystem::path& place) {
     std::error_code trouble;
     std::filesystem::path folder = std::filesystem::weakly_canonical(place, trouble);
     if (trouble) folder = place;
     if (!std::filesystem::is_directory(folder, trouble)) folder = folder.parent_path();
     browser.folder = folder;
+    browser.filter.clear();
     if (reads_file(browser.purpose)) browser.typed.clear();
     browser.name_changed_outside = true;
     read_folder(browser);
@@ -90,6 +100,15 @@ std::filesystem::path typed_path(const FileBrowser& browser) {
         if (browser.purpose == BrowseFor::save_cloud) typed += ".ply";
     }
     return typed.lexically_normal();
+}
+
+std::filesystem::path chosen_path(const FileBrowser& browser) {
+    std::filesystem::path typed = typed_path(browser);
+    std::error_code ignored;
+    if (browser.filter.empty() || std::filesystem::exists(typed, ignored)) return typed;
+    const std::vector<int> shown = shown_entries(browser);
+    if (shown.size() != 1) return typed;
+    return browser.folder / browser.entries[static_cast<std::size_t>(shown.front())].name;
 }
 
 } // namespace knead

@@ -1,0 +1,59 @@
+// What the file browser shows of a folder, and which file is meant.
+
+#include "app/file_browser.h"
+#include "support/scratch_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace knead::test {
+
+namespace {
+
+class Browsing : public ::testing::Test {
+protected:
+    void SetUp() override {
+        for (const char* name : {"Bunny.ply", "bunny bent.knead", "dragon.ply", "notes.pdf"})
+            std::ofstream(folder_ / name) << "x";
+        std::filesystem::create_directory(folder_ / "old bunnies");
+        go_to(browser_, folder_.path());
+    }
+    std::vector<std::string> shown() const {
+        std::vector<std::string> names;
+        for (const int number : shown_entries(browser_))
+            names.push_back(browser_.entries[static_cast<std::size_t>(number)].name);
+        return names;
+    }
+    void type(const std::string& text) { browser_.typed = browser_.filter = text; }
+
+    ScratchFolder folder_;
+    FileBrowser browser_;
+};
+
+TEST_F(Browsing, ShowsWhatHasTheTypedTextInItsName) {
+    EXPECT_EQ(shown(),
+              (std::vector<std::string>{"old bunnies", "bunny bent.knead", "Bunny.ply", "dragon.ply"}));
+    type("bUN");
+    EXPECT_EQ(shown(), (std::vector<std::string>{"old bunnies", "bunny bent.knead", "Bunny.ply"}));
+    type("tree");
+    EXPECT_TRUE(shown().empty());
+    go_to(browser_, folder_ / "old bunnies");
+    EXPECT_TRUE(browser_.filter.empty()) << "another folder, another look";
+}
+
+TEST_F(Browsing, MeansTheOnlyOneThatIsLeft) {
+    type("drag");
+    EXPECT_EQ(chosen_path(browser_).filename(), "dragon.ply");
+    type("bunny");
+    EXPECT_EQ(chosen_path(browser_).filename(), "bunny") << "several: the name as it was typed";
+    type("notes.pdf");
+    EXPECT_EQ(chosen_path(browser_).filename(), "notes.pdf") << "it is there, though not shown";
+    type("");
+    browser_.typed = "drag";
+    EXPECT_EQ(chosen_path(browser_).filename(), "drag") << "nothing was looked for";
+}
+
+} // namespace
+
+} // namespace knead::test

@@ -1,5 +1,6 @@
 // The panel "Display": what colours the points, how large they are, and what is shown beside them.
 
+#include "app/number_fields.h"
 #include "app/scene_lines.h"
 #include "app/ui.h"
 #include "app/widgets.h"
@@ -60,16 +61,14 @@ void range_fields(const Ui& ui) {
     explain("The scale goes from the 1st to the 99th percentile of the values");
     if (automatic) return;
     const auto [low, high] = display.range;
-    const auto step = static_cast<float>(std::max(1e-9, 0.005 * (high - low)));
+    const double step = std::max(1e-9, 0.005 * (high - low));
     const std::string format = format_between(low, high);
     const float gap = 2, width = (ImGui::GetContentRegionAvail().x - gap) / 2;
     const auto field = [&](const char* id, double& end) {
-        take_decimal_commas(ImGui::GetID(id));
         ImGui::SetNextItemWidth(width);
-        const bool changed =
-            ImGui::DragScalar(id, ImGuiDataType_Double, &end, step, nullptr, nullptr, format.c_str());
-        explain("The lowest and the highest value of the scale; drag, or Ctrl+click to type");
-        return changed;
+        const NumberEdit edit = number_field(id, end, step, format.c_str(), ui.state.range_fields);
+        explain("The lowest and the highest value of the scale; slide it, or click and type");
+        return edit == NumberEdit::slides || edit == NumberEdit::typed;
     };
     // The one that is moved goes no farther than the other.
     if (field("##lowest", display.range.low)) display.range.low = std::min(display.range.low, high);

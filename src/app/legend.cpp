@@ -1,5 +1,6 @@
 // The scale of the colours, in the corner of the view.
 
+#include "app/number_fields.h"
 #include "app/overlay.h"
 #include "app/widgets.h"
 

@@ -95,7 +95,17 @@ bool walks_bar(Loop& loop, const KeyPress& event) {
     return opens || next || before;
 }
 
+// Whether the hand is sliding a field of the panel "Transform", and with it a handle.
+bool slides_number(const Loop& loop) {
+    const NumberEditing& editing = loop.state.pose_fields.editing;
+    return editing.field != 0 && !editing.types && ImGui::GetActiveID() == editing.field;
+}
+
 void take(Loop& loop, const KeyPress& event) {
+    if (slides_number(loop)) { // the other keys wait
+        loop.state.pose_fields.editing.gives_up |= event.key == Key::escape;
+        return;
+    }
     // ImGui closes menus by Escape only where the keyboard walks through them. Questions see to it
     // themselves.
     if (event.key == Key::escape && popup_is_open() && !ImGui::GetTopMostPopupModal())
@@ -113,7 +123,8 @@ void take(Loop& loop, const KeyPress& event) {
 }
 
 void take(Loop& loop, const Character& event) {
-    if (ImGui::GetIO().WantTextInput || popup_is_open() || !loop.editor.document) return;
+    if (slides_number(loop) || ImGui::GetIO().WantTextInput || popup_is_open() || !loop.editor.document)
+        return;
     handle_input(loop.editor, event);
 }
 

@@ -25,14 +25,11 @@ Rectangle axes_place(const Ui& ui) {
 
 namespace {
 
-constexpr std::array axis_colors{palette::rgb(0xf2545b), palette::rgb(0x7fc94d), palette::rgb(0x4b93f7),
-                                 palette::rgb(0xe6e8ec)};
-
 // --- The gizmo ---
 
 ImU32 color_of(const GizmoShape& shape, bool hovered, bool another_is_dragged) {
     if (hovered) return palette::rgb(0xffd24a);
-    const ImU32 color = axis_colors[static_cast<std::size_t>(std::clamp(shape.color_axis, 0, 3))];
+    const ImU32 color = palette::axes[static_cast<std::size_t>(std::clamp(shape.color_axis, 0, 3))];
     return with_alpha(color, another_is_dragged ? 0.25f : shape.behind ? 0.28f : 0.95f);
 }
 
@@ -80,7 +77,7 @@ void draw_constraint(const Ui& ui, ImDrawList& list) {
     // In pieces, since its ends may lie behind the eye.
     constexpr int pieces = 64;
     std::optional<ImVec2> before;
-    const ImU32 color = with_alpha(axis_colors[static_cast<std::size_t>(drag.constraint.axis)], 0.75f);
+    const ImU32 color = with_alpha(palette::axes[static_cast<std::size_t>(drag.constraint.axis)], 0.75f);
     for (int i = 0; i <= pieces; ++i) {
         const double t = (2.0 * i / pieces - 1) * reach;
         const auto projected = project(camera, ui.editor.viewport, drag.pivot + t * along);
@@ -232,7 +229,7 @@ void draw_axes(const Ui& ui, ImDrawList& list) {
     for (const Tip& tip : tips) {
         const ImVec2 end(middle.x + length * static_cast<float>(tip.direction.x),
                          middle.y - length * static_cast<float>(tip.direction.y));
-        const ImU32 color = with_alpha(axis_colors[tip.axis], tip.direction.z < -0.3 ? 0.5f : 0.95f);
+        const ImU32 color = with_alpha(palette::axes[tip.axis], tip.direction.z < -0.3 ? 0.5f : 0.95f);
         list.AddLine(middle, end, color, ui.scaled(2));
         list.AddCircleFilled(end, ui.scaled(8.5f), color);
         const char letter[2] = {static_cast<char>('X' + tip.axis), 0};

@@ -1,5 +1,6 @@
 // The panel "Shape": how stiff the cloud is and how finely the deformation is computed.
 
+#include "app/number_fields.h"
 #include "app/ui.h"
 #include "app/widgets.h"
 #include "base/counts.h"

@@ -1,4 +1,4 @@
-// The column at the right: Handles, Shape, Display.
+// The column at the right: Handles, Transform, Shape, Display.
 
 #include "app/ui.h"
 #include "app/widgets.h"
@@ -61,6 +61,7 @@ void draw_side_panels(const Ui& ui, Rectangle where) {
         void (*panel)(const Ui&);
         bool is_needed = false;
     } parts[] = {{"Handles", handles_panel, ui.state.renaming_begins},
+                 {"Transform", transform_panel},
                  {"Shape", shape_panel},
                  {"Display", display_panel}};
     bool first = true;

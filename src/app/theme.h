@@ -5,6 +5,7 @@
 
 #include <imgui.h>
 
+#include <array>
 #include <set>
 
 namespace knead {
@@ -28,6 +29,8 @@ inline constexpr ImU32 on_accent = rgb(0x1d1408); // text upon it
 inline constexpr ImU32 warning = rgb(0xe8c35a);
 inline constexpr ImU32 error = rgb(0xef6a61);
 inline constexpr ImU32 good = rgb(0x7cc38b);
+inline constexpr std::array axes{rgb(0xf2545b), rgb(0x7fc94d), rgb(0x4b93f7),
+                                 rgb(0xe6e8ec)}; // x, y, z, screen
 } // namespace palette
 
 ImU32 with_alpha(ImU32 color, float alpha); // alpha times `alpha`

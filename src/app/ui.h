@@ -10,6 +10,7 @@
 #include "app/file_browser.h"
 #include "app/handle_colors.h"
 #include "app/label_dialog.h"
+#include "app/number_fields.h"
 #include "app/theme.h"
 #include "app/timeline.h"
 #include "edit/editor.h"
@@ -117,6 +118,13 @@ struct SlidingSettings {
     double last_moved = 0; // ImGui's time
 };
 
+// The fields of the panel "Transform".
+struct PoseFields {
+    std::string handle; // whose they are
+    NumberEditing editing;
+    std::optional<ChosenPose> base = {}; // of what is being slid, when that began
+};
+
 // What the status line tells; measured by the main loop.
 struct Measured {
     double frame = 0;    // seconds, smoothed, of frames that were drawn
@@ -185,6 +193,8 @@ struct UiState {
     float beside_list = 0;     // height of what the side panels hold beside the list of handles
     std::string listed_chosen; // the handle that the list was scrolled to last
     SlidingSettings sliding;
+    PoseFields pose_fields;
+    NumberEditing range_fields; // of the colours
     Playback playback;
     LabelDialog labels;
 
@@ -215,7 +225,7 @@ struct Ui {
 // Each draws itself at its place; the main loop calls them all once a frame.
 void draw_menu_bar(const Ui& ui); // returns with its height known to ImGui
 void draw_tool_column(const Ui& ui, Rectangle where);
-void draw_side_panels(const Ui& ui, Rectangle where); // Handles, Shape, Display
+void draw_side_panels(const Ui& ui, Rectangle where); // Handles, Transform, Shape, Display
 void draw_timeline(const Ui& ui, Rectangle where);
 void draw_status_line(const Ui& ui, Rectangle where);
 void draw_overlay(const Ui& ui);  // gizmo, bands, names: over the cloud, under all panels
@@ -232,6 +242,7 @@ void draw_dialogs(const Ui& ui); // unsaved work, overwriting
 
 // Parts of the side panels.
 void handles_panel(const Ui& ui);
+void transform_panel(const Ui& ui);
 void shape_panel(const Ui& ui);
 void display_panel(const Ui& ui);
 

@@ -21,19 +21,6 @@ bool main_button(const char* label, ImVec2 size = {0, 0});
 // A button over the whole width, with its key at the right.
 bool key_button(const char* label, const char* keys, bool is_main);
 
-// A slider that is a bar with its name and value in it. Ctrl+click types a number. `format` is printf's;
-// `flags` are ImGuiSliderFlags.
-bool bar_slider(const char* name, float& value, float lowest, float highest, const char* format,
-                int flags = 0);
-bool bar_slider(const char* name, int& value, int lowest, int highest, const char* format, int flags = 0);
-
-// A printf format with as many digits as tell numbers between the two apart.
-std::string format_between(double low, double high);
-
-// A comma that is being typed into a field for a number becomes its point, as on the keypads of half the
-// world. Call it before the field is laid out; bar_slider() does for numbers that are not whole.
-void take_decimal_commas(ImGuiID field);
-
 // The heading of a part of a panel, which folds it. Returns whether it is open. `unfold`: opens it.
 bool section(const char* title, ImFont* font, bool unfold = false);
 

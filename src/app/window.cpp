@@ -221,6 +221,7 @@ Window::Window(int width, int height) : window_(create_window(width, height)) {
     glfwSetWindowRefreshCallback(window_, Callbacks::uncover);
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // nothing of the layout is kept
+    ImGui::GetIO().ConfigDragClickToInputText = true;
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     ImGui_ImplOpenGL3_Init("#version 410 core");
 }

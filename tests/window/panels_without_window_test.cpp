@@ -1,78 +1,17 @@
 // Panels and widgets without a window: Dear ImGui's frames, drawn by nobody, and a hand that is told to it.
 
-#include "app/theme.h"
+#include "app/number_fields.h"
 #include "app/ui.h"
 #include "app/widgets.h"
 #include "view/framing.h"
+#include "window/panel.h"
 
-#include <gtest/gtest.h>
-#include <imgui_internal.h>
-
-#include <cfloat>
 #include <stdexcept>
 #include <string_view>
 
 namespace knead::test {
 
 namespace {
-
-const ImVec2 nowhere(-FLT_MAX, -FLT_MAX);
-
-// One ImGui window that fills the display, or what is right of `left_`, drawn frame by frame.
-class Panel : public ::testing::Test {
-protected:
-    void SetUp() override {
-        context_ = ImGui::CreateContext();
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = {310, 700};
-        io.MousePos = nowhere;
-        for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = key;
-        fonts_ = apply_theme(1);
-        unsigned char* pixels = nullptr;
-        int width = 0, height = 0;
-        io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height); // no frame begins without
-    }
-    void TearDown() override { ImGui::DestroyContext(context_); }
-
-    virtual void draw() = 0;
-
-    void frame() {
-        ImGui::GetIO().DeltaTime = 1.0f / 60;
-        ImGui::NewFrame();
-        ImGui::SetNextWindowPos({left_, 0});
-        ImGui::SetNextWindowSize({ImGui::GetIO().DisplaySize.x - left_, ImGui::GetIO().DisplaySize.y});
-        ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration);
-        draw();
-        ImGui::End();
-        ImGui::Render();
-    }
-    void frames(int count) {
-        for (int i = 0; i < count; ++i) frame();
-    }
-
-    void click(ImVec2 at, bool ctrl = false) {
-        ImGuiIO& io = ImGui::GetIO();
-        io.MousePos = at;
-        io.KeyCtrl = ctrl;
-        frame();
-        io.MouseDown[0] = true;
-        frame();
-        io.MouseDown[0] = false;
-        io.KeyCtrl = false;
-        frames(2);
-    }
-    void press(ImGuiKey key) {
-        ImGui::GetIO().KeysDown[key] = true;
-        frame();
-        ImGui::GetIO().KeysDown[key] = false;
-        frames(2);
-    }
-
-    ImGuiContext* context_ = nullptr;
-    Fonts fonts_;
-    float left_ = 0;
-};
 
 class NumberSlider : public Panel {
 protected:
@@ -99,6 +38,34 @@ protected:
     float value_ = 0.5f;
     bool whole_ = false;
     int count_ = 1000, changes_ = 0;
+    ImVec2 middle_;
+};
+
+// Three sliders, the middle one of which cannot be used.
+class SlidersInARow : public Panel {
+protected:
+    void draw() override {
+        bar_slider("First", first_, 0.0f, 1.0f, "%.3f");
+        middle_ = ImRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax()).GetCenter();
+        ImGui::BeginDisabled();
+        bar_slider("Second", second_, 0.0f, 1.0f, "%.3f");
+        ImGui::EndDisabled();
+        bar_slider("Third", third_, 0.0f, 1.0f, "%.3f");
+    }
+    void type(std::string_view text) {
+        for (const char letter : text) {
+            ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(letter));
+            frames(2);
+        }
+    }
+    void tab(bool back) {
+        ImGui::GetIO().KeyShift = back;
+        press(ImGuiKey_Tab);
+        ImGui::GetIO().KeyShift = false;
+        frames(2);
+    }
+
+    float first_ = 0.5f, second_ = 0.5f, third_ = 0.5f;
     ImVec2 middle_;
 };
 
@@ -237,6 +204,26 @@ TEST_F(NumberSlider, ADragCountsAtOnce) {
     click({middle_.x + 60, middle_.y});
     EXPECT_GT(value_, 0.55f);
     EXPECT_GE(changes_, 1);
+}
+
+TEST_F(SlidersInARow, AreTypedIntoOneAfterTheOtherByTab) {
+    frames(2);
+    click(middle_, true);
+    type("0.1");
+    tab(false);
+    EXPECT_EQ(first_, 0.1f);
+    type("0.3");
+    tab(true);
+    EXPECT_EQ(third_, 0.3f);
+    type("0.2");
+    tab(false);
+    EXPECT_EQ(first_, 0.2f) << "back at the first";
+    tab(false);
+    type("0.4"); // round at the end
+    press(ImGuiKey_Enter);
+    EXPECT_EQ(first_, 0.4f);
+    EXPECT_EQ(second_, 0.5f);
+    EXPECT_EQ(third_, 0.3f) << "nothing typed, nothing changed";
 }
 
 TEST_F(ExplainedChoice, IsExplainedWhicheverTheCursorRestsOn) {

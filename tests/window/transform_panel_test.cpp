@@ -1,0 +1,190 @@
+// The fields of the panel "Transform": what the hand does there, and what the editor is told.
+
+#include "app/ui.h"
+#include "window/panel.h"
+
+#include <numbers>
+
+namespace knead::test {
+
+namespace {
+
+// The panel of a document that was made by hand: a handle that was moved by 0.5 along x, of a cloud of size 1
+// that begins at 100, 0, 0 of its file's coordinates.
+class TransformFields : public Panel {
+protected:
+    void SetUp() override {
+        Panel::SetUp();
+        state_.fonts = fonts_;
+        cloud_.positions = {0, 0, 0, 1, 0, 0};
+        cloud_.origin = {100, 0, 0};
+        editor_.opened.cloud = &cloud_;
+        editor_.opened.bounds = {Vec3d(100, 0, 0), Vec3d(101, 0, 0)};
+        auto document = std::make_shared<DocumentView>();
+        document->handles.emplace_back().name = "paw";
+        document->handles.emplace_back().name = "stand";
+        document->handles.back().role = HandleRole::fixed;
+        for (Handle& handle : document->handles)
+            handle.points = std::make_shared<const std::vector<Index>>(1, Index{0});
+        document->motions.resize(2);
+        document->motions[0].offset = {0.5, 0, 0};
+        editor_.document = std::move(document);
+        editor_.chosen = "paw";
+        editor_.handle_middle = {0.75, 0, 0};
+    }
+    void draw() override { transform_panel({editor_, state_, commands_, wishes_}); }
+
+    // The middle of a field: of the rows place, moved, turned, scaled from 0, and x, y, z.
+    ImVec2 field(int row, int column) {
+        const ImGuiStyle& style = ImGui::GetStyle();
+        const float left = style.WindowPadding.x + 62, width = 310 - style.WindowPadding.x - left;
+        return {left + width * (static_cast<float>(column) + 0.5f) / 3,
+                style.WindowPadding.y + (static_cast<float>(row) + 0.5f) * ImGui::GetFrameHeight() +
+                    static_cast<float>(row) * style.ItemSpacing.y};
+    }
+    void type(std::string_view text) {
+        for (const char letter : text) {
+            ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(letter));
+            frames(2);
+        }
+        EXPECT_TRUE(commands_.empty()) << "while it is typed";
+    }
+    // The one drag that the editor was told of, whole; its transform.
+    Transform told_drag() {
+        if (commands_.size() != 3) {
+            ADD_FAILURE() << commands_.size() << " commands";
+            return {};
+        }
+        EXPECT_TRUE(std::holds_alternative<BeginDrag>(commands_[0]));
+        EXPECT_TRUE(std::holds_alternative<EndDrag>(commands_[2]));
+        const Transform transform = std::get<DragTo>(commands_[1]).transform;
+        commands_.clear();
+        return transform;
+    }
+
+    PointCloud cloud_;
+    Editor editor_{1};
+    UiState state_;
+    std::vector<Command> commands_;
+    std::vector<Wish> wishes_;
+};
+
+TEST_F(TransformFields, TakeANumberAsADragOfTheHandle) {
+    frames(2);
+    click(field(0, 0));
+    type("101,25");
+    press(ImGuiKey_Enter);
+    EXPECT_NEAR(told_drag().shift.x, 0.5, 1e-12) << "in the file's coordinates";
+    click(field(1, 0));
+    type("0.75");
+    press(ImGuiKey_Enter);
+    EXPECT_NEAR(told_drag().shift.x, 0.25, 1e-12) << "from where it was at rest";
+    click(field(2, 2));
+    type("720");
+    press(ImGuiKey_Enter);
+    const Transform turn = told_drag();
+    EXPECT_NEAR(turn.angle, 4 * std::numbers::pi, 1e-9) << "both turns";
+    EXPECT_NEAR(turn.axis.z, 1, 1e-12);
+    click(field(3, 1));
+    type("1.5");
+    press(ImGuiKey_Enter);
+    EXPECT_NEAR(told_drag().scale.y, 1.5, 1e-12);
+}
+
+TEST_F(TransformFields, GoOnByTab) {
+    frames(2);
+    click(field(1, 0));
+    type("0.75");
+    press(ImGuiKey_Tab);
+    EXPECT_NEAR(told_drag().shift.x, 0.25, 1e-12);
+    frames(3);
+    type("2");
+    press(ImGuiKey_Tab);
+    EXPECT_NEAR(told_drag().shift.y, 2, 1e-12);
+    frames(3);
+    type("3");
+    press(ImGuiKey_Enter);
+    EXPECT_NEAR(told_drag().shift.z, 3, 1e-12);
+}
+
+TEST_F(TransformFields, LeaveTheHandleWhereNothingWasTyped) {
+    frames(2);
+    click(field(1, 0));
+    press(ImGuiKey_Enter);
+    click(field(2, 0));
+    type("45");
+    press(ImGuiKey_Escape);
+    EXPECT_TRUE(commands_.empty());
+}
+
+TEST_F(TransformFields, RefuseToMirrorOrFlatten) {
+    frames(2);
+    for (const char* factor : {"0", "-1"}) {
+        click(field(3, 0));
+        type(factor);
+        press(ImGuiKey_Enter);
+    }
+    EXPECT_TRUE(commands_.empty());
+    EXPECT_EQ(state_.toasts.size(), 1U) << "said once";
+}
+
+TEST_F(TransformFields, SlideAsOneDrag) {
+    frames(2);
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = field(2, 1);
+    frame();
+    io.MouseDown[0] = true;
+    frame();
+    for (int step = 0; step < 5; ++step) {
+        io.MousePos.x += 10;
+        frame();
+    }
+    io.MouseDown[0] = false;
+    frames(3);
+    ASSERT_GT(commands_.size(), 3U);
+    EXPECT_TRUE(std::holds_alternative<BeginDrag>(commands_.front()));
+    EXPECT_TRUE(std::holds_alternative<EndDrag>(commands_.back()));
+    double before = 0;
+    for (std::size_t c = 1; c + 1 < commands_.size(); ++c) {
+        const Transform& transform = std::get<DragTo>(commands_[c]).transform;
+        EXPECT_GT(transform.angle, before);
+        EXPECT_NEAR(transform.axis.y, 1, 1e-12);
+        before = transform.angle;
+    }
+}
+
+TEST_F(TransformFields, TakeBackWhatIsSlidWhenItIsGivenUp) {
+    frames(2);
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = field(1, 1);
+    frame();
+    io.MouseDown[0] = true;
+    frame();
+    io.MousePos.x += 30;
+    frames(2);
+    state_.pose_fields.editing.gives_up = true;
+    frames(2);
+    io.MousePos.x += 30;
+    frames(2);
+    io.MouseDown[0] = false;
+    frames(2);
+    EXPECT_TRUE(std::holds_alternative<BeginDrag>(commands_.front()));
+    EXPECT_TRUE(std::holds_alternative<CancelDrag>(commands_.back()));
+}
+
+// What is typed for one handle is not done to another that was chosen meanwhile.
+TEST_F(TransformFields, ForgetWhatWasTypedForAnotherHandle) {
+    frames(2);
+    click(field(1, 0));
+    type("7");
+    editor_.chosen = "stand";
+    frames(2);
+    editor_.chosen = "paw";
+    frames(3);
+    press(ImGuiKey_Enter);
+    EXPECT_TRUE(commands_.empty());
+}
+
+} // namespace
+
+} // namespace knead::test

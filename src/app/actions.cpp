@@ -438,6 +438,8 @@ std::span<const Gesture> gestures() {
         Gesture{"While moving, turning or scaling", "Esc", "As it was (or right click)"},
         Gesture{"In the panels", "F10", "Menus; arrows walk through them, Enter chooses"},
         Gesture{"In the panels", "Ctrl+click", "Type the number of a slider"},
+        Gesture{"In the panels", "Click", "Type the number of a field without a bar"},
+        Gesture{"In the panels", "Tab", "Type the next number (with Shift: the one before)"},
     };
     return list;
 }

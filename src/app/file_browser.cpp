@@ -350,11 +350,7 @@ void bottom_row(const Ui& ui) {
     browser.focus_name = false;
     ImGui::SetNextItemWidth(-1);
     const bool entered = ImGui::InputText("##path", &browser.typed, ImGuiInputTextFlags_EnterReturnsTrue);
-    if (ImGui::IsItemEdited() && reads_file(browser.purpose)) {
-        const bool is_path = browser.typed.find('/') != std::string::npos || browser.typed.starts_with('~');
-        browser.filter = is_path ? std::string() : browser.typed;
-        browser.chosen = -1;
-    }
+    if (ImGui::IsItemEdited()) name_typed(browser);
     ImGui::PopID();
     if (ImGui::Checkbox(has_line_of_columns(ui) ? "All" : "All files", &browser.every_file))
         read_folder(browser);

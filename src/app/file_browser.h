@@ -47,6 +47,11 @@ struct FileBrowser {
 // Reads the folder, `entries` and `trouble` anew. Never throws.
 void read_folder(FileBrowser& browser);
 
+// The hand has typed `typed`: of a name, that is what is looked for in the folder; a path from the root or
+// from home leads to its folder, and its last part is what is looked for there. Nothing while something is
+// saved.
+void name_typed(FileBrowser& browser);
+
 // The entries that are shown, as numbers: those whose names have the filter somewhere, in letters of any
 // case.
 std::vector<int> shown_entries(const FileBrowser& browser);

@@ -67,6 +67,21 @@ void read_folder(FileBrowser& browser) {
     std::sort(browser.entries.begin(), browser.entries.end(), by_name);
 }
 
+void name_typed(FileBrowser& browser) {
+    if (!reads_file(browser.purpose)) return;
+    const bool is_path = browser.typed.find('/') != std::string::npos || browser.typed.starts_with('~');
+    browser.filter = is_path ? std::string() : browser.typed;
+    browser.chosen = -1;
+    if (!browser.typed.starts_with('/') && !browser.typed.starts_with("~/")) return;
+    const std::filesystem::path path = typed_path(browser);
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(path.parent_path(), ignored)) return;
+    browser.filter = path.filename().string();
+    if (path.parent_path() == browser.folder) return;
+    browser.folder = path.parent_path();
+    read_folder(browser);
+}
+
 std::vector<int> shown_entries(const FileBrowser& browser) {
     const std::string filter = lower_case(browser.filter);
     std::vector<int> shown;

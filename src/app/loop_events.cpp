@@ -64,6 +64,8 @@ void take(Loop& loop, MousePress event) {
         loop.editor.tools.refused = Tools::Refused::no; // the hand works on a panel
         return;
     }
+    take_typed_pose(loop.ui); // before the hand chooses another handle, or drags this one
+    for (const Command& command : std::exchange(loop.commands, {})) apply(loop.editor, command);
     loop.button_is_ours = true;
     loop.press_is_hands |= hand_is_full(loop);
     event.cursor = in_view(loop, event.cursor);
@@ -95,6 +97,10 @@ bool walks_bar(Loop& loop, const KeyPress& event) {
     return opens || next || before;
 }
 
+bool is_typing() {
+    return ImGui::GetIO().WantTextInput || types_into_field();
+}
+
 // Whether the hand is sliding a field of the panel "Transform", and with it a handle.
 bool slides_number(const Loop& loop) {
     const NumberEditing& editing = loop.state.pose_fields.editing;
@@ -113,7 +119,7 @@ void take(Loop& loop, const KeyPress& event) {
     if (walks_bar(loop, event)) return;
     const bool saves = event.key == key('S') && event.held.ctrl && !event.held.alt && !event.held.shift;
     if (saves && ImGui::GetIO().WantTextInput && !popup_is_open()) loop.saves = event;
-    if (ImGui::GetIO().WantTextInput || popup_is_open()) return;
+    if (is_typing() || popup_is_open()) return;
     if (event.key == Key::escape && loop.state.show_help) return; // closes that
     if (event.key == Key::escape && loop.state.playback.shown && !loop.editor.tools.drag)
         return close_timeline(loop.ui);
@@ -123,8 +129,7 @@ void take(Loop& loop, const KeyPress& event) {
 }
 
 void take(Loop& loop, const Character& event) {
-    if (slides_number(loop) || ImGui::GetIO().WantTextInput || popup_is_open() || !loop.editor.document)
-        return;
+    if (slides_number(loop) || is_typing() || popup_is_open() || !loop.editor.document) return;
     handle_input(loop.editor, event);
 }
 

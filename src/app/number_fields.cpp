@@ -1,15 +1,16 @@
 #include "app/number_fields.h"
 
 #include "app/theme.h"
+#include "app/widgets.h"
 
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <string_view>
 
 namespace knead {
 
@@ -37,39 +38,46 @@ namespace {
 // What a panel keeps for it between two fields and two frames: fields, or 0.
 class TabPlaces {
 public:
+    explicit TabPlaces(const void* ring) : ring_(ImHashData(&ring, sizeof ring)) {}
     ImGuiID last() const { return get("number laid out last"); }
-    ImGuiID from() const { return get("number left by Tab"); } // whose next one it leads to
-    ImGuiID to() const { return get("number that Tab leads back to"); }
+    ImGuiID from() const { return is_fresh() ? get("number left by Tab") : 0; } // whose next one it leads to
+    ImGuiID to() const { return is_fresh() ? get("number that Tab leads back to") : 0; }
     void set_last(ImGuiID field) { set("number laid out last", field); }
-    void set_from(ImGuiID field) { set("number left by Tab", field); }
-    void set_to(ImGuiID field) { set("number that Tab leads back to", field); }
+    void leave(ImGuiID from, ImGuiID to) {
+        set("number left by Tab", from);
+        set("number that Tab leads back to", to);
+        set("when a number was left", static_cast<ImGuiID>(ImGui::GetFrameCount()));
+    }
 
 private:
-    ImGuiID get(const char* name) const { return static_cast<ImGuiID>(storage_.GetInt(ImHashStr(name))); }
-    void set(const char* name, ImGuiID field) { storage_.SetInt(ImHashStr(name), static_cast<int>(field)); }
+    // Where the fields are gone in the next picture, Tab leads nowhere.
+    bool is_fresh() const {
+        return static_cast<ImGuiID>(ImGui::GetFrameCount()) <= get("when a number was left") + 1;
+    }
+    ImGuiID key(const char* name) const { return ImHashStr(name, 0, ring_); }
+    ImGuiID get(const char* name) const { return static_cast<ImGuiID>(storage_.GetInt(key(name))); }
+    void set(const char* name, ImGuiID field) { storage_.SetInt(key(name), static_cast<int>(field)); }
+
+    ImGuiID ring_;
     ImGuiStorage& storage_ = *ImGui::GetStateStorage();
 };
 
-bool is_disabled() {
-    return (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
-}
-
-// Call it before a field is laid out.
-void arrive_by_tab(ImGuiID field) {
+// Call it before a field is laid out. Tab stays among the fields that name the same ring; of those without
+// one, the sliders, in their panel.
+void arrive_by_tab(ImGuiID field, const void* ring = nullptr) {
     if (is_disabled()) return;
-    TabPlaces places;
+    TabPlaces places(ring);
     const ImGuiID before = places.last();
     places.set_last(field);
     if (places.to() == field || (places.from() != 0 && places.from() == before)) {
         ImGui::SetKeyboardFocusHere();
-        places.set_from(0);
-        places.set_to(0);
+        places.leave(0, 0);
     }
     if (!ImGui::TempInputIsActive(field) || !ImGui::IsKeyPressedMap(ImGuiKey_Tab)) return;
     if (ImGui::GetIO().KeyShift)
-        places.set_to(before);
+        places.leave(0, before);
     else
-        places.set_from(field);
+        places.leave(field, 0);
 }
 
 // And after it, if it is typed into.
@@ -130,16 +138,19 @@ std::string as_words(const char* format, Number value) {
     return words;
 }
 
-// Whether what stands in the field that is typed into is one number, be there words behind it.
-bool types_number() {
+// The number that stands in the field that is typed into, be there a unit behind it; nothing where it is
+// none, or the text is the one that stood there at first.
+std::optional<double> typed_number() {
     const ImGuiInputTextState& field = ImGui::GetCurrentContext()->InputTextState;
-    std::string text;
-    for (int at = 0; at < field.CurLenW; ++at)
-        text += field.TextW[at] < 128 ? static_cast<char>(field.TextW[at]) : '?';
+    std::string text(4 * static_cast<std::size_t>(field.CurLenW) + 1, 0);
+    text.resize(static_cast<std::size_t>(ImTextStrToUtf8(
+        text.data(), static_cast<int>(text.size()), field.TextW.Data, field.TextW.Data + field.CurLenW)));
+    if (text == field.InitialTextA.Data) return std::nullopt;
     char* end = nullptr;
-    (void)std::strtod(text.c_str(), &end);
-    return end != text.c_str() && (*end == 0 || *end == ' ' || *end == '%' || *end == '?' ||
-                                   std::isalpha(static_cast<unsigned char>(*end)));
+    const double number = std::strtod(text.c_str(), &end);
+    const std::string_view unit(end);
+    const bool is_one = unit.find_first_of("0123456789.,+-*/") == std::string_view::npos;
+    return end != text.c_str() && is_one && std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
 // What is being typed into a slider counts once it is done, and not at all if it is given up (Esc puts the
@@ -152,7 +163,7 @@ bool take_typed(const char* id, bool is_typed, Number before, const char* format
     const bool was_typed = storage.GetBool(typing, false);
     storage.SetBool(typing, is_typed);
     if (is_typed) {
-        storage.SetFloat(typed, static_cast<float>(types_number() ? value : before));
+        storage.SetFloat(typed, static_cast<float>(typed_number() ? value : before));
         value = before;
         return false;
     }
@@ -191,8 +202,15 @@ bool bar_slider(const char* name, int& value, int lowest, int highest, const cha
     return slide(name, ImGuiDataType_S32, value, lowest, highest, format, flags);
 }
 
+bool types_into_field() {
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    const bool will_type =
+        context.NavMoveSubmitted && (context.NavMoveFlags & ImGuiNavMoveFlags_Tabbing) != 0;
+    return will_type || (context.ActiveId != 0 && ImGui::TempInputIsActive(context.ActiveId));
+}
+
 NumberEdit number_field(const char* id, double& value, double speed, const char* format,
-                        NumberEditing& editing) {
+                        NumberEditing& editing, double lowest) {
     const ImGuiID field = ImGui::GetID(id);
     const bool types = ImGui::TempInputIsActive(field);
     if (types) take_decimal_commas(field);
@@ -200,19 +218,20 @@ NumberEdit number_field(const char* id, double& value, double speed, const char*
     if (editing.frame + 1 < frame) editing.field = 0;
     const bool was_edited = editing.field == field;
     double number = was_edited && !editing.types ? editing.number : value;
-    arrive_by_tab(field);
-    const bool slid = ImGui::DragScalar(id, ImGuiDataType_Double, &number, static_cast<float>(speed), nullptr,
+    arrive_by_tab(field, &editing);
+    const bool slid = ImGui::DragScalar(id, ImGuiDataType_Double, &number, static_cast<float>(speed), &lowest,
                                         nullptr, format);
     if (types) {
-        editing = {field, types_number() ? number : value, true, false, frame};
+        const bool given_up = ImGui::IsKeyPressedMap(ImGuiKey_Escape);
+        const std::optional<double> typed = given_up ? std::nullopt : typed_number();
+        editing = {field, typed.value_or(value), true, typed.has_value(), false, frame};
         leave_by_tab();
         return NumberEdit::none;
     }
     if (was_edited && editing.types) {
-        const double typed = editing.number;
         editing.field = 0;
-        if (as_words(format, typed) == as_words(format, value)) return NumberEdit::none;
-        value = typed;
+        if (!editing.is_another) return NumberEdit::none;
+        value = editing.number;
         return NumberEdit::typed;
     }
     if (was_edited && editing.gives_up) {
@@ -226,7 +245,7 @@ NumberEdit number_field(const char* id, double& value, double speed, const char*
     }
     if (was_edited) editing.frame = frame;
     if (!slid) return NumberEdit::none;
-    editing = {field, number, false, false, frame};
+    editing = {field, number, false, false, false, frame};
     value = number;
     return NumberEdit::slides;
 }

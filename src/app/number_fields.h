@@ -1,9 +1,10 @@
 #pragma once
-// Sliders and fields for numbers. From one that is typed into Tab leads to the next of its panel, and
-// Shift+Tab to the one before.
+// Sliders and fields for numbers. From one that is typed into Tab leads to the next, and Shift+Tab to the one
+// before: of the sliders, or of the fields with the same NumberEditing.
 
 #include <imgui.h>
 
+#include <cfloat>
 #include <string>
 
 namespace knead {
@@ -16,11 +17,12 @@ bool bar_slider(const char* name, int& value, int lowest, int highest, const cha
 
 // What the hand does with a field for a number. One field at a time.
 struct NumberEditing {
-    ImGuiID field = 0;     // 0: none
-    double number = 0;     // so far
-    bool types = false;    // else it slides
-    bool gives_up = false; // what it slid is to be as before: set it from outside
-    int frame = 0;         // of ImGui's, in which that was so; what is older is forgotten
+    ImGuiID field = 0;       // 0: none
+    double number = 0;       // so far
+    bool types = false;      // else it slides
+    bool is_another = false; // what is typed is a number, and other than at first
+    bool gives_up = false;   // what it slid is to be as before: set it from outside
+    int frame = 0;           // of ImGui's, in which that was so; what is older is forgotten
 };
 enum class NumberEdit {
     none,
@@ -29,10 +31,13 @@ enum class NumberEdit {
     typed,    // `value` is what was typed, by Enter, Tab or a click elsewhere
     given_up, // what was slid; what was typed and given up (Esc) never was
 };
-// A field that shows a number, which is slid to the left and right, by `speed` for each pixel, or clicked and
-// typed.
+// A field that shows a number, which is slid to the left and right, by `speed` for each pixel and no farther
+// down than to `lowest`, or clicked and typed.
 NumberEdit number_field(const char* id, double& value, double speed, const char* format,
-                        NumberEditing& editing);
+                        NumberEditing& editing, double lowest = -FLT_MAX);
+
+// Whether a number is being typed, or will be as soon as the next picture was drawn: keys are meant for it.
+bool types_into_field();
 
 // A printf format with as many digits as tell numbers between the two apart.
 std::string format_between(double low, double high);

@@ -4,16 +4,20 @@
 #include "app/ui.h"
 #include "app/widgets.h"
 #include "edit/pose_numbers.h"
+#include "edit/view_vectors.h"
+
+#include <imgui_internal.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <string>
 
 namespace knead {
 
 namespace {
-
-constexpr double least_factor = 0.001; // what is slid to; 0 would flatten
 
 struct RowLook {
     PoseRow row;
@@ -29,36 +33,23 @@ constexpr RowLook row_looks[] = {
     {PoseRow::scaled, "Scaled", "", "How many times as long as at rest it is along each of its own axes"},
 };
 
-double diagonal_of(const Editor& editor) {
-    return (editor.opened.bounds.highest - editor.opened.bounds.lowest).norm();
-}
-
-// Of lengths: a ten-thousandth of the cloud is told apart.
-int decimals_of(const Ui& ui, PoseRow row) {
-    if (row == PoseRow::turned) return 1;
-    if (row == PoseRow::scaled) return 3;
-    const double unit = std::max(diagonal_of(ui.editor), 1e-12) / 1e4;
-    return std::clamp(static_cast<int>(std::ceil(-std::log10(unit))), 0, 9);
+// Of lengths a ten-thousandth of the cloud is told apart, as far as there is room for digits before it.
+std::string format_of(const Ui& ui, PoseRow row, double value) {
+    if (row == PoseRow::turned) return "%.1f°";
+    if (row == PoseRow::scaled) return "%.3f";
+    constexpr int room = 7; // for digits
+    const double unit = std::max(ui.editor.opened.bounds.diagonal(), DBL_MIN) / 1e4;
+    const int wanted = std::max(0, static_cast<int>(std::ceil(-std::log10(unit))));
+    const int before = std::max(1, static_cast<int>(std::floor(std::log10(std::abs(value) + 1e-9))) + 1);
+    if (wanted >= room || before > room + 1) return "%.3g";
+    return "%." + std::to_string(std::clamp(room - before, 0, wanted)) + "f";
 }
 
 // For each pixel that the hand goes.
 double speed_of(const Ui& ui, PoseRow row) {
     if (row == PoseRow::turned) return 0.5;
     if (row == PoseRow::scaled) return 0.005;
-    return diagonal_of(ui.editor) / 1000;
-}
-
-double number_in(const PoseNumbers& numbers, PoseRow row, int axis) {
-    switch (row) {
-    case PoseRow::place:
-        return numbers.place[axis];
-    case PoseRow::moved:
-        return numbers.moved[axis];
-    case PoseRow::turned:
-        return numbers.turned[axis];
-    default:
-        return numbers.scaled[axis];
-    }
+    return ui.editor.opened.bounds.diagonal() / 1000;
 }
 
 // Of the row "Place", which shows the file's coordinates.
@@ -66,106 +57,149 @@ double origin_of(const Ui& ui, PoseRow row, int axis) {
     return row == PoseRow::place ? ui.editor.opened.cloud->origin[axis] : 0;
 }
 
-Vec3d pivot_of(const ChosenPose& pose) {
-    return {pose.pivot.x, pose.pivot.y, pose.pivot.z};
+// Of one field.
+struct Field {
+    PoseRow row;
+    int axis;
+};
+
+// In pivot mode the place is the pivot's alone, as it is for the gizmo's arrows.
+bool moves_pivot(const Ui& ui, Field field) {
+    return field.row == PoseRow::place && ui.editor.tools.move_pivot;
 }
 
-void begin(const Ui& ui, const ChosenPose& pose) {
-    ui.state.pose_fields.base = pose;
-    ui.tell(BeginDrag{pose.pivot});
+// From where the handle, or its pivot, was when the hand began.
+Transform transform_for(const Ui& ui, const ChosenPose& base, Field field, double value) {
+    return transform_to(base.motion, to_eigen(base.pivot), field.row, field.axis,
+                        value - origin_of(ui, field.row, field.axis));
 }
 
-// From where it was when the hand began.
-void go_to(const Ui& ui, PoseRow row, int axis, double value) {
-    const ChosenPose& base = *ui.state.pose_fields.base;
-    if (row == PoseRow::scaled) value = std::max(value, least_factor);
-    ui.tell(DragTo{transform_to(base.motion, pivot_of(base), row, axis, value - origin_of(ui, row, axis))});
+void slide(const Ui& ui, const ChosenPose& pose, Field field, double value) {
+    PoseFields& fields = ui.state.pose_fields;
+    if (!fields.base) {
+        fields.base = pose;
+        fields.slides_pivot = moves_pivot(ui, field);
+        if (!fields.slides_pivot) ui.tell(BeginDrag{pose.pivot});
+    }
+    fields.slid = transform_for(ui, *fields.base, field, value);
+    if (fields.slides_pivot)
+        ui.tell(SetPivot{transformed(fields.slid, fields.base->pivot), SetPivot::Stage::moving});
+    else
+        ui.tell(DragTo{fields.slid});
 }
 
-void end(const Ui& ui, bool keep) {
-    ui.state.pose_fields.base.reset();
-    if (keep)
+void end_slide(const Ui& ui, bool keep) {
+    PoseFields& fields = ui.state.pose_fields;
+    if (!fields.base) return;
+    keep = keep && !does_nothing(fields.slid);
+    if (fields.slides_pivot)
+        ui.tell(keep ? SetPivot{transformed(fields.slid, fields.base->pivot)}
+                     : SetPivot{{}, SetPivot::Stage::given_up});
+    else if (keep)
         ui.tell(EndDrag{});
     else
         ui.tell(CancelDrag{});
+    fields.base.reset();
 }
 
-void type(const Ui& ui, const ChosenPose& pose, PoseRow row, int axis, double value) {
-    if (row == PoseRow::scaled && value < least_factor)
-        return add_toast(ui.state,
-                         {Notice::Kind::information,
-                          "A handle is neither mirrored nor flattened by a factor: it is above 0."});
-    begin(ui, pose);
-    go_to(ui, row, axis, value);
-    end(ui, true);
+void refuse(const Ui& ui, const char* format, double number) {
+    char words[96];
+    std::snprintf(words, sizeof words, format, number);
+    add_toast(ui.state, {Notice::Kind::information, words});
 }
 
-void pose_field(const Ui& ui, const ChosenPose& pose, const RowLook& look, int axis) {
+void type(const Ui& ui, const ChosenPose& pose, Field field, double value) {
+    if (field.row == PoseRow::scaled && value < least_factor)
+        return refuse(ui, "A handle is scaled by %g at least.", least_factor);
+    const Transform transform = transform_for(ui, pose, field, value);
+    if (std::abs(transform.angle) > most_turned)
+        return refuse(ui, "At once a handle turns by %.0f° at most.", most_turned * 180 / std::numbers::pi);
+    if (does_nothing(transform)) return;
+    if (moves_pivot(ui, field)) return ui.tell(SetPivot{transformed(transform, pose.pivot)});
+    ui.tell(BeginDrag{pose.pivot});
+    ui.tell(DragTo{transform});
+    ui.tell(EndDrag{});
+}
+
+// What a field shows, and how it is used.
+std::string words_about(const Ui& ui, const RowLook& look, Field field, double value, bool is_sheared) {
+    char number[48];
+    std::snprintf(number, sizeof number, "%c: %.9g%s. ", "XYZ"[field.axis], value, look.unit);
+    std::string words = number;
+    words += moves_pivot(ui, field) ? "Where its pivot is: moves that alone, as the gizmo's arrows do now"
+                                    : look.words;
+    if (look.row == PoseRow::scaled && is_sheared)
+        words += ". It was stretched along other axes than its own, too: only Reset takes all of that back";
+    return words + ". Slide it, or click and type; Tab goes on.";
+}
+
+void pose_field(const Ui& ui, const ChosenPose& pose, const PoseNumbers& numbers, const RowLook& look,
+                int axis) {
     PoseFields& fields = ui.state.pose_fields;
-    const int decimals = decimals_of(ui, look.row);
-    char format[24];
-    std::snprintf(format, sizeof format, "%%.%df%s", decimals, look.unit);
-    double value =
-        number_in(numbers_of(pose.motion, pivot_of(pose)), look.row, axis) + origin_of(ui, look.row, axis);
-    if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0; // no "-0.0"
+    double value = number_in(numbers, look.row, axis) + origin_of(ui, look.row, axis);
+    const std::string format = format_of(ui, look.row, value);
+    if (std::abs(value) < 1e-9 * ui.editor.opened.bounds.diagonal()) value = 0; // no "-0.0"
     const char id[] = {'#', '#', "xyz"[axis], 0};
-    switch (number_field(id, value, speed_of(ui, look.row), format, fields.editing)) {
-    case NumberEdit::none:
-        break;
-    case NumberEdit::slides:
-        if (!fields.base) begin(ui, pose);
-        go_to(ui, look.row, axis, value);
-        break;
-    case NumberEdit::slid:
-        if (fields.base) end(ui, true);
-        break;
-    case NumberEdit::typed:
-        type(ui, pose, look.row, axis, value);
-        break;
-    case NumberEdit::given_up:
-        if (fields.base) end(ui, false);
-        break;
+    const Field field{look.row, axis};
+    const double lowest = look.row == PoseRow::scaled ? least_factor : -FLT_MAX;
+    const NumberEdit edit =
+        number_field(id, value, speed_of(ui, look.row), format.c_str(), fields.editing, lowest);
+    if (edit == NumberEdit::slides) slide(ui, pose, field, value);
+    if (edit == NumberEdit::slid) end_slide(ui, true);
+    if (edit == NumberEdit::given_up) end_slide(ui, false);
+    if (edit == NumberEdit::typed) type(ui, pose, field, value);
+    if (fields.editing.types && fields.editing.field == ImGui::GetID(id)) {
+        fields.typed_row = look.row;
+        fields.typed_axis = axis;
     }
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     ImGui::GetWindowDrawList()->AddRectFilled(
         low, {low.x + ui.scaled(3), high.y},
         with_alpha(palette::axes[static_cast<std::size_t>(axis)], ImGui::GetStyle().Alpha), ui.scaled(2));
-    char words[160];
-    std::snprintf(words, sizeof words, "%c: %.*f%s. %s. Slide it, or click and type; Tab goes on.",
-                  "XYZ"[axis], decimals, value, look.unit, look.words);
-    explain(words);
+    explain(words_about(ui, look, field, value, numbers.is_sheared));
+}
+
+bool has_effect(const Ui& ui, PoseRow row) {
+    const std::optional<Gizmo> gizmo = gizmo_of(ui.editor);
+    if (row == PoseRow::turned) return has_effect(*gizmo, TransformKind::rotate);
+    if (row == PoseRow::scaled) return has_effect(*gizmo, TransformKind::scale);
+    return true;
 }
 
 void pose_rows(const Ui& ui, const ChosenPose& pose) {
-    const float gap = ui.scaled(3), left = ui.scaled(62);
-    const std::optional<Gizmo> gizmo = gizmo_of(ui.editor);
+    const PoseNumbers numbers = numbers_of(pose.motion, to_eigen(pose.pivot));
+    const float gap = ui.scaled(3), left = ui.scaled(66);
+    const bool waits = poses_may_change(ui.editor);
+    ImGui::PushID(ui.editor.chosen.c_str()); // what is typed for one is not for another
     for (const RowLook& look : row_looks) {
         ImGui::PushID(look.name);
         inline_caption(look.name, left);
-        const bool has_effect = !gizmo || (look.row == PoseRow::turned   ? gizmo->rotate
-                                           : look.row == PoseRow::scaled ? gizmo->scale
-                                                                         : true);
-        ImGui::BeginDisabled(!has_effect);
+        // What the document is yet to do would make what is typed meanwhile another pose.
+        ImGui::BeginDisabled(!has_effect(ui, look.row) || waits);
         const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
         for (int axis = 0; axis < 3; ++axis) {
             if (axis > 0) ImGui::SameLine(0, gap);
             ImGui::SetNextItemWidth(width);
-            pose_field(ui, pose, look, axis);
+            pose_field(ui, pose, numbers, look, axis);
         }
         ImGui::EndDisabled();
         ImGui::PopID();
     }
+    ImGui::PopID();
 }
 
 // What is open, where no handle is chosen.
 void cloud_words(const Ui& ui) {
     const Bounds& bounds = ui.editor.opened.bounds;
     const Vec3d size = bounds.highest - bounds.lowest, middle = (bounds.lowest + bounds.highest) / 2;
-    const int decimals = std::max(0, decimals_of(ui, PoseRow::place) - 1);
-    char words[240];
-    std::snprintf(words, sizeof words, "The cloud: %.*f × %.*f × %.*f\nIts middle: %.*f, %.*f, %.*f",
-                  decimals, size.x(), decimals, size.y(), decimals, size.z(), decimals, middle.x(), decimals,
-                  middle.y(), decimals, middle.z());
+    std::string words = "The cloud: ";
+    const auto add = [&](double length, const char* behind) {
+        char number[48];
+        std::snprintf(number, sizeof number, format_of(ui, PoseRow::place, length).c_str(), length);
+        words.append(number).append(behind);
+    };
+    for (int axis = 0; axis < 3; ++axis) add(size[axis], axis < 2 ? " × " : "\nIts middle: ");
+    for (int axis = 0; axis < 3; ++axis) add(middle[axis], axis < 2 ? ", " : "");
     faint_text(words);
     explain("As it was opened, in the file's units");
 }
@@ -173,18 +207,31 @@ void cloud_words(const Ui& ui) {
 } // namespace
 
 void transform_panel(const Ui& ui) {
-    PoseFields& fields = ui.state.pose_fields;
     if (!ui.has_cloud()) {
         faint_text("Where a handle is, how far it turned, and how large it became.");
         return;
     }
-    if (fields.handle != ui.editor.chosen) fields = {};
-    fields.handle = ui.editor.chosen;
+    PoseFields& fields = ui.state.pose_fields;
     const std::optional<ChosenPose> pose = pose_of_chosen(ui.editor);
+    if (fields.handle != ui.editor.chosen || !pose) {
+        end_slide(ui, true);
+        fields = {};
+        fields.handle = ui.editor.chosen;
+    }
     if (pose) return pose_rows(ui, *pose);
-    fields = {};
     faint_text("Choose a moving handle to read and type its pose.");
     cloud_words(ui);
+}
+
+void take_typed_pose(const Ui& ui) {
+    PoseFields& fields = ui.state.pose_fields;
+    if (!fields.editing.types || fields.editing.field == 0 || ImGui::GetActiveID() != fields.editing.field)
+        return;
+    ImGui::ClearActiveID();
+    const std::optional<ChosenPose> pose = pose_of_chosen(ui.editor);
+    if (pose && fields.editing.is_another)
+        type(ui, *pose, {fields.typed_row, fields.typed_axis}, fields.editing.number);
+    fields.editing.field = 0;
 }
 
 } // namespace knead

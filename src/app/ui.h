@@ -14,6 +14,7 @@
 #include "app/theme.h"
 #include "app/timeline.h"
 #include "edit/editor.h"
+#include "edit/pose_numbers.h"
 
 #include <deque>
 #include <filesystem>
@@ -122,7 +123,11 @@ struct SlidingSettings {
 struct PoseFields {
     std::string handle; // whose they are
     NumberEditing editing;
+    PoseRow typed_row = PoseRow::place; // of the field that is typed into
+    int typed_axis = 0;
     std::optional<ChosenPose> base = {}; // of what is being slid, when that began
+    bool slides_pivot = false;           // and not the handle
+    Transform slid = {};                 // since then
 };
 
 // What the status line tells; measured by the main loop.
@@ -243,6 +248,8 @@ void draw_dialogs(const Ui& ui); // unsaved work, overwriting
 // Parts of the side panels.
 void handles_panel(const Ui& ui);
 void transform_panel(const Ui& ui);
+// What is being typed there counts now, if anything is: the hand goes elsewhere.
+void take_typed_pose(const Ui& ui);
 void shape_panel(const Ui& ui);
 void display_panel(const Ui& ui);
 

@@ -5,7 +5,6 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <string_view>
 
@@ -54,11 +53,11 @@ void explain(const char* words) {
     ImGui::PopStyleVar(2);
 }
 
-namespace {
-
 bool is_disabled() {
     return (ImGui::GetCurrentContext()->CurrentItemFlags & ImGuiItemFlags_Disabled) != 0;
 }
+
+namespace {
 
 // Text on the accent's colour while it lives.
 struct AccentColors {

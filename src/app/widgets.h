@@ -15,6 +15,9 @@ inline void explain(const std::string& words) {
     explain(words.c_str());
 }
 
+// Whether what is laid out now cannot be used.
+bool is_disabled();
+
 // A button in the accent's colour: the one that is meant to be pressed.
 bool main_button(const char* label, ImVec2 size = {0, 0});
 

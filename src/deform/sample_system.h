@@ -78,7 +78,9 @@ struct HandleMotion {
         Quatd::Identity(); // unit; continues its own hemisphere from frame to frame, so that turns are kept
     Mat3d linear = Mat3d::Identity(); // the rotation, times the stretch of a scaling handle
     Vec3d offset = Vec3d::Zero();
-    Vec3d turned = Vec3d::Zero(); // the rotation again, for whoever tells of it: edit/handle_motion.h
+    Vec3d turned =
+        Vec3d::Zero(); // the same rotation as angles about x, y and z, in radians, whole turns counted
+                       // (edit/handle_motion.h); for whoever tells of it, nothing computes with it
 };
 
 // A free sample that a handle with a falloff pulls.

@@ -11,18 +11,6 @@
 
 namespace knead {
 
-glm::dvec3 to_glm(const Vec3d& v) {
-    return {v.x(), v.y(), v.z()};
-}
-
-glm::dquat to_glm(const Quatd& q) {
-    return {q.w(), q.x(), q.y(), q.z()};
-}
-
-Vec3d to_eigen(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
 void say(Editor& editor, Notice::Kind kind, std::string words) {
     editor.notices.push_back({.kind = kind, .words = std::move(words)});
 }
@@ -76,8 +64,8 @@ void carry_out(Editor& editor, const ChooseSamples& command) {
 }
 
 void carry_out(Editor& editor, const CommitPose& /*command*/) {
-    if (!needs_document(editor) || editor.drag) return;
-    if (!editor.document->posed)
+    if (!needs_document(editor) || (editor.drag && !editor.drag->ended)) return;
+    if (!editor.document->posed && !editor.drag) // one that has ended poses what the document is yet to show
         return say(editor, Notice::Kind::information, "Nothing is posed, so there is nothing to commit.");
     post_step(editor, {CommitLine{}});
 }
@@ -202,11 +190,10 @@ bool handle_input(Editor& editor, const Input& input) {
     context.camera = editor.camera;
     context.viewport = editor.viewport;
     context.gizmo = gizmo_of(editor);
-    if (context.gizmo && editor.drag) context.local_axes = editor.drag->local_axes;
-    if (context.gizmo && !editor.drag)
-        for (std::size_t h = 0; h < editor.document->handles.size(); ++h)
-            if (editor.document->handles[h].name == editor.chosen)
-                context.local_axes = to_glm(editor.document->motions[h].rotation);
+    if (editor.drag && !editor.drag->ended)
+        context.local_axes = to_glm(editor.drag->motion.base.rotation);
+    else if (const auto pose = pose_of_chosen(editor))
+        context.local_axes = to_glm(pose->motion.rotation);
     std::vector<Command> commands;
     const bool used = handle_input(editor.tools, context, input, commands);
     for (const Command& command : commands) apply(editor, command);

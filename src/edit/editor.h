@@ -7,6 +7,7 @@
 
 #include "base/workers.h"
 #include "edit/command.h"
+#include "edit/handle_motion.h"
 #include "edit/kept_marks.h"
 #include "edit/live_document.h"
 #include "edit/selecting.h"
@@ -51,6 +52,7 @@ struct EditorStep {
     std::optional<bool> choosing_before = {}, choosing_after = {};
     // The chosen handle before and after a step of the document; nothing: it stays as it is.
     std::optional<std::string> chosen_before = {}, chosen_after = {};
+    bool is_drag = false;               // whose pose is known before the document has it (EditorDrag)
     std::vector<PivotMove> pivots = {}; // that it moved, or that went with their handles
     // What could be redone before it, until the document has carried it out: it may be refused, or cancelled.
     std::vector<EditorStep> undone = {};
@@ -59,9 +61,10 @@ struct EditorStep {
 // The drag that goes on, or that ended and that the document has not answered yet.
 struct EditorDrag {
     StepNumber step = 0;
-    glm::dvec3 middle{0.0};            // of the gizmo when it began
-    glm::dquat local_axes{1, 0, 0, 0}; // of the handle then
-    Transform transform;               // so far
+    std::string handle;
+    glm::dvec3 middle{0.0}; // of the gizmo when it began
+    CarriedMotion motion;   // of the handle, from then to now
+    Transform transform;    // so far
     bool ended = false;
 };
 
@@ -159,6 +162,9 @@ struct ChosenPose {
     glm::dvec3 pivot{0.0};
 };
 std::optional<ChosenPose> pose_of_chosen(const Editor& editor);
+// Whether poses may be others by the time that the document has done what it was told: it takes something
+// back, resets or commits.
+bool poses_may_change(const Editor& editor);
 // How far the handle pulls what is around it, whatever its own falloff is; 0 for one that is large enough.
 double least_falloff(const Editor& editor, const Handle& handle);
 // Of one of the document's: how many points follow it, those not that later handles hold, too.

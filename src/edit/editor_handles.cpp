@@ -288,15 +288,15 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
 void carry_out(Editor& editor, const BeginDrag& command) {
     const auto number = number_of(editor, editor.chosen);
     if (!number || editor.document->handles[*number].role != HandleRole::moving) return;
-    const std::optional<Gizmo> gizmo = gizmo_of(editor);
+    if (editor.drag && !editor.drag->ended) return; // one at a time
+    const ChosenPose pose = *pose_of_chosen(editor);
     EditorDrag drag;
     drag.step = ++editor.last_step;
-    drag.middle = gizmo ? gizmo->center : command.pivot;
-    drag.local_axes = to_glm(editor.document->motions[*number].rotation);
-    if (editor.drag) // the last one is not answered yet
-        drag.local_axes = glm::angleAxis(editor.drag->transform.angle, editor.drag->transform.axis) *
-                          editor.drag->local_axes;
+    drag.handle = editor.chosen;
+    drag.middle = pose.pivot;
+    drag.motion = {pose.motion, pose.motion};
     EditorStep step = coming_step(editor, drag.step);
+    step.is_drag = true;
     editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin);
     editor.drag = std::move(drag);
     add_step(editor, std::move(step));
@@ -304,8 +304,11 @@ void carry_out(Editor& editor, const BeginDrag& command) {
 
 void carry_out(Editor& editor, const DragTo& command) {
     if (!editor.drag || editor.drag->ended) return;
-    editor.drag->transform = command.transform;
-    editor.live->drag_to(command.transform);
+    Transform transform = command.transform;
+    transform.angle = within_turns(transform.angle);
+    carry_on(editor.drag->motion, transform);
+    editor.drag->transform = transform;
+    editor.live->drag_to(transform);
 }
 
 void carry_out(Editor& editor, const EndDrag& /*command*/) {

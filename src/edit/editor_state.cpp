@@ -3,7 +3,6 @@
 #include "base/quoted.h"
 #include "edit/editor_steps.h"
 #include "edit/falloffs.h"
-#include "edit/handle_motion.h"
 #include "edit/measures.h"
 
 #include <algorithm>
@@ -111,10 +110,9 @@ std::optional<Gizmo> gizmo_of(const Editor& editor) {
     glm::dquat axes = to_glm(editor.document->motions[number].rotation);
     const auto pivot = pivot_of(editor, editor.chosen);
     gizmo.center = pivot.value_or(editor.handle_middle);
-    if (editor.drag) {
-        const Transform& transform = editor.drag->transform;
-        gizmo.center = transformed(transform, editor.drag->middle);
-        axes = glm::angleAxis(transform.angle, transform.axis) * editor.drag->local_axes;
+    if (editor.drag && editor.drag->handle == editor.chosen) {
+        gizmo.center = transformed(editor.drag->transform, editor.drag->middle);
+        axes = to_glm(editor.drag->motion.now.rotation);
     }
     if (editor.local_axes) gizmo.axes = axes;
     if (!pivot) gizmo.rotate = gizmo.scale = !is_free_place(editor, *handle);
@@ -125,8 +123,8 @@ std::optional<ChosenPose> pose_of_chosen(const Editor& editor) {
     const std::optional<Gizmo> gizmo = gizmo_of(editor);
     if (!gizmo) return std::nullopt;
     const auto number = static_cast<std::size_t>(chosen_handle(editor) - editor.document->handles.data());
-    const HandleMotion& motion = editor.document->motions[number];
-    return ChosenPose{editor.drag ? followed_by(motion, editor.drag->transform) : motion, gizmo->center};
+    const bool is_dragged = editor.drag && editor.drag->handle == editor.chosen;
+    return ChosenPose{is_dragged ? editor.drag->motion.now : editor.document->motions[number], gizmo->center};
 }
 
 double least_falloff(const Editor& editor, const Handle& handle) {
@@ -175,11 +173,25 @@ std::optional<Box3> box_of_chosen(const Editor& editor) {
     return is_anywhere ? std::optional(box) : std::nullopt;
 }
 
-bool has_pending_steps(const Editor& editor) {
-    if (editor.live->status().undoing) return true;
+namespace {
+
+bool is_pending(const Editor& editor, const EditorStep& step) {
     const StepNumber done = std::max(editor.document->last_step, step_of_opened_session);
-    return std::ranges::any_of(
-        editor.past, [&](const EditorStep& step) { return std::max(step.document, step.joined) > done; });
+    return std::max(step.document, step.joined) > done;
+}
+
+} // namespace
+
+bool has_pending_steps(const Editor& editor) {
+    return editor.live->status().undoing ||
+           std::ranges::any_of(editor.past, [&](const EditorStep& step) { return is_pending(editor, step); });
+}
+
+bool poses_may_change(const Editor& editor) {
+    if (!editor.live) return false; // nothing is on its way
+    return editor.live->status().undoing || std::ranges::any_of(editor.past, [&](const EditorStep& step) {
+               return !step.is_drag && is_pending(editor, step);
+           });
 }
 
 bool has_unsaved_session(const Editor& editor) {

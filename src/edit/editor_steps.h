@@ -3,14 +3,11 @@
 // this room.
 
 #include "edit/editor.h"
+#include "edit/view_vectors.h"
 
 #include <functional>
 
 namespace knead {
-
-glm::dvec3 to_glm(const Vec3d& v);
-glm::dquat to_glm(const Quatd& q);
-Vec3d to_eigen(const glm::dvec3& v);
 
 void say(Editor& editor, Notice::Kind kind, std::string words);
 

@@ -1,6 +1,7 @@
 #include "edit/handle_motion.h"
 
 #include "base/error.h"
+#include "edit/view_vectors.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -27,18 +28,14 @@ Vec3d nearest(Vec3d angles, const Vec3d& before) {
     return angles;
 }
 
-Quatd turn_about(const glm::dvec3& axis, double angle) {
-    return Quatd(Eigen::AngleAxisd(angle, Vec3d(axis.x, axis.y, axis.z)));
-}
+// Between two rotations the angles are looked at so closely that none goes farther than this in a step, nor y
+// across a right angle, near which x and z go round in next to nothing ...
+constexpr double small_step = std::numbers::pi / 4;
+// ... unless the step is as short as this: then y has gone through the right angle itself.
+constexpr double least_step = std::numbers::pi / 1800;
 
-// Step by step, so that whole turns count.
-Vec3d angles_after(const HandleMotion& motion, const Transform& change) {
-    constexpr double step = 1.0; // radian
-    const double steps = std::max(1.0, std::ceil(std::abs(change.angle) / step));
-    Vec3d angles = motion.turned;
-    for (double k = 1; k <= steps; ++k)
-        angles = angles_near(turn_about(change.axis, change.angle * k / steps) * motion.rotation, angles);
-    return angles;
+Quatd turn_about(const glm::dvec3& axis, double angle) {
+    return Quatd(Eigen::AngleAxisd(angle, to_eigen(axis)));
 }
 
 } // namespace
@@ -59,6 +56,24 @@ Vec3d angles_near(const Quatd& rotation, const Vec3d& before) {
     return (one - before).squaredNorm() <= (other - before).squaredNorm() ? one : other;
 }
 
+Quatd between(const Quatd& from, const Quatd& to, double t) {
+    const double angle = std::acos(std::clamp(from.dot(to), -1.0, 1.0));
+    if (angle < 1e-9) return to;
+    Quatd result;
+    result.coeffs() = (std::sin((1 - t) * angle) * from.coeffs() + std::sin(t * angle) * to.coeffs());
+    return result.normalized();
+}
+
+Vec3d angles_along(const Quatd& from, const Vec3d& angles, const Quatd& to) {
+    const Vec3d there = angles_near(to, angles);
+    const double way = 2 * std::acos(std::clamp(from.dot(to), -1.0, 1.0));
+    const bool is_near = (there - angles).cwiseAbs().maxCoeff() < small_step;
+    const bool same_side = std::cos(there.y()) * std::cos(angles.y()) > 0; // of the right angle
+    if (way < least_step || (is_near && same_side)) return there;
+    const Quatd middle = between(from, to, 0.5);
+    return angles_along(middle, angles_along(from, angles, middle), to);
+}
+
 bool leaves_rest(const HandleMotion& motion) {
     return motion.linear != Mat3d::Identity() || motion.offset != Vec3d::Zero();
 }
@@ -75,7 +90,8 @@ HandleMotion motion_of(const HandlePose& pose, const Vec3d& pivot, const Vec3d& 
     if (stretched) motion.linear = motion.linear * stretch;
     const Vec3d center = pivot - origin;
     motion.offset = center - motion.linear * center + pose.translate;
-    if (leaves_rest(motion)) motion.turned = angles_near(motion.rotation, before.turned);
+    if (leaves_rest(motion) || motion.rotation.w() < 0)
+        motion.turned = angles_along(before.rotation, before.turned, motion.rotation);
     return motion;
 }
 
@@ -101,27 +117,64 @@ HandlePose pose_of(const HandleMotion& motion, const Vec3d& pivot, const Vec3d& 
 }
 
 HandleMotion followed_by(const HandleMotion& motion, const Transform& change) {
-    const auto vector = [](const glm::dvec3& v) { return Vec3d(v.x, v.y, v.z); };
     const Quatd turn = turn_about(change.axis, change.angle);
-    const Mat3d axes = Quatd(change.axes.w, change.axes.x, change.axes.y, change.axes.z).toRotationMatrix();
-    const Mat3d map = turn.toRotationMatrix() * axes * vector(change.scale).asDiagonal() * axes.transpose();
-    const Vec3d pivot = vector(change.pivot);
+    const Mat3d axes = to_eigen(change.axes).toRotationMatrix();
+    const Mat3d map = turn.toRotationMatrix() * axes * to_eigen(change.scale).asDiagonal() * axes.transpose();
+    const Vec3d pivot = to_eigen(change.pivot);
 
     HandleMotion result;
     result.linear = map * motion.linear;
-    result.offset = map * (motion.offset - pivot) + pivot + vector(change.shift);
-    result.turned = angles_after(motion, change);
-    if (change.scale == glm::dvec3(1.0)) {
-        result.rotation = (turn * motion.rotation).normalized();
-        return result;
-    }
+    result.offset = map * (motion.offset - pivot) + pivot + to_eigen(change.shift);
+    result.rotation = (turn * motion.rotation).normalized();
+    result.turned = angles_along(motion.rotation, motion.turned, result.rotation);
+    if (change.scale == glm::dvec3(1.0)) return result;
     // The rotation in the polar decomposition; that of unequal scales is no longer the product of the turns.
     const Eigen::JacobiSVD<Mat3d> svd(result.linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Quatd expected = result.rotation;
     result.rotation = Quatd(Mat3d(svd.matrixU() * svd.matrixV().transpose())).normalized();
-    const Quatd expected = turn * motion.rotation;
     if (result.rotation.dot(expected) < 0) result.rotation.coeffs() = -result.rotation.coeffs();
-    result.turned = angles_near(result.rotation, result.turned);
+    result.turned = angles_along(expected, result.turned, result.rotation);
     return result;
+}
+
+namespace {
+
+double step_towards(double from, double to) {
+    return from + std::clamp(to - from, -widest_turn, widest_turn);
+}
+
+// With its sign, which tells 300° from -60°.
+glm::dquat turn_of(const Transform& transform) {
+    return {std::cos(transform.angle / 2), std::sin(transform.angle / 2) * transform.axis};
+}
+
+bool is_one_step_off(const Transform& shown, const Transform& wanted) {
+    return glm::dot(turn_of(shown), turn_of(wanted)) >= std::cos(widest_turn / 2);
+}
+
+} // namespace
+
+Transform next_on_the_way(const Transform& shown, const Transform& wanted) {
+    Transform next = wanted;
+    if (shown.axis == wanted.axis || shown.angle == 0) {
+        next.angle = step_towards(shown.angle, wanted.angle);
+    } else if (!is_one_step_off(shown, wanted)) {
+        next.angle = step_towards(shown.angle, 0);
+        if (next.angle != 0) next.axis = shown.axis;
+    }
+    return next;
+}
+
+void carry_on(CarriedMotion& carried, const Transform& wanted) {
+    if (!(wanted == wanted)) return; // it has something that is no number
+    while (!(carried.shown == wanted)) {
+        carried.shown = next_on_the_way(carried.shown, wanted);
+        const Vec3d angles = carried.now.turned;
+        const Quatd before = carried.now.rotation;
+        carried.now = followed_by(carried.base, carried.shown);
+        if (carried.now.rotation.dot(before) < 0) carried.now.rotation.coeffs() *= -1;
+        carried.now.turned = angles_along(before, angles, carried.now.rotation);
+    }
 }
 
 } // namespace knead

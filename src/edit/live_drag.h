@@ -24,12 +24,6 @@ struct LiveDrag {
     bool repeats_pose() const { return wanted && shown == wanted->transform; }
 };
 
-// The transform of the next frame on the way from what is shown to what is wanted: the wanted one, but for
-// the angle, which goes on by no more than a frame may turn. So a typed "720" winds up like one that was
-// dragged. Where the axis is another one, what was turned about the old one is unwound first, unless one
-// frame may turn as far as from the one to the other.
-Transform next_on_the_way(const Transform& shown, const Transform& wanted);
-
 // A step that is done again while it is looked at.
 struct LivePlay {
     bool begun = false;    // its present act, in the document

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <numbers>
 #include <utility>
 
 namespace knead {
@@ -20,7 +19,6 @@ constexpr double still = 1e-7;
 
 // So many frames of a drag may repeat one pose, and so many iterations may a released pose settle.
 constexpr std::size_t most_repeats = 400;
-constexpr double most_turned = 40 * std::numbers::pi;
 constexpr unsigned most_settling = 1000;
 
 // Iterations of settling between two frames on the screen: as many as take this long, in seconds, but no
@@ -109,11 +107,8 @@ void LiveWork::drop_drag() {
     show_document();
 }
 
-// Beyond so many turns a typed angle keeps its remainder alone: nobody means the others.
 void LiveWork::take_wanted(WantedPose wanted) {
-    double& angle = wanted.transform.angle;
-    if (std::abs(angle) > most_turned)
-        angle = std::copysign(most_turned, angle) + std::remainder(angle, 2 * std::numbers::pi);
+    wanted.transform.angle = within_turns(wanted.transform.angle);
     drag_->wanted = wanted;
     drag_->rests = false;
 }

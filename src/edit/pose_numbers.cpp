@@ -1,5 +1,7 @@
 #include "edit/pose_numbers.h"
 
+#include "edit/view_vectors.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -15,14 +17,6 @@ constexpr double degree = std::numbers::pi / 180;
 // A stretch whose axes are off by less is along the handle's own.
 constexpr double aligned = 1e-9;
 
-glm::dvec3 to_view(const Vec3d& v) {
-    return {v.x(), v.y(), v.z()};
-}
-
-glm::dquat to_view(const Quatd& q) {
-    return {q.w(), q.x(), q.y(), q.z()};
-}
-
 Vec3d at_rest(const HandleMotion& motion, const Vec3d& point) {
     return motion.linear.inverse() * (point - motion.offset);
 }
@@ -36,7 +30,7 @@ Vec3d axis_of_angle(const Vec3d& angles, int axis) {
 }
 
 void turn_by(double angle, const Vec3d& axis, Transform& transform) {
-    transform.axis = to_view(axis);
+    transform.axis = to_glm(axis);
     transform.angle = angle;
 }
 
@@ -49,19 +43,23 @@ void map_by(const Mat3d& map, Transform& transform) {
     const Vec3d scale = split.eigenvalues().cwiseSqrt();
     const Eigen::AngleAxisd turn(Mat3d(map * axes * scale.cwiseInverse().asDiagonal() * axes.transpose()));
     turn_by(turn.angle(), turn.axis(), transform);
-    transform.scale = to_view(scale);
-    transform.axes = to_view(Quatd(axes));
+    transform.scale = to_glm(scale);
+    transform.axes = to_glm(Quatd(axes));
+}
+
+bool is_sheared(const HandleMotion& motion) {
+    const Mat3d stretch = motion.rotation.toRotationMatrix().transpose() * motion.linear;
+    const Mat3d apart = stretch - Mat3d(stretch.diagonal().asDiagonal());
+    return apart.cwiseAbs().maxCoeff() > aligned * stretch.norm();
 }
 
 void scale_to(const HandleMotion& motion, int axis, double factor, Transform& transform) {
     Vec3d longer = Vec3d::Ones();
     longer[axis] = factor / motion.linear.col(axis).norm();
-    const Mat3d stretch = motion.rotation.toRotationMatrix().transpose() * motion.linear;
-    const Mat3d apart = stretch - Mat3d(stretch.diagonal().asDiagonal());
-    if (apart.cwiseAbs().maxCoeff() > aligned * stretch.norm())
+    if (is_sheared(motion))
         return map_by(motion.linear * longer.asDiagonal() * motion.linear.inverse(), transform);
-    transform.scale = to_view(longer);
-    transform.axes = to_view(motion.rotation);
+    transform.scale = to_glm(longer);
+    transform.axes = to_glm(motion.rotation);
 }
 
 } // namespace
@@ -72,22 +70,35 @@ PoseNumbers numbers_of(const HandleMotion& motion, const Vec3d& pivot) {
     numbers.moved = pivot - at_rest(motion, pivot);
     numbers.turned = motion.turned / degree;
     numbers.scaled = motion.linear.colwise().norm();
+    numbers.is_sheared = is_sheared(motion);
     return numbers;
 }
 
-Transform transform_to(const HandleMotion& motion, const Vec3d& pivot, PoseRow row, int axis, double value) {
-    const PoseNumbers now = numbers_of(motion, pivot);
-    Transform transform;
-    transform.pivot = to_view(pivot);
+double number_in(const PoseNumbers& numbers, PoseRow row, int axis) {
     switch (row) {
     case PoseRow::place:
-        transform.shift[axis] = value - now.place[axis];
-        break;
+        return numbers.place[axis];
     case PoseRow::moved:
-        transform.shift[axis] = value - now.moved[axis];
+        return numbers.moved[axis];
+    case PoseRow::turned:
+        return numbers.turned[axis];
+    case PoseRow::scaled:
+        break;
+    }
+    return numbers.scaled[axis];
+}
+
+Transform transform_to(const HandleMotion& motion, const Vec3d& pivot, PoseRow row, int axis, double value) {
+    const double change = value - number_in(numbers_of(motion, pivot), row, axis);
+    Transform transform;
+    transform.pivot = to_glm(pivot);
+    switch (row) {
+    case PoseRow::place:
+    case PoseRow::moved:
+        transform.shift[axis] = change;
         break;
     case PoseRow::turned:
-        turn_by((value - now.turned[axis]) * degree, axis_of_angle(motion.turned, axis), transform);
+        turn_by(change * degree, axis_of_angle(motion.turned, axis), transform);
         break;
     case PoseRow::scaled:
         scale_to(motion, axis, value, transform);

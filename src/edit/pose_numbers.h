@@ -6,19 +6,23 @@
 
 namespace knead {
 
-// Of a handle, in this edit; along the axes x, y and z.
+// Of a handle, in this edit; along, or about, the axes x, y and z.
 struct PoseNumbers {
-    Vec3d place = Vec3d::Zero(); // where its pivot is now, relative to the cloud's origin
-    Vec3d moved = Vec3d::Zero(); // from where that was at rest
-    Vec3d turned =
-        Vec3d::Zero(); // degrees about the world's axes, x first: angles_near() (edit/handle_motion.h)
+    Vec3d place = Vec3d::Zero();  // where its pivot is now, relative to the cloud's origin
+    Vec3d moved = Vec3d::Zero();  // from where that was at rest
+    Vec3d turned = Vec3d::Zero(); // in degrees about the world's axes, x first; HandleMotion::turned
     Vec3d scaled = Vec3d::Ones(); // how much longer it is along each of its own axes than at rest; > 0
+    bool is_sheared = false;      // it was scaled along others: these factors are not all of that
 };
 PoseNumbers numbers_of(const HandleMotion& motion, const Vec3d& pivot);
 
-// The transform that makes one of these numbers another and leaves the others as they are, on top of this
-// motion and about the same pivot. (Where y of `turned` is a right angle, x and z are one turn.)
 enum class PoseRow { place, moved, turned, scaled };
+double number_in(const PoseNumbers& numbers, PoseRow row, int axis); // axis: 0 x, 1 y, 2 z
+
+// The transform that makes one of these numbers another, on top of this motion and about the same pivot; a
+// factor has to be > 0. The others stay as they are, but for these: a place and a way are one and the same;
+// where y of `turned` is a right angle, x and z are one turn; and what was scaled along other axes than its
+// own turns a little with a factor.
 Transform transform_to(const HandleMotion& motion, const Vec3d& pivot, PoseRow row, int axis, double value);
 
 } // namespace knead

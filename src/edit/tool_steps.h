@@ -20,8 +20,6 @@ bool draws_polygon(const Tools& tools);
 
 // --- tools_transform.cpp ---
 
-// Whether such a transform would change anything of the handle.
-bool has_effect(const Gizmo& gizmo, TransformKind kind);
 void begin_drag(const Hand& hand, const GizmoPart& part, bool modal);
 void drag_to_cursor(const Hand& hand, glm::dvec2 cursor, Modifiers held);
 void end_drag(Tools& tools, std::vector<Command>& commands);

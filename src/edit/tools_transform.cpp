@@ -6,19 +6,6 @@ namespace knead {
 
 namespace {
 
-// Transforms may be written in more than one way where they do nothing.
-bool do_the_same(const Transform& a, const Transform& b) {
-    const bool turn = a.angle == b.angle && (a.angle == 0 || a.axis == b.axis);
-    const bool size = a.scale == b.scale && (a.scale == glm::dvec3(1.0) || a.axes == b.axes);
-    return a.pivot == b.pivot && a.shift == b.shift && turn && size;
-}
-
-bool does_nothing(const Transform& transform) {
-    Transform nothing;
-    nothing.pivot = transform.pivot;
-    return do_the_same(transform, nothing);
-}
-
 void tell_transform(const Hand& hand) {
     Tools& tools = hand.tools;
     Transform transform = transform_of(*tools.drag);
@@ -118,17 +105,6 @@ void go_on_as(const Hand& hand, TransformKind kind) {
 }
 
 } // namespace
-
-bool has_effect(const Gizmo& gizmo, TransformKind kind) {
-    switch (kind) {
-    case TransformKind::translate:
-        return gizmo.translate;
-    case TransformKind::rotate:
-        return gizmo.rotate;
-    default:
-        return gizmo.scale;
-    }
-}
 
 void drag_key(const Hand& hand, const KeyPress& press) {
     TransformDrag& drag = *hand.tools.drag;

@@ -15,15 +15,6 @@ double turn_between(const HandleMotion& from, const HandleMotion& to) {
     return 2 * std::acos(std::clamp(from.rotation.dot(to.rotation), -1.0, 1.0));
 }
 
-// Between two quaternions of which each has its own sign, told apart from its negative.
-Quatd between(const Quatd& from, const Quatd& to, double t) {
-    const double angle = std::acos(std::clamp(from.dot(to), -1.0, 1.0));
-    if (angle < 1e-9) return to;
-    Quatd result;
-    result.coeffs() = (std::sin((1 - t) * angle) * from.coeffs() + std::sin(t * angle) * to.coeffs());
-    return result.normalized();
-}
-
 // Where the way back turns off: numbers in `way`, from the last one to the first.
 std::vector<std::size_t> corners(std::span<const HandleMotion> way) {
     std::vector<std::size_t> result{way.size() - 1};

@@ -3,14 +3,9 @@
 
 #include "edit/handle_motion.h"
 
-#include <numbers>
 #include <span>
 
 namespace knead {
-
-// A handle that no hand drags turns by no more than this from frame to frame, in radians: so nothing is lost
-// of what the samples between it and the others turn, however many turns there are.
-inline constexpr double widest_turn = 20.0 * std::numbers::pi / 180.0;
 
 // A drag that takes the handle back to rest the way it came, so that what was wound up is unwound: small
 // detours are cut short, whole turns are not. `way`: its motions in this edit, the first one first; the last

@@ -188,6 +188,17 @@ int rank_of(const GizmoPart& part) {
 
 } // namespace
 
+bool has_effect(const Gizmo& gizmo, TransformKind kind) {
+    switch (kind) {
+    case TransformKind::translate:
+        return gizmo.translate;
+    case TransformKind::rotate:
+        return gizmo.rotate;
+    default:
+        return gizmo.scale;
+    }
+}
+
 std::vector<GizmoShape> gizmo_shapes(const Gizmo& gizmo, const Camera& camera, Viewport viewport) {
     const auto seen = project(camera, viewport, gizmo.center);
     if (!seen) return {};

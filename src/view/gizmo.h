@@ -28,6 +28,9 @@ struct Gizmo {
     bool translate = true, rotate = true, scale = true; // which parts are shown
 };
 
+// Whether such a transform would change anything of what the gizmo is on.
+bool has_effect(const Gizmo& gizmo, TransformKind kind);
+
 // A part as it is drawn: a polyline in pixels, filled where it is closed and says so. An arrow is two shapes,
 // its shaft and its head; so is a ring, its near half and its far one.
 struct GizmoShape {

@@ -17,7 +17,6 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double snap_angle = pi / 36; // 5°
 constexpr double snap_factor = 0.1;
-constexpr double least_factor = 0.01;    // a handle is never scaled to nothing or inside out
 constexpr double grid_pixels = 20;       // a step of the grid is about as long on the screen
 constexpr double pixels_per_radian = 90; // across an axis that lies in the screen
 constexpr double facing_enough = 0.15;   // cosine from which on an axis is turned like a dial
@@ -273,6 +272,24 @@ glm::dvec3 transformed(const Transform& transform, const glm::dvec3& point) {
     glm::dvec3 arm = glm::conjugate(transform.axes) * (point - transform.pivot);
     arm = transform.axes * (transform.scale * arm);
     return transform.pivot + glm::angleAxis(transform.angle, transform.axis) * arm + transform.shift;
+}
+
+bool do_the_same(const Transform& a, const Transform& b) {
+    const bool turn = a.angle == b.angle && (a.angle == 0 || a.axis == b.axis);
+    const bool size = a.scale == b.scale && (a.scale == glm::dvec3(1.0) || a.axes == b.axes);
+    return a.pivot == b.pivot && a.shift == b.shift && turn && size;
+}
+
+bool does_nothing(const Transform& transform) {
+    Transform nothing;
+    nothing.pivot = transform.pivot;
+    return do_the_same(transform, nothing);
+}
+
+double within_turns(double angle) {
+    if (!std::isfinite(angle)) return 0;
+    if (std::abs(angle) <= most_turned) return angle;
+    return std::copysign(most_turned, angle) + std::remainder(angle, 2 * pi);
 }
 
 TransformDrag begin_transform(TransformKind kind, const glm::dvec3& pivot, const glm::dquat& local_axes,

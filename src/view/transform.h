@@ -5,6 +5,7 @@
 #include "view/camera.h"
 
 #include <array>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -24,6 +25,17 @@ struct Transform {
 };
 
 glm::dvec3 transformed(const Transform& transform, const glm::dvec3& point);
+// Whether two do the same, or one does nothing: they may be written in more than one way.
+bool do_the_same(const Transform& a, const Transform& b);
+bool does_nothing(const Transform& transform);
+
+// By less a handle is not scaled: to nothing, or inside out.
+inline constexpr double least_factor = 0.01;
+
+// At once a handle turns by no more than this, in radians: twenty turns.
+inline constexpr double most_turned = 40 * std::numbers::pi;
+// Beyond that a typed angle keeps its remainder alone: nobody means the others. 0 for one that is not finite.
+double within_turns(double angle);
 
 enum class TransformKind { translate, rotate, scale };
 

@@ -1,4 +1,5 @@
 #include "edit/editor_bar.h"
+#include "edit/view_vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +10,6 @@ namespace knead::test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-glm::dvec3 to_glm_vector(const Vec3d& v) {
-    return {v.x(), v.y(), v.z()};
-}
 
 } // namespace
 
@@ -121,8 +118,8 @@ TEST_F(BarEditor, TheHandleFollowsTheCursor) {
     const Vec3d offset = editor_.document->motions[1].offset;
     const Ray ray = ray_through(editor_.camera, editor_.viewport, {400, 400});
     EXPECT_NEAR(offset.norm(), std::hypot(100, 50) * pixel, 1e-9);
-    EXPECT_NEAR(to_glm_vector(offset).z, -50 * pixel, 1e-9);
-    EXPECT_NEAR(glm::dot(to_glm_vector(offset), ray.direction), 0, 1e-9);
+    EXPECT_NEAR(to_glm(offset).z, -50 * pixel, 1e-9);
+    EXPECT_NEAR(glm::dot(to_glm(offset), ray.direction), 0, 1e-9);
 }
 
 TEST_F(BarEditor, EnterCommitsAndSaysSoWhenThereIsNothing) {

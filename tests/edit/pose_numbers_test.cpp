@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -41,6 +42,12 @@ struct Case {
     Vec3d pivot;
 };
 
+HandleMotion carried(const HandleMotion& base, const Transform& wanted) {
+    CarriedMotion motion{base, base};
+    carry_on(motion, wanted);
+    return motion.now;
+}
+
 // Any pose that drags along the handle's own axes come to.
 Case any_case(std::mt19937& random) {
     std::uniform_real_distribution<double> any(-1, 1);
@@ -54,17 +61,12 @@ Case any_case(std::mt19937& random) {
     return {followed_by(followed_by({}, size), rest), pivot + shift};
 }
 
-double& number_in(PoseNumbers& numbers, PoseRow row, int axis) {
-    switch (row) {
-    case PoseRow::place:
-        return numbers.place[axis];
-    case PoseRow::moved:
-        return numbers.moved[axis];
-    case PoseRow::turned:
-        return numbers.turned[axis];
-    default:
-        return numbers.scaled[axis];
-    }
+void set(PoseNumbers& numbers, PoseRow row, int axis, double value) {
+    Vec3d& triple = row == PoseRow::place    ? numbers.place
+                    : row == PoseRow::moved  ? numbers.moved
+                    : row == PoseRow::turned ? numbers.turned
+                                             : numbers.scaled;
+    triple[axis] = value;
 }
 
 double largest_difference(const PoseNumbers& a, const PoseNumbers& b) {
@@ -101,9 +103,9 @@ TEST(Angles, MakeTheRotationAlsoWhereYIsARightAngle) {
 
 TEST(Angles, CountWholeTurnsOfDragsAndOfFrames) {
     for (int axis = 0; axis < 3; ++axis) {
-        HandleMotion dragged = followed_by({}, turn(axis, 765));
+        HandleMotion dragged = carried({}, turn(axis, 765));
         EXPECT_NEAR(dragged.turned[axis], 765 * degree, 1e-9);
-        dragged = followed_by(dragged, turn(axis, -1000));
+        dragged = carried(dragged, turn(axis, -1000));
         EXPECT_NEAR(dragged.turned[axis], -235 * degree, 1e-9);
         HandleMotion motion;
         for (int step = 1; step <= 20; ++step) {
@@ -115,6 +117,53 @@ TEST(Angles, CountWholeTurnsOfDragsAndOfFrames) {
         EXPECT_EQ(motion_of({}, Vec3d::Zero(), Vec3d::Zero(), motion).turned, Vec3d::Zero())
             << "at rest again";
     }
+}
+
+// As the document's frames do, and as the window tells while the hand moves.
+TEST(Angles, GoOnAlikeInFramesAndUnderTheHand) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> any(-1, 1);
+    for (int i = 0; i < 200; ++i) {
+        HandleMotion base = carried({}, turn(i % 3, 300 * any(random)));
+        base = carried(base, turn((i + 1) % 3, 60 * any(random)));
+        const Vec3d axis = Vec3d(any(random), any(random), any(random)).normalized();
+        Transform wanted = turn(0, 700 * any(random));
+        wanted.axis = {axis.x(), axis.y(), axis.z()};
+        CarriedMotion hand{base, base};
+        HandleMotion document = base;
+        for (Transform shown; !(shown == wanted);) {
+            shown = next_on_the_way(shown, wanted);
+            const HandlePose pose = pose_of(followed_by(base, shown), Vec3d::Zero(), Vec3d::Zero());
+            document = motion_of(pose, Vec3d::Zero(), Vec3d::Zero(), document);
+        }
+        carry_on(hand, wanted);
+        ASSERT_LT((hand.now.turned - document.turned).cwiseAbs().maxCoeff(), 1e-6) << i;
+    }
+}
+
+// But for axes that lead all but through a right angle of y, where x and z turn about the same axis.
+TEST(Angles, AreAtRestAgainAfterAWholeTurnAboutAnyAxis) {
+    std::mt19937 random(13);
+    std::uniform_real_distribution<double> any(-1, 1);
+    int others = 0;
+    for (int i = 0; i < 500; ++i) {
+        const Vec3d axis = Vec3d(any(random), any(random), any(random)).normalized();
+        Transform wanted = turn(0, 360);
+        wanted.axis = {axis.x(), axis.y(), axis.z()};
+        const Vec3d turned = carried({}, wanted).turned;
+        const Vec3d turns = turned / (2 * std::numbers::pi);
+        others += (turns - turns.array().round().matrix()).cwiseAbs().maxCoeff() > 1e-6;
+    }
+    EXPECT_LE(others, 5);
+}
+
+TEST(Angles, OfWhatIsNoNumberAreLeftAlone) {
+    EXPECT_EQ(within_turns(std::numeric_limits<double>::infinity()), 0);
+    EXPECT_NEAR(std::remainder(within_turns(1e12) - 1e12, 2 * std::numbers::pi), 0, 1e-3);
+    EXPECT_LT(within_turns(1e12), 42 * std::numbers::pi);
+    Transform wanted = turn(1, 30);
+    wanted.shift.x = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(carried({}, wanted).turned, Vec3d::Zero());
 }
 
 TEST(PoseNumbers, AreThoseOfTheDragsThatMadeThem) {
@@ -140,11 +189,11 @@ TEST(PoseNumbers, BecomeWhatIsTypedOneByOne) {
                 PoseNumbers wanted = numbers_of(motion, pivot);
                 const double change = row == PoseRow::turned ? 400 * any(random) : any(random);
                 const double value = row == PoseRow::scaled ? change : number_in(wanted, row, axis) + change;
-                number_in(wanted, row, axis) = value;
+                set(wanted, row, axis, value);
                 if (row == PoseRow::place) wanted.moved[axis] += change;
                 if (row == PoseRow::moved) wanted.place[axis] += change;
                 const Transform transform = transform_to(motion, pivot, row, axis, value);
-                const PoseNumbers found = numbers_of(followed_by(motion, transform), after(transform, pivot));
+                const PoseNumbers found = numbers_of(carried(motion, transform), after(transform, pivot));
                 ASSERT_LT(largest_difference(found, wanted), 1e-6)
                     << i << " row " << static_cast<int>(row) << " axis " << axis;
             }

@@ -25,7 +25,10 @@ protected:
             names.push_back(browser_.entries[static_cast<std::size_t>(number)].name);
         return names;
     }
-    void type(const std::string& text) { browser_.typed = browser_.filter = text; }
+    void type(const std::string& text) {
+        browser_.typed = text;
+        name_typed(browser_);
+    }
 
     ScratchFolder folder_;
     FileBrowser browser_;
@@ -42,6 +45,22 @@ TEST_F(Browsing, ShowsWhatHasTheTypedTextInItsName) {
     EXPECT_TRUE(browser_.filter.empty()) << "another folder, another look";
 }
 
+TEST_F(Browsing, FollowsAPathThatIsTyped) {
+    std::ofstream(folder_ / "old bunnies" / "first.ply") << "x";
+    type((folder_ / "old bunnies" / "fi").string());
+    EXPECT_EQ(browser_.folder, folder_ / "old bunnies");
+    EXPECT_EQ(shown(), std::vector<std::string>{"first.ply"});
+    EXPECT_EQ(chosen_path(browser_), folder_ / "old bunnies" / "first.ply");
+    type("/nowhere/at/all");
+    EXPECT_EQ(browser_.folder, folder_ / "old bunnies") << "there is no such folder";
+}
+
+TEST_F(Browsing, ShowsAllWhereSomethingIsSaved) {
+    browser_.purpose = BrowseFor::save_cloud;
+    type("dragon 2");
+    EXPECT_TRUE(browser_.filter.empty());
+}
+
 TEST_F(Browsing, MeansTheOnlyOneThatIsLeft) {
     type("drag");
     EXPECT_EQ(chosen_path(browser_).filename(), "dragon.ply");
@@ -50,7 +69,7 @@ TEST_F(Browsing, MeansTheOnlyOneThatIsLeft) {
     type("notes.pdf");
     EXPECT_EQ(chosen_path(browser_).filename(), "notes.pdf") << "it is there, though not shown";
     type("");
-    browser_.typed = "drag";
+    browser_.typed = "drag"; // by other means
     EXPECT_EQ(chosen_path(browser_).filename(), "drag") << "nothing was looked for";
 }
 

@@ -24,9 +24,10 @@ protected:
         document->handles.emplace_back().name = "paw";
         document->handles.emplace_back().name = "stand";
         document->handles.back().role = HandleRole::fixed;
+        document->handles.emplace_back().name = "tail";
         for (Handle& handle : document->handles)
             handle.points = std::make_shared<const std::vector<Index>>(1, Index{0});
-        document->motions.resize(2);
+        document->motions.resize(3);
         document->motions[0].offset = {0.5, 0, 0};
         editor_.document = std::move(document);
         editor_.chosen = "paw";
@@ -37,7 +38,7 @@ protected:
     // The middle of a field: of the rows place, moved, turned, scaled from 0, and x, y, z.
     ImVec2 field(int row, int column) {
         const ImGuiStyle& style = ImGui::GetStyle();
-        const float left = style.WindowPadding.x + 62, width = 310 - style.WindowPadding.x - left;
+        const float left = style.WindowPadding.x + 66, width = 310 - style.WindowPadding.x - left;
         return {left + width * (static_cast<float>(column) + 0.5f) / 3,
                 style.WindowPadding.y + (static_cast<float>(row) + 0.5f) * ImGui::GetFrameHeight() +
                     static_cast<float>(row) * style.ItemSpacing.y};
@@ -172,15 +173,77 @@ TEST_F(TransformFields, TakeBackWhatIsSlidWhenItIsGivenUp) {
     EXPECT_TRUE(std::holds_alternative<CancelDrag>(commands_.back()));
 }
 
-// What is typed for one handle is not done to another that was chosen meanwhile.
-TEST_F(TransformFields, ForgetWhatWasTypedForAnotherHandle) {
+TEST_F(TransformFields, LeaveTheHandleWhereTheHandSlidBack) {
+    frames(2);
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = field(2, 1);
+    frame();
+    io.MouseDown[0] = true;
+    frame();
+    io.MousePos.x += 20;
+    frame();
+    io.MousePos.x -= 20;
+    frame();
+    io.MouseDown[0] = false;
+    frames(3);
+    ASSERT_FALSE(commands_.empty());
+    EXPECT_TRUE(std::holds_alternative<CancelDrag>(commands_.back())) << "no empty step to undo";
+}
+
+TEST_F(TransformFields, MoveThePivotAloneInPivotMode) {
+    editor_.tools.move_pivot = true;
+    frames(2);
+    click(field(0, 2));
+    type("0.5");
+    press(ImGuiKey_Enter);
+    ASSERT_EQ(commands_.size(), 1U);
+    const auto pivot = std::get<SetPivot>(commands_[0]).pivot;
+    ASSERT_TRUE(pivot);
+    EXPECT_NEAR(pivot->x, 0.75, 1e-12);
+    EXPECT_NEAR(pivot->z, 0.5, 1e-12);
+}
+
+TEST_F(TransformFields, RefuseMoreThanTwentyTurnsAndWhatIsNoNumber) {
+    frames(2);
+    for (const char* typed : {"8000", "1e999", "1e300", "-", "1.2.3", ""}) {
+        click(field(2, 0));
+        press(ImGuiKey_Delete);
+        type(typed);
+        press(ImGuiKey_Enter);
+        EXPECT_TRUE(commands_.empty()) << typed;
+    }
+    click(field(2, 0));
+    type("+30"); // is 30, and not 30 more
+    press(ImGuiKey_Enter);
+    EXPECT_NEAR(told_drag().angle, std::numbers::pi / 6, 1e-12);
+}
+
+TEST_F(TransformFields, StayAmongThemselvesByTab) {
+    frames(2);
+    click(field(3, 2));
+    press(ImGuiKey_Tab);
+    frames(3);
+    type("100.5");
+    press(ImGuiKey_Enter);
+    EXPECT_NEAR(told_drag().shift.x, -0.25, 1e-12) << "round to the first";
+}
+
+TEST_F(TransformFields, TakeWhatIsTypedWhenTheHandGoesElsewhere) {
     frames(2);
     click(field(1, 0));
     type("7");
-    editor_.chosen = "stand";
-    frames(2);
-    editor_.chosen = "paw";
+    take_typed_pose({editor_, state_, commands_, wishes_});
+    EXPECT_NEAR(told_drag().shift.x, 6.5, 1e-12);
     frames(3);
+    EXPECT_TRUE(commands_.empty()) << "once";
+}
+
+TEST_F(TransformFields, DoNothingToAnotherHandleThatWasChosenMeanwhile) {
+    frames(2);
+    click(field(1, 0));
+    type("7");
+    editor_.chosen = "tail";
+    frames(5);
     press(ImGuiKey_Enter);
     EXPECT_TRUE(commands_.empty());
 }

@@ -130,7 +130,7 @@ std::string words_about(const Ui& ui, const RowLook& look, Field field, double v
                                     : look.words;
     if (look.row == PoseRow::scaled && is_sheared)
         words += ". It was stretched along other axes than its own, too: only Reset takes all of that back";
-    return words + ". Slide it, or click and type; Tab goes on.";
+    return words + (is_disabled() ? "." : ". Slide it, or click and type; Tab goes on.");
 }
 
 void pose_field(const Ui& ui, const ChosenPose& pose, const PoseNumbers& numbers, const RowLook& look,

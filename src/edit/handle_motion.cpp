@@ -166,7 +166,7 @@ Transform next_on_the_way(const Transform& shown, const Transform& wanted) {
 }
 
 void carry_on(CarriedMotion& carried, const Transform& wanted) {
-    if (!(wanted == wanted)) return; // it has something that is no number
+    if (!(wanted == wanted) || !std::isfinite(wanted.angle)) return; // no pose at all
     while (!(carried.shown == wanted)) {
         carried.shown = next_on_the_way(carried.shown, wanted);
         const Vec3d angles = carried.now.turned;

@@ -54,7 +54,7 @@ inline constexpr double widest_turn = 20.0 * std::numbers::pi / 180.0;
 Transform next_on_the_way(const Transform& shown, const Transform& wanted);
 
 // A handle that a transform carries off, step by step as the document's frames do: so its angles count the
-// turns as theirs do. Of a wanted angle that is finite.
+// turns as theirs do. What is no pose, since something in it is no number, carries it nowhere.
 struct CarriedMotion {
     HandleMotion base;    // when it began
     HandleMotion now;     // by `shown`, after `base`

@@ -164,6 +164,7 @@ TEST(Angles, OfWhatIsNoNumberAreLeftAlone) {
     Transform wanted = turn(1, 30);
     wanted.shift.x = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(carried({}, wanted).turned, Vec3d::Zero());
+    EXPECT_EQ(carried({}, turn(1, std::numeric_limits<double>::infinity())).turned, Vec3d::Zero());
 }
 
 TEST(PoseNumbers, AreThoseOfTheDragsThatMadeThem) {

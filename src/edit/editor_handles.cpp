@@ -238,8 +238,7 @@ void carry_out(Editor& editor, const ResetPose& command) {
     editor.live->reset_pose(step.document, command.handle);
     add_step(editor, std::move(step));
     if (const auto pivot = pivot_of(editor, command.handle)) {
-        const HandleMotion& motion = editor.document->motions[*number];
-        const Vec3d at_rest = motion.linear.inverse() * (to_eigen(*pivot) - motion.offset);
+        const Vec3d at_rest = point_at_rest(editor.document->motions[*number], to_eigen(*pivot));
         put_pivot_with(editor.past.back(), editor, command.handle, to_glm(at_rest));
     }
 }

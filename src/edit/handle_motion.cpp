@@ -74,6 +74,10 @@ Vec3d angles_along(const Quatd& from, const Vec3d& angles, const Quatd& to) {
     return angles_along(middle, angles_along(from, angles, middle), to);
 }
 
+Vec3d point_at_rest(const HandleMotion& motion, const Vec3d& point) {
+    return motion.linear.inverse() * (point - motion.offset);
+}
+
 bool leaves_rest(const HandleMotion& motion) {
     return motion.linear != Mat3d::Identity() || motion.offset != Vec3d::Zero();
 }

@@ -13,6 +13,9 @@ namespace knead {
 // its drags are recorded.
 bool leaves_rest(const HandleMotion& motion);
 
+// Where a point was at rest that the motion has taken to `point`.
+Vec3d point_at_rest(const HandleMotion& motion, const Vec3d& point);
+
 // The angles x, y and z, in radians, of a rotation that turns about the axis x, then y, then z of the world:
 // R = R_z(z) R_y(y) R_x(x). Of all that there are, those nearest to `before`. With y at a right angle, where
 // x and z turn about the same axis, x stays as it was.

@@ -1,5 +1,6 @@
 #include "edit/pose_numbers.h"
 
+#include "edit/handle_motion.h"
 #include "edit/view_vectors.h"
 
 #include <Eigen/Eigenvalues>
@@ -16,10 +17,6 @@ constexpr double degree = std::numbers::pi / 180;
 
 // A stretch whose axes are off by less is along the handle's own.
 constexpr double aligned = 1e-9;
-
-Vec3d at_rest(const HandleMotion& motion, const Vec3d& point) {
-    return motion.linear.inverse() * (point - motion.offset);
-}
 
 // R = R_z R_y R_x: the axis about which this angle alone turns.
 Vec3d axis_of_angle(const Vec3d& angles, int axis) {
@@ -67,7 +64,7 @@ void scale_to(const HandleMotion& motion, int axis, double factor, Transform& tr
 PoseNumbers numbers_of(const HandleMotion& motion, const Vec3d& pivot) {
     PoseNumbers numbers;
     numbers.place = pivot;
-    numbers.moved = pivot - at_rest(motion, pivot);
+    numbers.moved = pivot - point_at_rest(motion, pivot);
     numbers.turned = motion.turned / degree;
     numbers.scaled = motion.linear.colwise().norm();
     numbers.is_sheared = is_sheared(motion);

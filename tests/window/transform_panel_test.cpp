@@ -50,6 +50,21 @@ protected:
         }
         EXPECT_TRUE(commands_.empty()) << "while it is typed";
     }
+    // Clicks into a field, types, and leaves it by a key.
+    void enter(ImVec2 into, std::string_view text, ImGuiKey key = ImGuiKey_Enter) {
+        click(into);
+        type(text);
+        press(key);
+    }
+    // The button goes down there, and stays so.
+    ImGuiIO& grab(ImVec2 at) {
+        ImGuiIO& io = ImGui::GetIO();
+        io.MousePos = at;
+        frame();
+        io.MouseDown[0] = true;
+        frame();
+        return io;
+    }
     // The one drag that the editor was told of, whole; its transform.
     Transform told_drag() {
         if (commands_.size() != 3) {
@@ -72,31 +87,21 @@ protected:
 
 TEST_F(TransformFields, TakeANumberAsADragOfTheHandle) {
     frames(2);
-    click(field(0, 0));
-    type("101,25");
-    press(ImGuiKey_Enter);
+    enter(field(0, 0), "101,25");
     EXPECT_NEAR(told_drag().shift.x, 0.5, 1e-12) << "in the file's coordinates";
-    click(field(1, 0));
-    type("0.75");
-    press(ImGuiKey_Enter);
+    enter(field(1, 0), "0.75");
     EXPECT_NEAR(told_drag().shift.x, 0.25, 1e-12) << "from where it was at rest";
-    click(field(2, 2));
-    type("720");
-    press(ImGuiKey_Enter);
+    enter(field(2, 2), "720");
     const Transform turn = told_drag();
     EXPECT_NEAR(turn.angle, 4 * std::numbers::pi, 1e-9) << "both turns";
     EXPECT_NEAR(turn.axis.z, 1, 1e-12);
-    click(field(3, 1));
-    type("1.5");
-    press(ImGuiKey_Enter);
+    enter(field(3, 1), "1.5");
     EXPECT_NEAR(told_drag().scale.y, 1.5, 1e-12);
 }
 
 TEST_F(TransformFields, GoOnByTab) {
     frames(2);
-    click(field(1, 0));
-    type("0.75");
-    press(ImGuiKey_Tab);
+    enter(field(1, 0), "0.75", ImGuiKey_Tab);
     EXPECT_NEAR(told_drag().shift.x, 0.25, 1e-12);
     frames(3);
     type("2");
@@ -112,18 +117,14 @@ TEST_F(TransformFields, LeaveTheHandleWhereNothingWasTyped) {
     frames(2);
     click(field(1, 0));
     press(ImGuiKey_Enter);
-    click(field(2, 0));
-    type("45");
-    press(ImGuiKey_Escape);
+    enter(field(2, 0), "45", ImGuiKey_Escape);
     EXPECT_TRUE(commands_.empty());
 }
 
 TEST_F(TransformFields, RefuseToMirrorOrFlatten) {
     frames(2);
     for (const char* factor : {"0", "-1"}) {
-        click(field(3, 0));
-        type(factor);
-        press(ImGuiKey_Enter);
+        enter(field(3, 0), factor);
     }
     EXPECT_TRUE(commands_.empty());
     EXPECT_EQ(state_.toasts.size(), 1U) << "said once";
@@ -131,11 +132,7 @@ TEST_F(TransformFields, RefuseToMirrorOrFlatten) {
 
 TEST_F(TransformFields, SlideAsOneDrag) {
     frames(2);
-    ImGuiIO& io = ImGui::GetIO();
-    io.MousePos = field(2, 1);
-    frame();
-    io.MouseDown[0] = true;
-    frame();
+    ImGuiIO& io = grab(field(2, 1));
     for (int step = 0; step < 5; ++step) {
         io.MousePos.x += 10;
         frame();
@@ -156,11 +153,7 @@ TEST_F(TransformFields, SlideAsOneDrag) {
 
 TEST_F(TransformFields, TakeBackWhatIsSlidWhenItIsGivenUp) {
     frames(2);
-    ImGuiIO& io = ImGui::GetIO();
-    io.MousePos = field(1, 1);
-    frame();
-    io.MouseDown[0] = true;
-    frame();
+    ImGuiIO& io = grab(field(1, 1));
     io.MousePos.x += 30;
     frames(2);
     state_.pose_fields.editing.gives_up = true;
@@ -175,11 +168,7 @@ TEST_F(TransformFields, TakeBackWhatIsSlidWhenItIsGivenUp) {
 
 TEST_F(TransformFields, LeaveTheHandleWhereTheHandSlidBack) {
     frames(2);
-    ImGuiIO& io = ImGui::GetIO();
-    io.MousePos = field(2, 1);
-    frame();
-    io.MouseDown[0] = true;
-    frame();
+    ImGuiIO& io = grab(field(2, 1));
     io.MousePos.x += 20;
     frame();
     io.MousePos.x -= 20;
@@ -193,9 +182,7 @@ TEST_F(TransformFields, LeaveTheHandleWhereTheHandSlidBack) {
 TEST_F(TransformFields, MoveThePivotAloneInPivotMode) {
     editor_.tools.move_pivot = true;
     frames(2);
-    click(field(0, 2));
-    type("0.5");
-    press(ImGuiKey_Enter);
+    enter(field(0, 2), "0.5");
     ASSERT_EQ(commands_.size(), 1U);
     const auto pivot = std::get<SetPivot>(commands_[0]).pivot;
     ASSERT_TRUE(pivot);
@@ -212,9 +199,7 @@ TEST_F(TransformFields, RefuseMoreThanTwentyTurnsAndWhatIsNoNumber) {
         press(ImGuiKey_Enter);
         EXPECT_TRUE(commands_.empty()) << typed;
     }
-    click(field(2, 0));
-    type("+30"); // is 30, and not 30 more
-    press(ImGuiKey_Enter);
+    enter(field(2, 0), "+30"); // is 30, and not 30 more
     EXPECT_NEAR(told_drag().angle, std::numbers::pi / 6, 1e-12);
 }
 

@@ -114,8 +114,8 @@ Legend color_points(const Display& display, Editor& editor, std::vector<std::uin
     if (values.size() == file_index.size()) by.kind = ColorBy::Kind::values;
     colors.resize(file_index.size());
     if (display.coloring == Coloring::parts && color_parts(editor, colors)) return {};
-    const PointsToColor points{editor.opened.cloud, file_index, editor.frame.positions, editor.frame.normals,
-                               values};
+    const PointsToColor points{editor.opened.cloud, file_index, editor.frame.positions(),
+                               editor.frame.normals(), values};
     return color_points(by, points, colors, editor.workers);
 }
 

@@ -35,7 +35,7 @@ void coloring_choice(const Ui& ui) {
     for (const Coloring coloring : {Coloring::file, Coloring::plain, Coloring::height, Coloring::normal,
                                     Coloring::displacement, Coloring::stretch, Coloring::parts}) {
         if (coloring == Coloring::file && !has_colors(cloud)) continue;
-        if (coloring == Coloring::normal && ui.editor.frame.normals.empty()) continue;
+        if (coloring == Coloring::normal && ui.editor.frame.normals().empty()) continue;
         if (ImGui::Selectable(name_of(coloring), chosen_name(ui) == name_of(coloring))) choose(ui, coloring);
     }
     const std::vector<std::string> columns = scalar_columns(cloud);
@@ -122,7 +122,7 @@ void overlays(const Ui& ui) {
     ImGui::Checkbox("Eye-dome", &display.look.eye_dome);
     explain("Eye-dome lighting: darkens what lies behind, so that depth shows without normals (E)");
     ImGui::Checkbox("Shading", &display.look.shading);
-    explain(ui.editor.frame.normals.empty()
+    explain(ui.editor.frame.normals().empty()
                 ? "Lights the points. This file has no normals: they are estimated, for looking at only"
                 : "Lights the points by their normals");
     second_column();

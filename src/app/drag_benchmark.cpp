@@ -35,7 +35,7 @@ struct Extent {
 };
 Extent extent_on_screen(const Editor& editor) {
     Extent extent;
-    const std::vector<float>& positions = editor.frame.positions;
+    const LineArray<float>& positions = editor.frame.positions();
     for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
         const glm::dvec3 point(positions[i], positions[i + 1], positions[i + 2]);
         const auto projected = project(editor.camera, editor.viewport, point);
@@ -146,7 +146,7 @@ private:
         if (!editor.document && !editor.opening && !editor.live && seconds_between(start_, Clock::now()) > 5)
             stage_ = Stage::done; // the notice went to the window
         if (!editor.document) return;
-        result_.points = editor.frame.positions.size() / 3;
+        result_.points = editor.frame.positions().size() / 3;
         stage_ = Stage::orbiting;
     }
 

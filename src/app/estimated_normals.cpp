@@ -32,7 +32,7 @@ void EstimatedNormals::begin_anew() {
 
 void EstimatedNormals::look_at(const Editor& editor, bool wanted, double now) {
     due_ = false;
-    if (!wanted || !editor.document || !editor.document->graph || !editor.frame.normals.empty()) return;
+    if (!wanted || !editor.document || !editor.document->graph || !editor.frame.normals().empty()) return;
     if (editor.frame.version != seen_) {
         seen_ = editor.frame.version;
         changed_ = now;
@@ -45,7 +45,7 @@ void EstimatedNormals::look_at(const Editor& editor, bool wanted, double now) {
 }
 
 bool EstimatedNormals::made_in_motion(const Editor& editor, bool wanted) const {
-    return wanted && editor.frame.normals.empty() && cost_ < quick;
+    return wanted && editor.frame.normals().empty() && cost_ < quick;
 }
 
 bool EstimatedNormals::outdated() const {
@@ -59,19 +59,19 @@ void EstimatedNormals::begin(const Editor& editor, double now) {
     begun_ = now;
     due_ = false;
     result_.with([](Result& result) { result = {}; });
-    thread_ = std::make_unique<Background>([&result = result_, order = order_, graph = editor.document->graph,
-                                            positions = editor.frame.positions] {
-        const Stopwatch clock;
-        std::vector<float> normals;
-        try {
-            Workers workers(threads);
-            const std::vector<float> vertices = vertex_positions(*order, positions, workers);
-            normals = spread_to_points(shading_normals(*graph, vertices, workers), order->vertex);
-        } catch (const std::bad_alloc&) { // then the points are flat
-            normals.clear();
-        }
-        result.with([&](Result& r) { r = {true, clock.seconds(), std::move(normals)}; });
-    });
+    thread_ = std::make_unique<Background>(
+        [&result = result_, order = order_, graph = editor.document->graph, shape = editor.frame.shape] {
+            const Stopwatch clock;
+            std::vector<float> normals;
+            try {
+                Workers workers(threads);
+                const std::vector<float> vertices = vertex_positions(*order, shape->positions, workers);
+                normals = spread_to_points(shading_normals(*graph, vertices, workers), order->vertex);
+            } catch (const std::bad_alloc&) { // then the points are flat
+                normals.clear();
+            }
+            result.with([&](Result& r) { r = {true, clock.seconds(), std::move(normals)}; });
+        });
 }
 
 std::optional<std::vector<float>> EstimatedNormals::take() {

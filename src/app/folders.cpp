@@ -110,9 +110,11 @@ std::filesystem::path typed_path(const FileBrowser& browser) {
             typed = std::filesystem::path(home) / (browser.typed.size() > 2 ? browser.typed.substr(2) : "");
     if (typed.is_relative()) typed = browser.folder / typed;
     std::error_code ignored;
-    if (!typed.has_extension() && !std::filesystem::is_directory(typed, ignored)) {
-        if (browser.purpose == BrowseFor::save_session) typed += ".knead";
-        if (browser.purpose == BrowseFor::save_cloud) typed += ".ply";
+    if (!std::filesystem::is_directory(typed, ignored)) {
+        const std::string extension = typed.extension().string();
+        const bool is_number = extension.find_first_not_of(".0123456789") == std::string::npos; // or none
+        if (browser.purpose == BrowseFor::save_session && extension != ".knead") typed += ".knead";
+        if (browser.purpose == BrowseFor::save_cloud && is_number) typed += ".ply";
     }
     return typed.lexically_normal();
 }

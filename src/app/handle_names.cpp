@@ -115,7 +115,7 @@ void draw_name(const Ui& ui, ImDrawList& list, const Name& name, const PlacedLab
 } // namespace
 
 void draw_handle_names(const Ui& ui, ImDrawList& list) {
-    if (!ui.state.display.names || ui.editor.frame.positions.empty() || ui.editor.tools.drag) return;
+    if (!ui.state.display.names || ui.editor.frame.positions().empty() || ui.editor.tools.drag) return;
     if (ui.editor.frame.on_device) return; // where the handles are is known in a moment
     ImGui::PushFont(ui.state.fonts.small);
     std::vector<Name> names;

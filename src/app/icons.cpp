@@ -65,6 +65,18 @@ struct Pen {
     }
 };
 
+void draw_lasso(const Pen& pen) {
+    ImDrawList& list = pen.list;
+    list.PathLineTo(pen.at({-0.35f, 0.28f}));
+    list.PathBezierCubicCurveTo(pen.at({-1.05f, 0.1f}), pen.at({-1.0f, -0.8f}), pen.at({0.05f, -0.8f}));
+    list.PathBezierCubicCurveTo(pen.at({1.1f, -0.8f}), pen.at({1.05f, 0.3f}), pen.at({0.1f, 0.36f}));
+    list.PathStroke(pen.color, ImDrawFlags_None, pen.thickness);
+    pen.circle({-0.2f, 0.36f}, 0.2f);
+    list.PathLineTo(pen.at({-0.3f, 0.54f}));
+    list.PathBezierCubicCurveTo(pen.at({-0.4f, 0.85f}), pen.at({-0.1f, 0.85f}), pen.at({0.05f, 0.78f}));
+    list.PathStroke(pen.color, ImDrawFlags_None, pen.thickness);
+}
+
 void draw_selecting(const Pen& pen, Icon icon) {
     switch (icon) {
     case Icon::click:
@@ -83,18 +95,9 @@ void draw_selecting(const Pen& pen, Icon icon) {
         pen.dashed({0.8f, 0.65f}, {-0.8f, 0.65f}, 4);
         pen.dashed({-0.8f, 0.65f}, {-0.8f, -0.65f}, 3);
         break;
-    case Icon::lasso: {
-        ImDrawList& list = pen.list;
-        list.PathLineTo(pen.at({-0.35f, 0.28f}));
-        list.PathBezierCubicCurveTo(pen.at({-1.05f, 0.1f}), pen.at({-1.0f, -0.8f}), pen.at({0.05f, -0.8f}));
-        list.PathBezierCubicCurveTo(pen.at({1.1f, -0.8f}), pen.at({1.05f, 0.3f}), pen.at({0.1f, 0.36f}));
-        list.PathStroke(pen.color, ImDrawFlags_None, pen.thickness);
-        pen.circle({-0.2f, 0.36f}, 0.2f);
-        list.PathLineTo(pen.at({-0.3f, 0.54f}));
-        list.PathBezierCubicCurveTo(pen.at({-0.4f, 0.85f}), pen.at({-0.1f, 0.85f}), pen.at({0.05f, 0.78f}));
-        list.PathStroke(pen.color, ImDrawFlags_None, pen.thickness);
+    case Icon::lasso:
+        draw_lasso(pen);
         break;
-    }
     case Icon::polygon:
         pen.path({{-0.72f, 0.5f}, {-0.45f, -0.55f}, {0.35f, -0.75f}, {0.75f, 0.05f}, {0.2f, 0.7f}}, true);
         for (const ImVec2 corner : {ImVec2(-0.72f, 0.5f), ImVec2(-0.45f, -0.55f), ImVec2(0.35f, -0.75f),

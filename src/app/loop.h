@@ -34,13 +34,15 @@ struct Loop {
 
     std::set<ImWchar> foreign_letters; // that the fonts were loaded with
 
-    glm::dvec2 cursor{0.0};        // of the window, wherever it is
-    bool close_menus = false;      // in the next frame
-    std::optional<KeyPress> saves; // in the next frame, when what is being typed counts
-    bool button_is_ours = false;   // a press began over the cloud
-    bool press_is_hands = false;   // and ended what a full hand was doing: no panel is to see it
-    int frames_to_draw = 3;        // even if nothing happens: ImGui needs some to settle
-    Stopwatch calm;                // since the last event; ImGui's time stands still while nothing is drawn
+    glm::dvec2 cursor{0.0};   // of the window, wherever it is
+    bool close_menus = false; // in the next frame
+    // Events that come after something that the next picture carries out first.
+    std::vector<WindowEvent> waiting;
+    bool ends_typing = false;    // in the next frame: what is being typed counts, the hand goes elsewhere
+    bool button_is_ours = false; // a press began over the cloud
+    bool press_is_hands = false; // and ended what a full hand was doing: no panel is to see it
+    int frames_to_draw = 3;      // even if nothing happens: ImGui needs some to settle
+    Stopwatch calm;              // since the last event; ImGui's time stands still while nothing is drawn
 
     // What the picture shows, to tell whether it moves.
     Camera shown_camera;
@@ -60,6 +62,9 @@ void bring_cursor(Loop& loop);
 
 // While G, R or S goes on the whole window belongs to it.
 bool hand_is_full(const Loop& loop);
+
+// Carries out what panels and shortcuts told the editor.
+void carry_out_commands(Loop& loop);
 
 // --- loop_drawing.cpp ---
 

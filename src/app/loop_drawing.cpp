@@ -43,7 +43,7 @@ float timeline_height(const Loop& loop) {
 }
 
 void carry_out_wishes(Loop& loop) {
-    for (const Command& command : std::exchange(loop.commands, {})) apply(loop.editor, command);
+    carry_out_commands(loop);
     if (!loop.wishes.empty()) bring_cursor(loop);
     for (const Wish& wish : std::exchange(loop.wishes, {})) grant(loop.work, wish);
     go_on_after_saving(loop.work);
@@ -61,7 +61,7 @@ void draw_panels(Loop& loop) {
     const Ui& ui = loop.ui;
     const Rectangle& view = loop.state.view;
     if (std::exchange(loop.close_menus, false)) close_popups();
-    if (loop.saves) ImGui::ClearActiveID(); // what was being typed is taken, and saved as well
+    if (std::exchange(loop.ends_typing, false)) ImGui::ClearActiveID();
     draw_menu_bar(ui);
     draw_overlay(ui);
     draw_legend(ui);
@@ -84,7 +84,6 @@ void draw_panels(Loop& loop) {
     draw_file_browser(ui);
     draw_label_dialog(ui);
     draw_dialogs(ui);
-    if (loop.saves) press_shortcut(ui, *std::exchange(loop.saves, std::nullopt));
 }
 
 void clear_to(ImU32 color) {

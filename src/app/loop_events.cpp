@@ -6,6 +6,10 @@
 
 #include <imgui_internal.h>
 
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
 namespace knead {
 
 namespace {
@@ -49,6 +53,10 @@ bool hand_is_full(const Loop& loop) {
     return loop.editor.tools.drag && loop.editor.tools.modal;
 }
 
+void carry_out_commands(Loop& loop) {
+    for (const Command& command : std::exchange(loop.commands, {})) apply(loop.editor, command);
+}
+
 namespace {
 
 void take(Loop& loop, MouseMove event) {
@@ -64,8 +72,8 @@ void take(Loop& loop, MousePress event) {
         loop.editor.tools.refused = Tools::Refused::no; // the hand works on a panel
         return;
     }
-    take_typed_pose(loop.ui); // before the hand chooses another handle, or drags this one
-    for (const Command& command : std::exchange(loop.commands, {})) apply(loop.editor, command);
+    send_slid_settings(loop.ui);
+    carry_out_commands(loop);
     loop.button_is_ours = true;
     loop.press_is_hands |= hand_is_full(loop);
     event.cursor = in_view(loop, event.cursor);
@@ -117,15 +125,16 @@ void take(Loop& loop, const KeyPress& event) {
     if (event.key == Key::escape && popup_is_open() && !ImGui::GetTopMostPopupModal())
         loop.close_menus = true;
     if (walks_bar(loop, event)) return;
-    const bool saves = event.key == key('S') && event.held.ctrl && !event.held.alt && !event.held.shift;
-    if (saves && ImGui::GetIO().WantTextInput && !popup_is_open()) loop.saves = event;
     if (is_typing() || popup_is_open()) return;
     if (event.key == Key::escape && loop.state.show_help) return; // closes that
     if (event.key == Key::escape && loop.state.playback.shown && !loop.editor.tools.drag)
         return close_timeline(loop.ui);
     bring_cursor(loop);
+    send_slid_settings(loop.ui);
+    carry_out_commands(loop);
     if (loop.editor.document && handle_input(loop.editor, event)) return;
     press_shortcut(loop.ui, event);
+    carry_out_commands(loop); // the next key finds what this one did
 }
 
 void take(Loop& loop, const Character& event) {
@@ -133,20 +142,49 @@ void take(Loop& loop, const Character& event) {
     handle_input(loop.editor, event);
 }
 
+void take_event(Loop& loop, const WindowEvent& event) {
+    if (const auto* input = std::get_if<Input>(&event))
+        std::visit([&](const auto& one) { take(loop, one); }, *input);
+    else if (const auto* dropped = std::get_if<DroppedFiles>(&event)) {
+        if (!dropped->files.empty()) loop.wishes.emplace_back(WishOpen{dropped->files.front()});
+        if (dropped->files.size() > 1)
+            add_toast(loop.state, {Notice::Kind::information, "One file at a time: the first is opened."});
+    } else if (std::holds_alternative<CloseAsked>(event))
+        loop.wishes.emplace_back(WishClose{});
+}
+
+// Whether a hand that types goes to the cloud by this, or to a file.
+bool leaves_field(const Loop& loop, const Input& input) {
+    if (!is_typing() || popup_is_open()) return false;
+    if (const auto* press = std::get_if<MousePress>(&input)) return over_cloud(loop, press->cursor);
+    const auto* pressed = std::get_if<KeyPress>(&input);
+    if (!pressed || !pressed->held.ctrl || pressed->held.alt) return false;
+    return std::ranges::any_of(std::string_view("SOEQ"),
+                               [&](char letter) { return pressed->key == key(letter); });
+}
+
+// Whether something has to be carried out before this event, which the next picture does: what a shortcut
+// wished for, or what is being typed.
+bool has_to_wait(Loop& loop, const WindowEvent& event) {
+    const auto* input = std::get_if<Input>(&event);
+    if (!input) return false;
+    if (leaves_field(loop, *input)) loop.ends_typing = true;
+    const bool begins =
+        !std::holds_alternative<MouseMove>(*input) && !std::holds_alternative<MouseRelease>(*input);
+    return loop.ends_typing || (begins && !loop.wishes.empty());
+}
+
 } // namespace
 
 bool take_events(Loop& loop) {
-    const std::vector<WindowEvent> events = loop.window.take_events();
-    for (const WindowEvent& event : events) {
-        if (const auto* input = std::get_if<Input>(&event))
-            std::visit([&](const auto& one) { take(loop, one); }, *input);
-        else if (const auto* dropped = std::get_if<DroppedFiles>(&event)) {
-            if (!dropped->files.empty()) loop.wishes.emplace_back(WishOpen{dropped->files.front()});
-            if (dropped->files.size() > 1)
-                add_toast(loop.state,
-                          {Notice::Kind::information, "One file at a time: the first is opened."});
-        } else if (std::holds_alternative<CloseAsked>(event))
-            loop.wishes.emplace_back(WishClose{});
+    std::vector<WindowEvent> events = std::exchange(loop.waiting, {});
+    std::ranges::move(loop.window.take_events(), std::back_inserter(events));
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        if (has_to_wait(loop, events[i])) {
+            loop.waiting.assign(events.begin() + static_cast<std::ptrdiff_t>(i), events.end());
+            break;
+        }
+        take_event(loop, events[i]);
     }
     return !events.empty();
 }

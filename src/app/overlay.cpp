@@ -195,8 +195,9 @@ constexpr std::size_t few_points = 8;
 void draw_few_selected(const Ui& ui, ImDrawList& list) {
     const Editor& editor = ui.editor;
     if (editor.selected == 0 || editor.selected > few_points) return;
+    if (editor.frame.on_device) return; // where they are is known in a moment
     for (const Index i : first_selected(editor.marks, editor.selected)) {
-        const float* p = editor.frame.positions.data() + 3 * std::size_t{i};
+        const float* p = editor.frame.positions().data() + 3 * std::size_t{i};
         const auto seen = project(editor.camera, editor.viewport, {p[0], p[1], p[2]});
         if (!seen) continue;
         const ImVec2 at = in_window(ui, seen->pixel);

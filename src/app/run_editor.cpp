@@ -49,17 +49,14 @@ bool take_news(Loop& loop) {
                           [&](const LostWork& lost) { return lost.journal == *request.restore; });
         else
             remember_file(loop.state.recent, request.file);
-        loop.state.handle_colors = {};
+        static_cast<UiOfDocument&>(loop.state) = {};
         loop.state.display.look.scale = 1; // another cloud is another matter
-        loop.state.last_export.clear();
-        loop.state.last_session.clear();
-        loop.state.overwriting.reset(); // which asked about the document before, as these would
-        editor.held_saves.clear();
+        editor.held_saves.clear();         // which would ask about the document before
         loop.state.playback.playing = false;
         loop.state.playback.steps = 0; // where looking began was in the document before
         loop.state.playback.wanted.reset();
         lay_out(loop);
-        set_up(editor.camera, standing_axis(editor.frame.positions).value_or(loop.state.display.up));
+        set_up(editor.camera, standing_axis(editor.frame.positions()).value_or(loop.state.display.up));
         if (loop.state.opening_demonstration) face_creature(editor);
         apply(editor, FrameView{FrameWhat::everything});
         loop.frames_to_draw = 3;

@@ -39,7 +39,8 @@ struct Scene::State {
     bool drawn_is_newest = false; // nobody else wrote positions since
     bool drawing_failed = false;  // once is enough
     EstimatedNormals estimated;
-    bool lit = false; // by them
+    std::vector<float> estimated_normals; // that the renderer has
+    bool lit = false;                     // by them
     std::vector<HandleLook> looks;
     std::vector<std::uint32_t> colors;
 
@@ -122,8 +123,8 @@ void Scene::State::take_positions(const Editor& editor, UiState& state) {
 
 void Scene::State::upload(const PosedFrame& frame) {
     changed_since(version, frame, moved);
-    renderer.set_positions(frame.positions, moved);
-    if (!frame.normals.empty()) renderer.set_normals(frame.normals, moved);
+    renderer.set_positions(frame.positions(), moved);
+    if (!frame.normals().empty()) renderer.set_normals(frame.normals(), moved);
     drawn_is_newest = false;
 }
 
@@ -133,7 +134,7 @@ bool Scene::State::move_where_drawn(const PosedFrame& frame, UiState& state) {
     const PointRenderer::DrawnBuffers buffers = renderer.buffers_to_write();
     if (buffers.positions == 0) return false;
     try {
-        drawn->move(*frame.on_device, {buffers.positions, frame.normals.empty() ? 0 : buffers.normals},
+        drawn->move(*frame.on_device, {buffers.positions, frame.normals().empty() ? 0 : buffers.normals},
                     drawn_is_newest ? Held::last_frame : Held::nothing);
     } catch (const DeviceFailure& failure) {
         drawing_failed = true;
@@ -199,11 +200,12 @@ void Scene::State::take_lines(const Editor& editor, const Display& display) {
 
 void Scene::State::take_estimated_normals(const Editor& editor, const Display& display) {
     estimated.look_at(editor, display.look.shading, ImGui::GetTime());
-    const auto normals = estimated.take();
+    auto normals = estimated.take();
     if (lit && estimated.outdated()) renderer.set_normals({});
     lit &= !estimated.outdated();
     if (normals && !estimated.outdated()) {
-        renderer.set_normals(*normals);
+        estimated_normals = std::move(*normals);
+        renderer.set_normals(estimated_normals);
         lit = true;
     }
 }

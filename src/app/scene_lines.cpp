@@ -48,7 +48,7 @@ void add_ground(const Editor& editor, std::vector<OverlayLine>& lines) {
 // Where a vertex of the graph is now.
 glm::vec3 place_of(const Editor& editor, Index vertex) {
     const float* p =
-        editor.frame.positions.data() + 3 * std::size_t{editor.opened.order->first_point[vertex]};
+        editor.frame.positions().data() + 3 * std::size_t{editor.opened.order->first_point[vertex]};
     return {p[0], p[1], p[2]};
 }
 

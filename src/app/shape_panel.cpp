@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace knead {
 
@@ -25,11 +26,8 @@ void change(const Ui& ui, const SettingsChange& wanted) {
 
 // Sends what was slid once the hand rests.
 void send_rested(const Ui& ui) {
-    SlidingSettings& sliding = ui.state.sliding;
-    if (!sliding.change) return;
-    if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && ImGui::GetTime() - sliding.last_moved < rest) return;
-    ui.tell(ChangeSettings{*sliding.change});
-    sliding.change.reset();
+    const bool moves = ImGui::GetTime() - ui.state.sliding.last_moved < rest;
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left) || !moves) send_slid_settings(ui);
 }
 
 void stiffness_slider(const Ui& ui, const Settings& settings) {
@@ -234,6 +232,11 @@ void what_there_is(const Ui& ui) {
 }
 
 } // namespace
+
+void send_slid_settings(const Ui& ui) {
+    if (const auto change = std::exchange(ui.state.sliding.change, std::nullopt))
+        ui.tell(ChangeSettings{*change});
+}
 
 void shape_panel(const Ui& ui) {
     if (!ui.has_cloud()) {

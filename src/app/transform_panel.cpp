@@ -223,15 +223,4 @@ void transform_panel(const Ui& ui) {
     cloud_words(ui);
 }
 
-void take_typed_pose(const Ui& ui) {
-    PoseFields& fields = ui.state.pose_fields;
-    if (!fields.editing.types || fields.editing.field == 0 || ImGui::GetActiveID() != fields.editing.field)
-        return;
-    ImGui::ClearActiveID();
-    const std::optional<ChosenPose> pose = pose_of_chosen(ui.editor);
-    if (pose && fields.editing.is_another)
-        type(ui, *pose, {fields.typed_row, fields.typed_axis}, fields.editing.number);
-    fields.editing.field = 0;
-}
-
 } // namespace knead

@@ -156,16 +156,32 @@ struct MenuWalk {
     bool stepped = false;    // by an arrow that is not let go yet
 };
 
-struct UiState {
+// What belongs to what is open: another document begins without it.
+struct UiOfDocument {
+    // Where it was to be exported last, and its session to be saved, whatever came of it; proposed again.
+    std::filesystem::path last_export, last_session;
+    std::optional<WishSaveTo> overwriting; // the dialog asks whether to overwrite this
+
+    std::string row_at_rest; // of the list of handles: the one that was clicked, until the cursor leaves it
+    HandleColors handle_colors;
+    std::string recoloring; // the handle whose colours are to be shown; empty: none
+    std::string renaming;   // the handle that is being renamed in the list; empty: none
+    std::string name_text;  // what was typed so far
+    bool renaming_begins = false;
+    std::string listed_chosen; // the handle that the list was scrolled to last
+    SlidingSettings sliding;
+    PoseFields pose_fields;
+    NumberEditing range_fields; // of the colours
+    LabelDialog labels;
+};
+
+struct UiState : UiOfDocument {
     Fonts fonts;
     float scale = 1;
     Display display;
     Legend legend; // of the colours as they are
     Rectangle legend_place = {};
     FileBrowser browser;
-    // Where what is open was to be exported last, and its session to be saved, whatever came of it; proposed
-    // again.
-    std::filesystem::path last_export, last_session;
     Measured measured;
 
     std::deque<Toast> toasts;
@@ -185,23 +201,11 @@ struct UiState {
     bool choose_samples = true;        // by themselves, of the next cloud; remembered
     std::uint64_t some_samples = 1000; // the number there was last, for after All
     AfterSaving after;
-    std::optional<WishSaveTo> overwriting;             // the dialog asks whether to overwrite this
     std::optional<Editor::WithoutCloud> without_cloud; // which cloud it is to be opened with
 
-    std::string row_at_rest; // of the list of handles: the one that was clicked, until the cursor leaves it
-    HandleColors handle_colors;
-    std::string recoloring; // the handle whose colours are to be shown; empty: none
-    std::string renaming;   // the handle that is being renamed in the list; empty: none
-    std::string name_text;  // what was typed so far
-    bool renaming_begins = false;
-    float list_height = 0;     // of the list of handles in the last frame
-    float beside_list = 0;     // height of what the side panels hold beside the list of handles
-    std::string listed_chosen; // the handle that the list was scrolled to last
-    SlidingSettings sliding;
-    PoseFields pose_fields;
-    NumberEditing range_fields; // of the colours
+    float list_height = 0; // of the list of handles in the last frame
+    float beside_list = 0; // height of what the side panels hold beside the list of handles
     Playback playback;
-    LabelDialog labels;
 
     bool opening_demonstration = false; // which is then looked at from where the creature looks best
     double long_stage_since = 0;        // ImGui's time; of draw_opening()
@@ -248,9 +252,9 @@ void draw_dialogs(const Ui& ui); // unsaved work, overwriting
 // Parts of the side panels.
 void handles_panel(const Ui& ui);
 void transform_panel(const Ui& ui);
-// What is being typed there counts now, if anything is: the hand goes elsewhere.
-void take_typed_pose(const Ui& ui);
 void shape_panel(const Ui& ui);
+// What is being slid there counts now, if anything is: the hand goes elsewhere.
+void send_slid_settings(const Ui& ui);
 void display_panel(const Ui& ui);
 
 // Puts a notice among the toasts.

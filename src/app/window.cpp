@@ -142,7 +142,7 @@ struct Window::Callbacks {
     }
     static void uncover(GLFWwindow* window) { of(window).events_.emplace_back(Uncovered{}); }
     static void focus(GLFWwindow* window, int focused) {
-        if (!focused) of(window).events_.emplace_back(FocusLost{});
+        if (!focused) uncover(window); // no cursor blinks in it
     }
 };
 

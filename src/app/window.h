@@ -18,10 +18,9 @@ struct DroppedFiles {
     std::vector<std::filesystem::path> files;
 };
 struct CloseAsked {};
-struct FocusLost {};
 struct Uncovered {}; // or of another size: what it shows is to be drawn again
 // Cursors of Inputs are in the window's own coordinates here; the main loop makes them the view's.
-using WindowEvent = std::variant<Input, DroppedFiles, CloseAsked, FocusLost, Uncovered>;
+using WindowEvent = std::variant<Input, DroppedFiles, CloseAsked, Uncovered>;
 
 // Owns GLFW, the window, its OpenGL 4.1 core context and the context of Dear ImGui; one at a time.
 class Window {

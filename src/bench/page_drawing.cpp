@@ -81,6 +81,7 @@ struct PageDrawer::State {
     Workers& workers;
     HeadlessContext context;
     PointRenderer renderer;
+    std::vector<float> normals; // that the renderer has
 };
 
 PageDrawer::PageDrawer(Workers& workers) : state_(std::make_unique<State>(workers)) {}
@@ -93,8 +94,8 @@ void PageDrawer::draw(const std::filesystem::path& file, const PageShape& shape,
     s.renderer.set_positions(shape.positions);
     if (!shape.solid) {
         const std::vector<float> vertices = vertex_positions(*shape.order, shape.positions, s.workers);
-        s.renderer.set_normals(
-            spread_to_points(shading_normals(*shape.graph, vertices, s.workers), shape.order->vertex));
+        s.normals = spread_to_points(shading_normals(*shape.graph, vertices, s.workers), shape.order->vertex);
+        s.renderer.set_normals(s.normals);
     }
     s.renderer.set_colors(colors_of(shape));
     s.renderer.set_overlay(overlay_of(shape));

@@ -106,9 +106,7 @@ Close close_dragon() {
             0.08};
 }
 
-PageRow row_of(PageStudio& studio, const Close& close, PointCloud cloud,
-               const std::filesystem::path& cloud_file) {
-    const DeformationTask task = task_of(close, std::move(cloud));
+PageScene scene_of(const Close& close, const DeformationTask& task, const std::filesystem::path& cloud_file) {
     PageScene scene;
     scene.name = close.name + "-neighbors";
     scene.cloud_name = close.name;
@@ -120,24 +118,37 @@ PageRow row_of(PageStudio& studio, const Close& close, PointCloud cloud,
     scene.acts.pop_back(); // the settling: the iterations are enough
     scene.view = close.view;
     scene.rest_is_shown = true;
-    write_session(studio, scene);
+    return scene;
+}
 
+// Poses the points, and says by which motions of the handles; returns the samples.
+SampleState pose(Pipeline& pipeline, const DeformationTask& task, const Settings& settings,
+                 std::vector<HandleMotion>& motions, Progress& progress) {
     const auto held = [](const std::vector<Index>& points) {
         return std::make_shared<const std::vector<Index>>(points);
     };
-    Pipeline pipeline(scene.cloud, studio.workers, studio.upsampler);
     pipeline.prepare(
-        {scene.settings,
+        {settings,
          {{"fixed", HandleRole::fixed, held(task.fixed)}, {"handle", HandleRole::moving, held(task.handle)}},
          nullptr},
-        studio.progress);
-    const std::vector<HandleMotion> motions{HandleMotion{},
-                                            motion_of(task.pose, task.pivot, task.cloud.origin, {})};
+        progress);
+    motions = {HandleMotion{}, motion_of(task.pose, task.pivot, task.cloud.origin, {})};
     SampleState state = pipeline.rest_state();
     pipeline.follow_handles(motions, state);
     Acceleration acceleration;
     for (unsigned i = 0; i < iterations; ++i) pipeline.iterate(motions, state, acceleration);
     pipeline.upsample(motions, state);
+    return state;
+}
+
+PageRow row_of(PageStudio& studio, const Close& close, PointCloud cloud,
+               const std::filesystem::path& cloud_file) {
+    const DeformationTask task = task_of(close, std::move(cloud));
+    PageScene scene = scene_of(close, task, cloud_file);
+    write_session(studio, scene);
+    Pipeline pipeline(scene.cloud, studio.workers, studio.upsampler);
+    std::vector<HandleMotion> motions;
+    const SampleState state = pose(pipeline, task, scene.settings, motions, studio.progress);
 
     PageShape shape{&pipeline.order(),
                     &pipeline.graph(),

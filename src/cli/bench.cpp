@@ -111,6 +111,12 @@ int run_bench(const BenchArguments& arguments, Terminal& terminal) {
     return 0;
 }
 
+// How many points the largest plane has.
+CLI::Option* add_points(CLI::App& command, const std::string& name, std::optional<std::size_t>& points,
+                        std::size_t least, const std::string& words) {
+    return command.add_option(name, points, words)->check(CLI::Range(least, std::size_t{1'000'000'000}));
+}
+
 } // namespace
 
 void add_bench(CLI::App& app, Job& job) {
@@ -143,17 +149,13 @@ void add_bench(CLI::App& app, Job& job) {
                 "fast they are loaded and saved beside a copy of the same bytes; nothing stays there")
             ->check(CLI::ExistingDirectory);
     CLI::Option* growth =
-        command
-            ->add_option("--growth", arguments->growth,
-                         "Instead: how the stages grow with the points of a plane, from 10,000 up to so "
-                         "many, and with the samples, from 100 to 100,000")
-            ->check(CLI::Range(std::size_t{10'000}, std::size_t{1'000'000'000}));
+        add_points(*command, "--growth", arguments->growth, 10'000,
+                   "Instead: how the stages grow with the points of a plane, from 10,000 up to so many, and "
+                   "with the samples, from 100 to 100,000");
     CLI::Option* handles =
-        command
-            ->add_option("--handles", arguments->handles,
-                         "Instead: how soon a handle more, or less, is live on planes of 100,000 points up "
-                         "to so many, with 1000 and with 5000 samples")
-            ->check(CLI::Range(std::size_t{100'000}, std::size_t{1'000'000'000}));
+        add_points(*command, "--handles", arguments->handles, 100'000,
+                   "Instead: how soon a handle more, or less, is live on planes of 100,000 points up to so "
+                   "many, with 1000 and with 5000 samples");
     command->add_option("--picture", arguments->picture, "With --growth: draw it into this file (SVG)")
         ->needs(growth);
     window->excludes(rows, scans, drag, files, growth, handles, command->get_option("--repeat"));

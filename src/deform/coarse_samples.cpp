@@ -60,9 +60,6 @@ OrderedSamples ordered(const Graph& graph, std::span<const Vec3d> position, Work
     return result;
 }
 
-// What a handle holds of one component.
-using HeldPart = std::pair<Index, Index>; // handle, component
-
 // The samples of each of these that a free one is linked to, in scrambled order.
 std::map<HeldPart, std::vector<Index>> border_samples(const Graph& graph, std::span<const Index> handle,
                                                       Workers& workers) {

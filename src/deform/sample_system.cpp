@@ -311,6 +311,31 @@ OrderedLaplacian order_and_find_surroundings(SampleSystem& system, Workers& work
     return result;
 }
 
+// All matrices that are needed; none of them knows of the others.
+FactorOutcome factorize(SampleSystem& system, const OrderedLaplacian& of_moving, Workers& workers) {
+    const std::size_t rows = system.free_sample.size();
+    const bool more = rows > system.moving_rows;
+    system.has_increments = more || !system.pull.empty();
+    const SparseMatrix of_all = more ? laplacian(system, rows, &BodyPair::way) : of_moving.matrix;
+    const bool other_turns = !system.rest.energy.first.empty();
+    const SparseMatrix of_turns = other_turns ? laplacian(system, rows, &BodyPair::turn) : SparseMatrix{};
+    const std::vector<int> order = more ? minimum_degree_order(of_all) : of_moving.order;
+    std::array<FactorOutcome, 3> outcomes;
+    workers.for_each(system.has_increments ? 3 : 2, 1, [&](std::size_t which) {
+        if (which == 0)
+            outcomes[0] =
+                system.positions.factorize(position_matrix(system, of_moving.matrix), of_moving.order);
+        else if (which == 1)
+            outcomes[1] =
+                system.rotations.factorize(rotation_matrix(system, other_turns ? of_turns : of_all), order);
+        else
+            outcomes[2] = system.increments.factorize(increment_matrix(of_all), order);
+    });
+    for (std::size_t which = 0; which < (system.has_increments ? 3U : 2U); ++which)
+        if (!outcomes[which].solved) return outcomes[which];
+    return outcomes[0];
+}
+
 } // namespace
 
 bool is_leaf(const SampleRest& rest, Index sample) {
@@ -346,29 +371,7 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     system.sides.assign(4 * system.free_sample.size(), 0);
 
     find_pull(system);
-
-    const std::size_t rows = system.free_sample.size();
-    const bool more = rows > system.moving_rows;
-    system.has_increments = more || !system.pull.empty();
-    const SparseMatrix of_all = more ? laplacian(system, rows, &BodyPair::way) : of_moving.matrix;
-    const bool other_turns = !system.rest.energy.first.empty();
-    const SparseMatrix of_turns = other_turns ? laplacian(system, rows, &BodyPair::turn) : SparseMatrix{};
-    const std::vector<int> order = more ? minimum_degree_order(of_all) : of_moving.order;
-    // None knows of the others.
-    std::array<FactorOutcome, 3> outcomes;
-    workers.for_each(system.has_increments ? 3 : 2, 1, [&](std::size_t which) {
-        if (which == 0)
-            outcomes[0] =
-                system.positions.factorize(position_matrix(system, of_moving.matrix), of_moving.order);
-        else if (which == 1)
-            outcomes[1] =
-                system.rotations.factorize(rotation_matrix(system, other_turns ? of_turns : of_all), order);
-        else
-            outcomes[2] = system.increments.factorize(increment_matrix(of_all), order);
-    });
-    for (std::size_t which = 0; which < (system.has_increments ? 3U : 2U); ++which)
-        if (!outcomes[which].solved) return outcomes[which];
-    return outcomes[0];
+    return factorize(system, of_moving, workers);
 }
 
 SystemMatrices system_matrices(const SampleSystem& system) {

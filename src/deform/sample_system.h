@@ -152,9 +152,9 @@ struct SampleSystem {
 // Whether a free sample has one link alone, to a sample that has more.
 bool is_leaf(const SampleRest& rest, Index sample);
 
-// Prepares both systems: one ordering, and a factorisation of each; a third (`increments`) where a handle
-// with a falloff pulls or one leaves rotation free. Samples whose component holds no handle are left out and
-// stay at rest. On a bad outcome the system must not be iterated.
+// Prepares both systems: a factorisation of each, of one ordering unless a handle leaves rotation free; a
+// third (`increments`) where one does, or where one with a falloff pulls. Samples whose component holds no
+// handle are left out and stay at rest. On a bad outcome the system must not be iterated.
 FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& workers);
 
 // The matrices of steps 2 and 3 of a system that was built, as they were factorised: for comparing solvers.

@@ -19,7 +19,7 @@ std::string words_about_exception() {
     } catch (const std::bad_alloc&) {
         return no_memory;
     } catch (const BrokenInvariant& bug) {
-        return std::string("This is a mistake in knead, and what is shown may be wrong: ") + bug.what() +
+        return std::string(mistake_in_knead) + ", and what is shown may be wrong: " + bug.what() +
                ". Save the session under another name, and open that one again.";
     } catch (const std::exception& error) {
         return words_in_window(error);

@@ -6,6 +6,7 @@
 
 namespace knead {
 
+inline constexpr const char* mistake_in_knead = "This is a mistake in knead";
 inline constexpr const char* no_memory = "There is not enough memory for this.";
 
 // The words of an error, and where these leave out what helps, that. A session without its cloud needs none:

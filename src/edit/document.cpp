@@ -37,7 +37,8 @@ bool Document::needs_commit(const SessionAction& act) const {
     if (const auto* set = std::get_if<SetLine>(&act))
         return set->change.neighbors || set->change.samples || set->change.strays;
     if (const auto* line = std::get_if<HandleLine>(&act)) return !recolored_by(*line, "");
-    return std::holds_alternative<DeleteLine>(act);
+    const auto* gone = std::get_if<DeleteLine>(&act);
+    return gone && std::ranges::find(handles_, gone->handle, &Handle::name) != handles_.end();
 }
 
 void Document::declare(const HandleLine& line, const std::string& place) {
@@ -233,6 +234,11 @@ const RestShape& Document::shown(Progress& progress) {
     return pipeline_.posed();
 }
 
+std::shared_ptr<const RestShape> Document::keep_shown(Progress& progress) {
+    if (&shown(progress) == &pipeline_.posed()) return pipeline_.keep_posed();
+    return now().rest ? rest_of(now(), progress) : pipeline_.keep_opened();
+}
+
 // The posed shape, or the rest shape where nothing is posed. After an undo it is computed again from the
 // samples.
 const RestShape& Document::shape(Progress& progress) {
@@ -254,9 +260,10 @@ std::shared_ptr<const RestShape> Document::posed_now(Progress& progress) {
 }
 
 std::shared_ptr<const RestShape> Document::posed_shape(const std::vector<HandleMotion>& motions,
-                                                       const SampleState& samples) const {
+                                                       const SampleState& samples) {
+    if (!holds_splats_) return pipeline_.keep_posed();
     auto shape = std::make_shared<RestShape>(pipeline_.posed());
-    if (holds_splats_) shape->rotations = pipeline_.rotations(motions, samples);
+    shape->rotations = pipeline_.rotations(motions, samples);
     return shape;
 }
 

@@ -51,7 +51,12 @@ public:
     // begins at once.
     void prepare_ahead(Progress& progress);
 
-    // Whether this act would be refused now since handles are posed: a commit has to come before it.
+    // For who keeps shapes while the next ones are made (keep_shown()): after prepare_ahead(), and when a
+    // drag has begun, it takes the memory for them, which a frame would have to, else.
+    void make_spare_shapes() { pipeline_.make_spare_shapes(); }
+
+    // Whether this act would be refused now since handles are posed, and for nothing else that is known: a
+    // commit has to come before it.
     bool needs_commit(const SessionAction& act) const;
 
     // --- The acts; `place` names the line in errors ---
@@ -103,6 +108,8 @@ public:
     const RestShape& shape(Progress& progress);
     // The same, but in the middle of a drag or a settling what its last frame made.
     const RestShape& shown(Progress& progress);
+    // That, which stays as it is for as long as somebody has it, in whatever thread.
+    std::shared_ptr<const RestShape> keep_shown(Progress& progress);
     // Of each handle in this edit, as it was at the last finished act.
     const std::vector<HandleMotion>& motions() const { return motions_; }
     // Every pose that a handle was given in this edit, the first one first.
@@ -213,7 +220,7 @@ private:
     std::shared_ptr<const RestShape> posed_now(Progress& progress); // where something is posed
     // The pipeline's posed points, which are those of these motions, as a shape to keep.
     std::shared_ptr<const RestShape> posed_shape(const std::vector<HandleMotion>& motions,
-                                                 const SampleState& samples) const;
+                                                 const SampleState& samples);
     void repeat(const Posed& posed, SampleState& samples, Progress& progress);
     const State& now() const { return history_[at_]; }
     void end(UnderWay act, std::variant<DragLine, SettleLine> line);

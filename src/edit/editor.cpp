@@ -55,7 +55,7 @@ void carry_out(Editor& editor, const ChooseSamples& command) {
     choose_samples(editor, command.by_itself);
     const SampleChoice& suited = editor.document->suited;
     const bool changes = command.by_itself && suited.samples != editor.document->settings.samples;
-    if (!changes || editor.document->posed || editor.drag) return; // the document does, when it can
+    if (!changes || is_or_will_be_posed(editor)) return; // the document does, when it can
     SettingsChange change;
     change.samples = suited.samples;
     post_step(editor, {SetLine{change}});
@@ -65,7 +65,7 @@ void carry_out(Editor& editor, const ChooseSamples& command) {
 
 void carry_out(Editor& editor, const CommitPose& /*command*/) {
     if (!needs_document(editor) || (editor.drag && !editor.drag->ended)) return;
-    if (!editor.document->posed && !editor.drag) // one that has ended poses what the document is yet to show
+    if (!is_or_will_be_posed(editor))
         return say(editor, Notice::Kind::information, "Nothing is posed, so there is nothing to commit.");
     post_step(editor, {CommitLine{}});
 }
@@ -89,7 +89,7 @@ void carry_out(Editor& editor, const FrameView& command) {
         box->lowest = glm::min(box->lowest, middle - least);
         box->highest = glm::max(box->highest, middle + least);
     }
-    frame(editor.camera, box ? *box : bulk_box(editor.frame.positions), editor.viewport);
+    frame(editor.camera, box ? *box : bulk_box(editor.frame.positions()), editor.viewport);
 }
 
 void carry_out(Editor& editor, const LookAtSide& command) {
@@ -100,7 +100,7 @@ void carry_out(Editor& editor, const SetPivotUnder& command) {
     if (!editor.document) return;
     const Index hit = point_clicked(editor, command.pixel);
     if (hit == no_index) return;
-    const float* p = editor.frame.positions.data() + 3 * std::size_t{hit};
+    const float* p = editor.frame.positions().data() + 3 * std::size_t{hit};
     set_pivot(editor.camera, {p[0], p[1], p[2]});
 }
 
@@ -119,10 +119,10 @@ bool is_act(const Command& command) {
                      ChooseSamples, CommitPose>(command);
 }
 
-// Whether it takes the pose as it is for good, or may.
-bool takes_pose(const Command& command) {
-    return is_one_of<MakeHandle, AssignPoints, ChangeRole, ChangeHold, DeleteHandle, MirrorHandle,
-                     ChangeSettings, CommitPose>(command);
+// Whether it goes on from the pose as it is, or makes it the rest shape, or may.
+bool goes_on_from_pose(const Command& command) {
+    return is_one_of<MakeHandle, AssignPoints, ChangeRole, ChangeHold, DeleteHandle, ResetPose, MirrorHandle,
+                     BeginDrag, SetPivot, ChangeSettings, CommitPose>(command);
 }
 
 void decline(Editor& editor, const char* words) {
@@ -150,7 +150,7 @@ bool may_act(Editor& editor) {
     return true;
 }
 
-bool may_take_pose(Editor& editor) {
+bool may_go_on_from_pose(Editor& editor) {
     if (editor.status.playing)
         decline(editor,
                 "This is the middle of a step, and what you do here would go on from its end. Play on to "
@@ -161,7 +161,7 @@ bool may_take_pose(Editor& editor) {
 void apply(Editor& editor, const Command& command) {
     try {
         if (is_act(command) && !may_act(editor)) return;
-        if (takes_pose(command) && !may_take_pose(editor)) return;
+        if (goes_on_from_pose(command) && !may_go_on_from_pose(editor)) return;
         std::visit([&](const auto& c) { carry_out(editor, c); }, command);
     } catch (const std::exception&) {
         say(editor, Notice::Kind::error, words_about_exception());

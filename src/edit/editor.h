@@ -3,7 +3,8 @@
 // does to that.
 //
 // One way round a frame: Input → tools → Commands → apply(editor, command) → refresh(editor) takes in what
-// the live document has newly made → `changes` says what a renderer has to upload. Nothing here waits.
+// the live document has newly made → `changes` says what a renderer has to upload. Nothing here waits, but
+// where a document goes, because another takes its place: until its thread has heard of that.
 
 #include "base/workers.h"
 #include "edit/command.h"
@@ -58,7 +59,7 @@ struct EditorStep {
     std::vector<EditorStep> undone = {};
 };
 
-// The drag that goes on, or that ended and that the document has not answered yet.
+// A drag that goes on, or that ended and that the document has not answered yet.
 struct EditorDrag {
     StepNumber step = 0;
     std::string handle;
@@ -107,8 +108,9 @@ struct Editor {
     Viewport viewport;
     Tools tools;
 
-    std::optional<EditorDrag> drag;
-    glm::dvec3 handle_middle{0.0}; // of the chosen handle's points as they are now
+    std::optional<EditorDrag> drag;        // the newest; nothing: it has been answered, or there was none
+    std::vector<EditorDrag> earlier_drags; // that ended before it and are not answered either
+    glm::dvec3 handle_middle{0.0};         // of the chosen handle's points as they are now
 
     // --- Going back ---
     std::vector<EditorStep> past, future;
@@ -162,8 +164,12 @@ struct ChosenPose {
     glm::dvec3 pivot{0.0};
 };
 std::optional<ChosenPose> pose_of_chosen(const Editor& editor);
+// Of a handle of the document, by its number: as it is, or as a drag wants it that is not answered yet.
+HandleMotion motion_now(const Editor& editor, std::size_t handle);
+// Whether the document is posed, or will be when it has answered all drags.
+bool is_or_will_be_posed(const Editor& editor);
 // Whether poses may be others by the time that the document has done what it was told: it takes something
-// back, resets or commits.
+// back, resets or commits; or a step is being played.
 bool poses_may_change(const Editor& editor);
 // How far the handle pulls what is around it, whatever its own falloff is; 0 for one that is large enough.
 double least_falloff(const Editor& editor, const Handle& handle);

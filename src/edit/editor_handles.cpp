@@ -225,7 +225,7 @@ std::string name_of_mirrored(const Editor& editor, const Handle& handle, const s
 std::span<const float> rest_positions(const Editor& editor) {
     if (editor.document->rest) return editor.document->rest->positions;
     if (editor.document->posed) return editor.opened.opened->positions;
-    return editor.frame.positions;
+    return editor.frame.positions();
 }
 
 } // namespace
@@ -233,12 +233,12 @@ std::span<const float> rest_positions(const Editor& editor) {
 void carry_out(Editor& editor, const ResetPose& command) {
     const auto number = number_of(editor, command.handle);
     if (!number || editor.document->handles[*number].role != HandleRole::moving) return;
-    if (!editor.document->posed) return;
+    if (!is_or_will_be_posed(editor)) return;
     EditorStep step = coming_step(editor, ++editor.last_step);
     editor.live->reset_pose(step.document, command.handle);
     add_step(editor, std::move(step));
     if (const auto pivot = pivot_of(editor, command.handle)) {
-        const Vec3d at_rest = point_at_rest(editor.document->motions[*number], to_eigen(*pivot));
+        const Vec3d at_rest = point_at_rest(motion_now(editor, *number), to_eigen(*pivot));
         put_pivot_with(editor.past.back(), editor, command.handle, to_glm(at_rest));
     }
 }
@@ -264,7 +264,7 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     line.color = there ? editor.document->handles[*there].color : std::nullopt;
     line.points = ranges_of(points);
     const std::string name = line.name;
-    const bool is_posed = leaves_rest(editor.document->motions[*number]);
+    const bool is_posed = leaves_rest(motion_now(editor, *number));
     if (handle.role == HandleRole::moving && is_posed) {
         PoseOfAnother pose{handle.name,
                            [=](const HandleMotion& motion) { return mirrored(motion, plane, across.shift); }};
@@ -284,6 +284,11 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
 
 // --- Dragging ---
 
+void forget_drag(Editor& editor, StepNumber step) {
+    if (editor.drag && editor.drag->step == step) editor.drag.reset();
+    std::erase_if(editor.earlier_drags, [&](const EditorDrag& drag) { return drag.step == step; });
+}
+
 void carry_out(Editor& editor, const BeginDrag& command) {
     const auto number = number_of(editor, editor.chosen);
     if (!number || editor.document->handles[*number].role != HandleRole::moving) return;
@@ -297,6 +302,7 @@ void carry_out(Editor& editor, const BeginDrag& command) {
     EditorStep step = coming_step(editor, drag.step);
     step.is_drag = true;
     editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin);
+    if (editor.drag) editor.earlier_drags.push_back(std::move(*editor.drag));
     editor.drag = std::move(drag);
     add_step(editor, std::move(step));
 }
@@ -313,19 +319,21 @@ void carry_out(Editor& editor, const DragTo& command) {
 void carry_out(Editor& editor, const EndDrag& /*command*/) {
     if (!editor.drag || editor.drag->ended) return;
     editor.drag->ended = true;
-    editor.handle_middle = transformed(editor.drag->transform, editor.drag->middle);
+    const glm::dvec3 middle = transformed(editor.drag->transform, editor.drag->middle);
+    if (editor.chosen == editor.drag->handle) editor.handle_middle = middle;
     // What the gizmo stands on went along, be it the pivot or the middle.
-    const bool has_step = !editor.past.empty() && editor.past.back().document == editor.drag->step;
-    if (has_step && pivot_of(editor, editor.chosen))
-        put_pivot_with(editor.past.back(), editor, editor.chosen, editor.handle_middle);
+    const auto step = std::ranges::find(editor.past, editor.drag->step, &EditorStep::document);
+    if (step != editor.past.end() && pivot_of(editor, editor.drag->handle))
+        put_pivot_with(*step, editor, editor.drag->handle, middle);
     editor.live->end_drag();
 }
 
 void carry_out(Editor& editor, const CancelDrag& /*command*/) {
     if (!editor.drag || editor.drag->ended) return;
-    if (!editor.past.empty() && editor.past.back().document == editor.drag->step) {
-        editor.future = std::move(editor.past.back().undone);
-        editor.past.pop_back();
+    const auto step = std::ranges::find(editor.past, editor.drag->step, &EditorStep::document);
+    if (step != editor.past.end()) {
+        if (step + 1 == editor.past.end()) editor.future = std::move(step->undone);
+        editor.past.erase(step);
     }
     editor.drag.reset();
     editor.live->cancel_drag();

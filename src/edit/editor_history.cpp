@@ -99,7 +99,7 @@ void carry_out(Editor& editor, const UndoStep& command) {
     if (step.choosing_before) choose_samples(editor, *step.choosing_before);
     if (step.chosen_before) choose(editor, *step.chosen_before);
     take_pivots_back(editor, step);
-    editor.drag.reset();
+    forget_drag(editor, step.document);
     editor.future.push_back(std::move(step));
 }
 

@@ -81,7 +81,7 @@ std::vector<SessionAction> with_points(const Editor& editor, const Session& sess
     const auto place_of = [&](std::size_t i) -> Vec3d {
         const Index at = editor.ordered[i];
         if (at == no_index) return cloud.file_position(i);
-        const float* p = editor.frame.positions.data() + 3 * std::size_t{at};
+        const float* p = editor.frame.positions().data() + 3 * std::size_t{at};
         return cloud.origin + Vec3f(p[0], p[1], p[2]).cast<double>();
     };
     std::vector<SessionAction> lines;
@@ -116,7 +116,7 @@ std::vector<LabelColumn> label_columns(const PointCloud& cloud) {
 }
 
 void handles_from_labels(Editor& editor, const std::string& column, std::span<const LabelChoice> choices) {
-    if (!needs_document(editor) || !may_act(editor) || !may_take_pose(editor)) return;
+    if (!needs_document(editor) || !may_act(editor) || !may_go_on_from_pose(editor)) return;
     const PointCloud& cloud = *editor.opened.cloud;
     const auto number = find_attribute(cloud, column);
     if (!number || cloud.attributes[*number].is_list() || !may_hold_labels(cloud.attributes[*number].type))
@@ -145,7 +145,7 @@ void handles_from_labels(Editor& editor, const std::string& column, std::span<co
 }
 
 void handles_from_session(Editor& editor, const std::filesystem::path& session) {
-    if (!needs_document(editor) || !may_act(editor) || !may_take_pose(editor)) return;
+    if (!needs_document(editor) || !may_act(editor) || !may_go_on_from_pose(editor)) return;
     try {
         const Session read = read_session(session);
         const HandleLines handles = handles_at_end(read);

@@ -30,12 +30,13 @@ void take_over(Editor& editor) {
     editor.frame = {};
     editor.live->take_frame(editor.frame);
     editor.drag.reset();
+    editor.earlier_drags.clear();
     editor.chosen.clear();
     editor.posted_names.clear();
     editor.pivots.clear();
     editor.moved_pivot.reset();
-    editor.tools.drag.reset();
-    editor.tools.doing = Tools::Doing::nothing;
+    std::vector<Command> of_before;
+    drop_everything(editor.tools, of_before);
 
     editor.ordered.assign(editor.opened.cloud->size(), no_index);
     const std::vector<Index>& file_index = editor.opened.order->file_index;
@@ -45,7 +46,7 @@ void take_over(Editor& editor) {
     editor.future.assign(editor.document->redoable_steps, EditorStep{step_of_opened_session});
     editor.looks_from.reset();
     mark_handles(editor);
-    editor.camera = first_view(bulk_box(editor.frame.positions), editor.viewport);
+    editor.camera = first_view(bulk_box(editor.frame.positions()), editor.viewport);
     editor.changes = {};
 }
 
@@ -83,12 +84,12 @@ void forget_future(Editor& editor, StepNumber step) {
 
 // A step that the document refused is no step: it leaves the history, and the selection comes back.
 void forget_refused(Editor& editor) {
-    for (const StepNumber step : editor.live->take_refused()) {
+    for (const auto [step, ends_redo] : editor.live->take_refused()) {
         std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first == step; });
         forget_future(editor, step);
         for (EditorStep& past : editor.past)
             if (past.joined == step) past.joined = 0;
-        if (editor.drag && editor.drag->step == step) editor.drag.reset();
+        forget_drag(editor, step);
         const auto found = std::ranges::find(editor.past, step, &EditorStep::document);
         if (found == editor.past.end()) continue;
         if (found->before) restore_selection(editor, *found->before);
@@ -97,7 +98,8 @@ void forget_refused(Editor& editor) {
         if (found->choosing_before) choose_samples(editor, *found->choosing_before);
         take_pivots_back(editor, *found);
         const auto at = static_cast<std::size_t>(found - editor.past.begin());
-        if (at + 1 == editor.past.size() && editor.future.empty()) editor.future = std::move(found->undone);
+        const bool is_last = at + 1 == editor.past.size() && editor.future.empty();
+        if (is_last && !ends_redo) editor.future = std::move(found->undone);
         editor.past.erase(found);
         if (editor.looks_from && at < *editor.looks_from) --*editor.looks_from;
     }
@@ -113,8 +115,8 @@ bool refresh_view(Editor& editor) {
     std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first <= done; });
     for (EditorStep& step : editor.past)
         if (step.document <= done) step.undone.clear();
-    if (editor.drag && editor.drag->ended && editor.document->last_step >= editor.drag->step)
-        editor.drag.reset();
+    if (editor.drag && editor.drag->ended && done >= editor.drag->step) editor.drag.reset();
+    std::erase_if(editor.earlier_drags, [&](const EditorDrag& drag) { return drag.step <= done; });
     return true;
 }
 
@@ -134,7 +136,7 @@ bool refresh(Editor& editor) {
         editor.changes.positions = true;
         changed = true;
     }
-    if (changed && !editor.drag)
+    if (changed && !editor.drag && !editor.frame.on_device) // of points that are known
         if (const Handle* handle = chosen_handle(editor))
             editor.handle_middle = middle_of(editor, *handle).value_or(glm::dvec3(0.0));
     for (Notice& notice : editor.live->take_notices()) {

@@ -40,7 +40,7 @@ constexpr double click_radius = 8; // pixels
 } // namespace
 
 Index point_clicked(Editor& editor, glm::dvec2 pixel) {
-    return point_under(editor.camera, editor.viewport, editor.frame.positions, hidden_points(editor), pixel,
+    return point_under(editor.camera, editor.viewport, editor.frame.positions(), hidden_points(editor), pixel,
                        click_radius, editor.workers);
 }
 
@@ -48,12 +48,14 @@ void carry_out(Editor& editor, const SelectRegion& command) {
     if (!needs_document(editor)) return;
     std::vector<std::uint8_t> inside(editor.marks.size());
     const std::vector<std::uint8_t> hidden = hidden_points(editor);
-    points_in_region(editor.camera, editor.viewport, editor.frame.positions, hidden, command.region, inside,
+    points_in_region(editor.camera, editor.viewport, editor.frame.positions(), hidden, command.region, inside,
                      editor.workers);
     if (!command.through) {
-        const VisibleSurface surface = visible_surface(editor.camera, editor.viewport, editor.frame.positions,
-                                                       hidden, editor.opened.spacing, editor.workers);
-        keep_visible(editor.camera, editor.viewport, editor.frame.positions, surface, inside, editor.workers);
+        const VisibleSurface surface =
+            visible_surface(editor.camera, editor.viewport, editor.frame.positions(), hidden,
+                            editor.opened.spacing, editor.workers);
+        keep_visible(editor.camera, editor.viewport, editor.frame.positions(), surface, inside,
+                     editor.workers);
     }
     change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });
 }

@@ -75,7 +75,7 @@ std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle) 
     for (std::size_t k = 0; k < points.size(); k += stride) {
         const Index i = editor.ordered[points[k]];
         if (i == no_index) continue;
-        const float* p = editor.frame.positions.data() + 3 * std::size_t{i};
+        const float* p = editor.frame.positions().data() + 3 * std::size_t{i};
         sum += glm::dvec3(p[0], p[1], p[2]);
         ++count;
     }
@@ -101,6 +101,13 @@ bool is_free_place(const Editor& editor, const Handle& handle) {
 
 } // namespace
 
+const EditorDrag* unanswered_drag(const Editor& editor, const std::string& handle) {
+    if (editor.drag && editor.drag->handle == handle) return &*editor.drag;
+    const auto newest = std::find_if(editor.earlier_drags.rbegin(), editor.earlier_drags.rend(),
+                                     [&](const EditorDrag& drag) { return drag.handle == handle; });
+    return newest == editor.earlier_drags.rend() ? nullptr : &*newest;
+}
+
 std::optional<Gizmo> gizmo_of(const Editor& editor) {
     const Handle* handle = chosen_handle(editor);
     if (!handle || handle->role != HandleRole::moving) return std::nullopt;
@@ -110,9 +117,9 @@ std::optional<Gizmo> gizmo_of(const Editor& editor) {
     glm::dquat axes = to_glm(editor.document->motions[number].rotation);
     const auto pivot = pivot_of(editor, editor.chosen);
     gizmo.center = pivot.value_or(editor.handle_middle);
-    if (editor.drag && editor.drag->handle == editor.chosen) {
-        gizmo.center = transformed(editor.drag->transform, editor.drag->middle);
-        axes = to_glm(editor.drag->motion.now.rotation);
+    if (const EditorDrag* drag = unanswered_drag(editor, editor.chosen)) {
+        gizmo.center = transformed(drag->transform, drag->middle);
+        axes = to_glm(drag->motion.now.rotation);
     }
     if (editor.local_axes) gizmo.axes = axes;
     if (!pivot) gizmo.rotate = gizmo.scale = !is_free_place(editor, *handle);
@@ -123,8 +130,16 @@ std::optional<ChosenPose> pose_of_chosen(const Editor& editor) {
     const std::optional<Gizmo> gizmo = gizmo_of(editor);
     if (!gizmo) return std::nullopt;
     const auto number = static_cast<std::size_t>(chosen_handle(editor) - editor.document->handles.data());
-    const bool is_dragged = editor.drag && editor.drag->handle == editor.chosen;
-    return ChosenPose{is_dragged ? editor.drag->motion.now : editor.document->motions[number], gizmo->center};
+    return ChosenPose{motion_now(editor, number), gizmo->center};
+}
+
+HandleMotion motion_now(const Editor& editor, std::size_t handle) {
+    const EditorDrag* drag = unanswered_drag(editor, editor.document->handles[handle].name);
+    return drag ? drag->motion.now : editor.document->motions[handle];
+}
+
+bool is_or_will_be_posed(const Editor& editor) {
+    return editor.document->posed || editor.drag || !editor.earlier_drags.empty();
 }
 
 double least_falloff(const Editor& editor, const Handle& handle) {
@@ -147,7 +162,7 @@ double least_falloff(const Editor& editor, const Handle& handle) {
 
 Box3 box_of(const Editor& editor) {
     Box3 box = nowhere();
-    const std::vector<float>& positions = editor.frame.positions;
+    const LineArray<float>& positions = editor.frame.positions();
     for (std::size_t i = 0; i < positions.size(); i += 3) extend(box, positions.data() + i);
     return positions.empty() ? Box3{} : box;
 }
@@ -156,7 +171,7 @@ std::optional<Box3> box_of_selection(const Editor& editor) {
     if (editor.selected == 0) return std::nullopt;
     Box3 box = nowhere();
     for (std::size_t i = 0; i < editor.marks.size(); ++i)
-        if (editor.marks[i] & mark_selected) extend(box, editor.frame.positions.data() + 3 * i);
+        if (editor.marks[i] & mark_selected) extend(box, editor.frame.positions().data() + 3 * i);
     return box;
 }
 
@@ -167,7 +182,7 @@ std::optional<Box3> box_of_chosen(const Editor& editor) {
     bool is_anywhere = false;
     for (const Index i : *handle->points) {
         if (editor.ordered[i] == no_index) continue;
-        extend(box, editor.frame.positions.data() + 3 * std::size_t{editor.ordered[i]});
+        extend(box, editor.frame.positions().data() + 3 * std::size_t{editor.ordered[i]});
         is_anywhere = true;
     }
     return is_anywhere ? std::optional(box) : std::nullopt;
@@ -189,7 +204,8 @@ bool has_pending_steps(const Editor& editor) {
 
 bool poses_may_change(const Editor& editor) {
     if (!editor.live) return false; // nothing is on its way
-    return editor.live->status().undoing || std::ranges::any_of(editor.past, [&](const EditorStep& step) {
+    return editor.status.playing || editor.live->status().undoing ||
+           std::ranges::any_of(editor.past, [&](const EditorStep& step) {
                return !step.is_drag && is_pending(editor, step);
            });
 }
@@ -259,13 +275,13 @@ std::string next_step(const Editor& editor) {
 }
 
 std::vector<float> displacements(Editor& editor) {
-    return displacements(editor.opened.opened->positions, editor.frame.positions, editor.workers);
+    return displacements(editor.opened.opened->positions, editor.frame.positions(), editor.workers);
 }
 
 std::vector<float> local_stretch(Editor& editor) {
     if (!editor.document || !editor.document->graph) return {};
     return local_stretch(*editor.opened.order, *editor.document->graph, editor.opened.opened->positions,
-                         editor.frame.positions, editor.workers);
+                         editor.frame.positions(), editor.workers);
 }
 
 } // namespace knead

@@ -75,9 +75,14 @@ bool needs_document(Editor& editor);
 // earlier step is looked at. Tells the user why not.
 bool may_act(Editor& editor);
 
-// Whether the pose that is shown may be taken for good: not in the middle of a step that is played, whose end
-// it would be. Tells the user why not.
-bool may_take_pose(Editor& editor);
+// Whether an act may go on from the pose that is shown: not in the middle of a step that is played, from
+// whose end it would. Tells the user why not.
+bool may_go_on_from_pose(Editor& editor);
+
+// The newest drag of a handle that the document has not answered yet; null: there is none.
+const EditorDrag* unanswered_drag(const Editor& editor, const std::string& handle);
+// One that is none any more.
+void forget_drag(Editor& editor, StepNumber step);
 
 void carry_out(Editor& editor, const SelectRegion& command);
 void carry_out(Editor& editor, const SelectPointUnder& command);

@@ -36,12 +36,12 @@ Vec3d middle_at_rest(const Document& document, std::span<const IndexRange> point
 
 } // namespace
 
-// One line of a step, and a commit before it where it may not stand while handles are posed; `done` counts
-// the acts of the step so far.
-void LiveWork::carry_out_line(const SessionAction& line, bool joins, bool pose_is_seen, std::size_t& done) {
+// One line of a step, and a commit before it where it may not stand while handles are posed.
+void LiveWork::carry_out_line(const SessionAction& line, bool joins, bool pose_is_seen, StepSoFar& step) {
     if (document_->needs_commit(line)) {
-        carry_out_and_record(CommitLine{}, done > 0 || joins);
-        ++done;
+        carry_out_and_record(CommitLine{}, step.done > 0 || joins);
+        ++step.done;
+        step.told_of_commit |= pose_is_seen;
         if (pose_is_seen)
             publisher_.say(Notice::Kind::information,
                            "The pose became the new rest shape first: this cannot change while handles are "
@@ -49,20 +49,21 @@ void LiveWork::carry_out_line(const SessionAction& line, bool joins, bool pose_i
                            "takes both back.",
                            Notice::About::committed);
     }
-    carry_out_and_record(line, done > 0 || joins);
-    ++done;
+    carry_out_and_record(line, step.done > 0 || joins);
+    ++step.done;
 }
 
 void LiveWork::carry_out(task::Lines& lines) {
     const bool is_seen = shared_.with([](const LiveShared& s) { return s.view->posed; });
-    std::size_t done = 0;
+    StepSoFar step;
     try {
         finish_settling();
         const bool joins = lines.joins_last && recording_->last_is_settings();
-        for (const SessionAction& line : lines.lines) carry_out_line(line, joins, is_seen, done);
+        for (const SessionAction& line : lines.lines) carry_out_line(line, joins, is_seen, step);
     } catch (...) {
-        for (; done > 0; --done) take_back_act(false); // first: half a step must not stay
-        refuse(lines.step);
+        for (std::size_t i = 0; i < step.done; ++i) take_back_act(false); // first: half a step must not stay
+        refuse(lines.step, step.done > 0);
+        if (step.told_of_commit) publisher_.say(Notice::Kind::information, {}, Notice::About::committed);
         show_document();
         throw;
     }
@@ -110,7 +111,7 @@ void LiveWork::carry_out(task::ResetPose& task) {
         throw;
     }
     // What was wound up is seen to unwind.
-    document_->on_frame = [this] { publish_shape(document_->pipeline().posed(), false); };
+    document_->on_frame = [this] { publish_shape(false); };
     try {
         task::Lines lines{task.step, {std::move(back)}, false};
         carry_out(lines);

@@ -10,7 +10,7 @@ namespace knead {
 void changed_since(std::uint64_t version, const PosedFrame& frame, std::vector<PointRange>& ranges) {
     ranges.clear();
     for (std::size_t block = 0; block < frame.changed_in.size(); ++block)
-        if (frame.changed_in[block] > version) append_block(block, frame.positions.size() / 3, ranges);
+        if (frame.changed_in[block] > version) append_block(block, frame.positions().size() / 3, ranges);
 }
 
 LiveDocument::LiveDocument(OpenRequest request) : shared_(std::make_unique<Locked<LiveShared>>()) {
@@ -161,12 +161,14 @@ std::shared_ptr<const DocumentView> LiveDocument::view() const {
 }
 
 bool LiveDocument::take_frame(PosedFrame& frame) {
-    std::shared_ptr<const DeviceFrame> spent;        // which goes without the lock
+    std::shared_ptr<const DeviceFrame> spent; // which go without the lock
+    std::shared_ptr<const RestShape> shown;
     return shared_->change([&](LiveShared& shared) { // the document may wait for this
         bool is_new = false;
         if (shared.frame.version > frame.version) {
             std::swap(shared.frame, frame);
             spent = std::exchange(shared.frame.on_device, nullptr);
+            shown = std::exchange(shared.frame.shape, nullptr);
             is_new = true;
         }
         if (shared.drawn.on_device && shared.drawn.version > frame.version) {
@@ -185,7 +187,7 @@ std::vector<Notice> LiveDocument::take_notices() {
     });
 }
 
-std::vector<StepNumber> LiveDocument::take_refused() {
+std::vector<LiveDocument::Refused> LiveDocument::take_refused() {
     return shared_->with([](LiveShared& shared) { return std::exchange(shared.refused, {}); });
 }
 

@@ -66,14 +66,14 @@ struct DocumentView {
 
 // The posed points, in the order of computation.
 struct PosedFrame {
-    std::vector<float> positions; // 3n, relative to the cloud's origin
-    std::vector<float> normals;   // 3n, or empty
-    std::uint64_t version = 0;    // counts the frames; 0: nothing here
+    // Shared with the document, which does not change it any more; empty where there is nothing yet.
+    std::shared_ptr<const RestShape> shape = std::make_shared<RestShape>();
+    std::uint64_t version = 0; // counts the frames; 0: nothing here
     // Where frames of a drag are drawn on the device (LiveDocument::draw_drags_on_device()): the newest one,
-    // which moves the points for whoever draws, and of which `positions` and `normals` know nothing: they are
-    // of a version before. Null where these are the newest.
+    // which moves the points for whoever draws, and of which `shape` knows nothing: that is of a version
+    // before. Null where that is the newest.
     std::shared_ptr<const DeviceFrame> on_device;
-    std::uint64_t points_version = 0; // of `positions` and `normals`
+    std::uint64_t points_version = 0; // of `shape`
     // The version in which each block of points (upsample/point_blocks.h) changed last: whoever has the
     // points of an earlier version needs only what changed after it, see changed_since().
     std::vector<std::uint64_t> changed_in;
@@ -81,6 +81,9 @@ struct PosedFrame {
     bool shows_pose = false; // whether it is of a drag at all (not of an undo, a commit ...)
     double solve = 0;        // seconds of its iterations
     double upsample = 0;     // seconds
+
+    const LineArray<float>& positions() const { return shape->positions; }
+    const LineArray<float>& normals() const { return shape->normals; }
 };
 
 // The points that changed since the frame of this version; all of them since 0. `ranges` are written over.
@@ -186,7 +189,8 @@ public:
 
     // Carries out session lines as one step of undo. Where a line may not stand while handles are posed, a
     // commit is put before it. A refused step is told by take_refused(), and changes nothing; lines of it
-    // that were carried out before the one that was refused stand in the recording, undone. `joins_last`: it
+    // that were carried out before the one that was refused stand in the recording, undone, and what could be
+    // redone before them no longer can. `joins_last`: it
     // is undone together with the step before it (a slider that goes on being moved).
     void post(StepNumber step, std::vector<SessionAction> lines, bool joins_last = false);
 
@@ -239,10 +243,15 @@ public:
     // --- What is newest ---
 
     std::shared_ptr<const DocumentView> view() const; // null until open
-    // Swaps the newest frame into `frame` if there is a newer one than it holds.
+    // Puts the newest frame into `frame` if there is a newer one than it holds.
     bool take_frame(PosedFrame& frame);
     std::vector<Notice> take_notices();
-    std::vector<StepNumber> take_refused();
+    struct Refused {
+        StepNumber step = 0;
+        bool ends_redo = false; // nothing can be redone any more
+        bool operator==(const Refused&) const = default;
+    };
+    std::vector<Refused> take_refused();
     std::vector<HeldSave>
     take_held_saves(); // since they were taken last, in the order in which they were asked for
 

@@ -35,6 +35,7 @@ void LiveWork::carry_out(task::BeginDrag& task) {
     try {
         finish_settling();
         document_->begin_drag(task.handle, task.pivot, "", progress_);
+        document_->make_spare_shapes();
         const auto& handles = document_->handles();
         const auto handle = std::ranges::find(handles, task.handle, &Handle::name) - handles.begin();
         drag_.emplace(LiveDrag{task.step, task.handle, task.pivot,
@@ -92,7 +93,7 @@ void LiveWork::finish_drag() {
     converge_ = true;
     learn_cost(std::move(drag.solving), std::move(drag.upsampling));
     publish_view(); // first: it cannot fail
-    if (publisher_.last_is_drawn()) publish_shape(document_->shape(progress_), false);
+    if (publisher_.last_is_drawn()) publish_shape(false);
 }
 
 void LiveWork::carry_out(task::CancelDrag& /*task*/) {
@@ -163,7 +164,7 @@ void LiveWork::follow() {
 void LiveWork::show_what_was_drawn() {
     if (!publisher_.last_is_drawn()) return;
     try {
-        publish_shape(document_->shown(progress_), false);
+        publish_shape(false);
     } catch (const std::exception&) { // what is told is what went wrong before
     }
 }
@@ -193,7 +194,7 @@ void LiveWork::settle() {
     }
     settled_ += iterations;
     solve_seconds_ = clock.seconds();
-    publish_shape(document_->pipeline().posed(), false);
+    publish_shape(false);
     if (rests || settled_ >= most_settling) finish_settling();
 }
 

@@ -80,13 +80,13 @@ void LiveWork::play_frames(int frames) {
         frames = static_cast<int>(play_->frame > back ? play_->frame - back : 0);
         document_->abandon();
         *play_ = {};
-        if (frames == 0) return publish_shape(document_->shape(progress_), false);
+        if (frames == 0) return publish_shape(false);
     }
     if (!play_->begun) document_->begin_drag(drag.handle, drag.pivot, "", progress_);
     play_->begun = true;
     for (; frames > 0 && play_->frame < drag.frames.size(); --frames)
         document_->drag_frame(drag.frames[play_->frame++], "", progress_);
-    publish_shape(document_->pipeline().posed(), false);
+    publish_shape(false);
     if (play_->frame == drag.frames.size()) finish_playing_act();
 }
 
@@ -100,7 +100,7 @@ void LiveWork::play_settling(int frames) {
         std::min(whole - std::min(done, whole), static_cast<unsigned>(frames) * settling_iterations);
     if (now > 0) document_->settle_some(now, progress_);
     play_->frame += static_cast<std::size_t>(frames);
-    publish_shape(document_->pipeline().posed(), false);
+    publish_shape(false);
     if (play_->frame * settling_iterations >= whole) finish_playing_act();
 }
 

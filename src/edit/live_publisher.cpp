@@ -12,8 +12,8 @@ void LivePublisher::say(Notice::Kind kind, const std::string& words, Notice::Abo
     shared_.with([&](LiveShared& s) { s.notices.push_back({kind, words, about}); });
 }
 
-void LivePublisher::refuse(StepNumber step) {
-    shared_.with([&](LiveShared& s) { s.refused.push_back(step); });
+void LivePublisher::refuse(LiveDocument::Refused refused) {
+    shared_.with([&](LiveShared& s) { s.refused.push_back(refused); });
 }
 
 // Posed shapes change where the pipeline wrote them since the last one was shown; any other is all new.
@@ -25,39 +25,22 @@ void LivePublisher::note_changes(const RestShape& shape, const Pipeline& pipelin
     shown_upsampling_ = is_posed ? pipeline.upsampled() : 0;
 }
 
-// Into what holds the points of back_.points_version.
-void LivePublisher::copy_changes(std::span<const float> from, std::vector<float>& to) {
-    to.resize(from.size());
-    if (from.empty()) return;
-    workers_.for_chunks(changed_in_.size(), 64, [&](std::size_t block, std::size_t end) {
-        while (block < end) {
-            std::size_t unchanged = block;
-            while (unchanged < end && changed_in_[unchanged] > back_.points_version) ++unchanged;
-            if (unchanged > block) {
-                const std::size_t points = from.size() / 3;
-                const std::size_t first = 3 * points_of(block, points).first;
-                const std::size_t last = 3 * points_of(unchanged - 1, points).end;
-                std::copy(from.data() + first, from.data() + last, to.data() + first);
-            }
-            block = unchanged + 1;
-        }
-    });
-}
-
-void LivePublisher::shape(const RestShape& shape, const Pipeline& pipeline, const FrameFacts& facts) {
+void LivePublisher::shape(std::shared_ptr<const RestShape> shape, const Pipeline& pipeline,
+                          const FrameFacts& facts) {
     ++frames_;
-    note_changes(shape, pipeline);
-    copy_changes(shape.positions, back_.positions);
-    copy_changes(shape.normals, back_.normals);
-    back_.changed_in = changed_in_;
-    back_.version = back_.points_version = frames_;
-    back_.on_device.reset();
-    note_facts(back_, facts);
+    note_changes(*shape, pipeline);
+    next_.shape = std::move(shape);
+    next_.changed_in = changed_in_;
+    next_.version = next_.points_version = frames_;
+    next_.on_device.reset();
+    note_facts(next_, facts);
     last_is_drawn_ = false;
+    PosedFrame drawn;
     shared_.with([&](LiveShared& s) {
-        std::swap(s.frame, back_);
-        s.drawn = {};
+        std::swap(s.frame, next_);
+        std::swap(s.drawn, drawn);
     });
+    next_.shape.reset(); // for the next shape to be written into
 }
 
 void LivePublisher::note_facts(PosedFrame& frame, const FrameFacts& facts) {

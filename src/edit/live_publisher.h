@@ -11,14 +11,14 @@ public:
     LivePublisher(Locked<LiveShared>& shared, Workers& workers) : shared_(shared), workers_(workers) {}
 
     void say(Notice::Kind kind, const std::string& words, Notice::About about = Notice::About::itself);
-    void refuse(StepNumber step);
+    void refuse(LiveDocument::Refused refused);
 
     // The newest points. `pose_set`: of a drag, when the hand set the pose that they show.
     struct FrameFacts {
         std::optional<std::chrono::steady_clock::time_point> pose_set;
         double solve = 0, upsample = 0; // seconds
     };
-    void shape(const RestShape& shape, const Pipeline& pipeline, const FrameFacts& facts);
+    void shape(std::shared_ptr<const RestShape> shape, const Pipeline& pipeline, const FrameFacts& facts);
     // The same, for whoever draws to move them.
     void drawn(std::shared_ptr<const DeviceFrame> frame, const FrameFacts& facts);
     std::uint64_t shapes() const { return frames_; } // so many: the version of the last one
@@ -48,14 +48,13 @@ public:
 private:
     void note_changes(const RestShape& shape, const Pipeline& pipeline);
     static void note_facts(PosedFrame& frame, const FrameFacts& facts);
-    void copy_changes(std::span<const float> from, std::vector<float>& to);
     void note_samples(const Pipeline& pipeline);
     void note_spacings(const Pipeline& pipeline);
     void tell(Notice::Kind kind, Notice::About about, std::string words, std::string& told);
 
     Locked<LiveShared>& shared_;
     Workers& workers_;
-    PosedFrame back_; // the next frame to hand over; the window gives the one before back
+    PosedFrame next_; // to hand over; what is handed over in turn is of frames before
     std::uint64_t frames_ = 0;
     std::vector<std::uint64_t> changed_in_; // of each block of points, the frame
     // Which of the pipeline's the last frame shows; 0: it shows another shape.

@@ -96,7 +96,7 @@ struct LiveShared {
     PosedFrame drawn; // without points, if it is newer than `frame`
     std::vector<Notice> notices;
     bool lacked_memory = false; // even for words about it
-    std::vector<StepNumber> refused;
+    std::vector<LiveDocument::Refused> refused;
     std::vector<HeldSave> held_saves;
     LiveDocument::Saved saved;
 };

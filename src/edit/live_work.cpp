@@ -77,8 +77,8 @@ void LiveWork::open() {
 void LiveWork::take_settings() {
     const SetLine line{request_.settings};
     if (changed(document_->settings(), line.change) == document_->settings()) return;
-    std::size_t done = 0;
-    carry_out_line(line, false, true, done);
+    StepSoFar step;
+    carry_out_line(line, false, true, step);
     converge_ = document_->is_posed();
 }
 
@@ -111,7 +111,7 @@ void LiveWork::publish_opened() {
     opened.opened = &document_->pipeline().opened();
     opened.bounds = document_->bounds();
     opened.spacing = usual_spacing(opened.opened->positions);
-    publish_shape(document_->shape(progress_), false);
+    publish_shape(false);
     publish_view();
     shared_.with([&](LiveShared& s) {
         if (s.stop) throw Cancelled(); // or the window would look at what is about to go
@@ -218,6 +218,7 @@ void LiveWork::go_on() {
     if (ahead_) {
         ahead_ = false;
         document_->prepare_ahead(progress_);
+        document_->make_spare_shapes();
         choose_samples();
         return publish_view();
     }
@@ -264,7 +265,7 @@ void LiveWork::rest_if_idle() {
 
 void LiveWork::show_document() {
     publish_view(); // first: it cannot fail
-    publish_shape(document_->shape(progress_), false);
+    publish_shape(false);
 }
 
 LivePublisher::FrameFacts LiveWork::facts_of_frame(bool of_drag) const {
@@ -275,14 +276,15 @@ LivePublisher::FrameFacts LiveWork::facts_of_frame(bool of_drag) const {
     return facts;
 }
 
-void LiveWork::publish_shape(const RestShape& shape, bool of_drag) {
-    publisher_.shape(shape, document_->pipeline(), facts_of_frame(of_drag));
+void LiveWork::publish_shape(bool of_drag) {
+    auto shape = document_->keep_shown(progress_);
+    publisher_.shape(std::move(shape), document_->pipeline(), facts_of_frame(of_drag));
     since_frame_ = Stopwatch();
 }
 
 // The last frame of the drag. The points themselves follow when the shape has come to rest.
 void LiveWork::publish_drag() {
-    if (!document_->drawn_frame() || drag_->rests) return publish_shape(document_->shown(progress_), true);
+    if (!document_->drawn_frame() || drag_->rests) return publish_shape(true);
     publisher_.drawn(document_->drawn_frame(), facts_of_frame(true));
     since_frame_ = Stopwatch();
 }
@@ -293,9 +295,9 @@ void LiveWork::publish_view() {
                      choosing_, choose_samples_again(sample_needs(), document_->settings().samples)});
 }
 
-void LiveWork::refuse(StepNumber step) {
+void LiveWork::refuse(StepNumber step, bool ends_redo) {
     refused_.insert(step);
-    publisher_.refuse(step);
+    publisher_.refuse({step, ends_redo});
 }
 
 void tell_of_exception(Locked<LiveShared>& shared) noexcept {

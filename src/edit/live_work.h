@@ -48,7 +48,11 @@ private:
     // --- Acts (live_acts.cpp) ---
 
     void carry_out(task::Lines& lines);
-    void carry_out_line(const SessionAction& line, bool joins, bool pose_is_seen, std::size_t& done);
+    struct StepSoFar {
+        std::size_t done = 0; // acts
+        bool told_of_commit = false;
+    };
+    void carry_out_line(const SessionAction& line, bool joins, bool pose_is_seen, StepSoFar& step);
     void carry_out(task::EditHandle& task);
     void carry_out(task::MakePosed& task);
     void carry_out(task::ResetPose& task);
@@ -112,11 +116,11 @@ private:
 
     void show_document();
     LivePublisher::FrameFacts facts_of_frame(bool of_drag) const;
-    void publish_shape(const RestShape& shape, bool of_drag);
+    void publish_shape(bool of_drag);
     void publish_drag();
     void show_what_was_drawn();
     void publish_view();
-    void refuse(StepNumber step);
+    void refuse(StepNumber step, bool ends_redo = false);
     void say(Notice::Kind kind, const std::string& words) { publisher_.say(kind, words); }
 
     OpenRequest request_;

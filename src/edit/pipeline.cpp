@@ -33,8 +33,8 @@ constexpr std::size_t asked_for_size = 1 << 13;
 void refuse_too_many_links(double links, const std::string& what_for, const std::string& what_to_do) {
     if (links >= double{no_index})
         throw Error(Trouble::input, "",
-                    "the cloud has too many points " + what_for + ": knead takes 4294967295 links in all; " +
-                        what_to_do);
+                    "the cloud has too many points " + what_for + ": knead takes " +
+                        std::to_string(no_index - 1) + " links in all; " + what_to_do);
 }
 
 } // namespace
@@ -125,7 +125,7 @@ void Pipeline::prepare_stages_without_handles(Progress& progress) {
 }
 
 void Pipeline::prepare_order(Progress& progress) {
-    if (!opened_.positions.empty()) return;
+    if (!opened().positions.empty()) return;
     const Stopwatch clock;
     order_ = order_points(cloud_.positions, workers_, progress);
     require(order_.points() > 0, "a pipeline needs a finite point");
@@ -137,13 +137,17 @@ void Pipeline::prepare_order(Progress& progress) {
     if (!normals.empty()) gather(order_, normals, 3, opened.normals, workers_);
     if (order_.vertices() < order_.points())
         merged_positions_ = knead::vertex_positions(order_, opened.positions, workers_);
-    opened_ = std::move(opened);
+    opened_ = std::make_shared<const RestShape>(std::move(opened));
     seconds_.order += clock.seconds();
+}
+
+const RestShape& Pipeline::rest_shape() const {
+    return input_.rest ? *input_.rest : opened();
 }
 
 std::span<const float> Pipeline::vertex_positions() const {
     if (!merged_positions_.empty()) return merged_positions_;
-    return opened_.positions;
+    return opened().positions;
 }
 
 void Pipeline::prepare_points(Progress& progress) {
@@ -181,7 +185,7 @@ void Pipeline::prepare_bridges(Progress& progress) {
 
 // Of the surface, not of its outliers, nor of what joins its parts.
 void Pipeline::find_size() {
-    const AskedVertices asked = ask_vertices(*neighbors_, opened_.positions, order_.first_point, hanging_,
+    const AskedVertices asked = ask_vertices(*neighbors_, opened().positions, order_.first_point, hanging_,
                                              asked_for_size, 1, workers_);
     std::vector<float> positions;
     positions.reserve(3 * asked.vertex.size());
@@ -235,7 +239,7 @@ void Pipeline::prepare_samples(Progress& progress) {
 // Of what territories are made, on the shape as it is at rest.
 void Pipeline::prepare_areas() {
     const Stopwatch clock;
-    const RestShape& rest = input_.rest ? *input_.rest : opened_;
+    const RestShape& rest = rest_shape();
     const std::size_t all = order_.vertices();
     const Asking asking = every_point_ ? Asking{all, 1} : asking_for(base_samples_, all);
     asked_ = ask_vertices(every_point_ ? sample_graph_.graph : *graph_, rest.positions, order_.first_point,
@@ -263,7 +267,7 @@ void Pipeline::find_energy(const SampleRest& rest) {
     energy_ = {};
     const double share = share_of_points(base_samples_, order_.vertices()); // whatever handles add
     if (every_point_ || share == 0) return;
-    const RestShape& shape = input_.rest ? *input_.rest : opened_;
+    const RestShape& shape = rest_shape();
     const PointsBetween between{*graph_,
                                 shape.positions,
                                 order_.first_point,
@@ -289,12 +293,12 @@ void Pipeline::find_link_weights(const SampleRest& rest) {
 
 void Pipeline::prepare_systems() {
     Stopwatch clock;
-    const RestShape& rest_shape = input_.rest ? *input_.rest : opened_;
+    const RestShape& shape = rest_shape();
     SampleRest rest;
     rest.graph = sample_graph_.graph;
     rest.position.reserve(samples_.size());
     for (const Index v : samples_) {
-        rest.position.push_back(point_at(rest_shape.positions, order_.first_point[v]));
+        rest.position.push_back(point_at(shape.positions, order_.first_point[v]));
         rest.handle.push_back(labels_.vertex[v]);
     }
     if (stale_.weights) find_link_weights(rest);
@@ -306,7 +310,7 @@ void Pipeline::prepare_systems() {
     for (const Handle& handle : slots_.handles) rest.turns_freely.push_back(handle.free_rotation);
     std::vector<Vec3d> held;
     for (const Pulled& each : pulled_)
-        held.push_back(point_at(rest_shape.positions, order_.first_point[each.held]));
+        held.push_back(point_at(shape.positions, order_.first_point[each.held]));
     rest.pulled = soft_holds(slots_.handles, pulled_, held, rest);
     if (stale_.energy) find_energy(rest);
     stale_.energy = false;
@@ -335,14 +339,14 @@ Influence Pipeline::influence(Index vertex) const {
 
 // What the upsampler is told, but for what is known of the numbers in it.
 UpsampleInput Pipeline::upsample_input() const {
-    const RestShape& rest = input_.rest ? *input_.rest : opened_;
+    const RestShape& rest = rest_shape();
     return {rest.positions,          rest.normals,  mover_of_point_, &nearest_,
             input_.settings.weights, sample_places_};
 }
 
 void Pipeline::prepare_upsampler() {
     Stopwatch clock;
-    const RestShape& rest = input_.rest ? *input_.rest : opened_;
+    const RestShape& rest = rest_shape();
     for (std::size_t part = 0; part < carried_.size(); ++part) {
         const Index begin = contacts_.first[part], end = contacts_.first[part + 1];
         Vec3d sum = Vec3d::Zero();
@@ -350,15 +354,14 @@ void Pipeline::prepare_upsampler() {
             sum += point_at(rest.positions, order_.first_point[contacts_.vertex[at_contact]]);
         carried_.anchor[part] = sum / static_cast<double>(end - begin);
     }
-    resize_in_large_pages(posed_.positions, rest.positions.size(), workers_);
-    resize_in_large_pages(posed_.normals, rest.normals.size(), workers_);
+    posed_.make_room(rest.positions.size(), rest.normals.size(), workers_);
     written_.resize(blocks_of(order_.points()), 0);
     find_row_ends(nearest_, changed_rows_, row_ends_, workers_);
     for (std::size_t block = 0; block < changed_rows_.size(); ++block)
         if (changed_rows_[block]) note_changed_points(block);
     std::ranges::fill(changed_rows_, std::uint8_t{0});
-    const auto largest = [](const std::vector<Index>& ends) {
-        return ends.empty() ? 0 : std::ranges::max(ends);
+    const auto largest = []<typename End>(const std::vector<End>& ends) {
+        return ends.empty() ? End{0} : std::ranges::max(ends);
     };
     sample_places_ = system_.rest.position;
     UpsampleInput input = upsample_input();

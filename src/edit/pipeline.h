@@ -23,7 +23,6 @@
 //               away to be joined is carried
 // Outliers hang on the surface and do not pull, whatever it says.
 
-#include "base/large_pages.h"
 #include "base/progress.h"
 #include "deform/acceleration.h"
 #include "deform/coarse_level.h"
@@ -33,6 +32,8 @@
 #include "edit/handle_demand.h"
 #include "edit/handle_labels.h"
 #include "edit/handle_slots.h"
+#include "edit/posed_shapes.h"
+#include "edit/rest_shape.h"
 #include "graph/changing_territories.h"
 #include "graph/neighbors.h"
 #include "graph/point_order.h"
@@ -48,15 +49,6 @@
 #include <vector>
 
 namespace knead {
-
-// The shape that an edit starts from, in the order of computation.
-struct RestShape {
-    LineArray<float> positions; // 3n, relative to the cloud's origin
-    LineArray<float> normals;   // 3n, or empty
-    // How each point turned since the cloud was opened: 4n, w x y z. Only committed shapes of clouds of
-    // splats have it, see Pipeline::rotations().
-    std::vector<float> rotations = {};
-};
 
 // All that the stages depend on beside the cloud.
 struct PipelineInput {
@@ -110,16 +102,20 @@ public:
     double follow_coarsely(const std::vector<HandleMotion>& motions, unsigned iterations,
                            CoarseFollowing& following, SampleState& state);
 
-    // Every point's position and normal for a state of the samples, into buffers that the pipeline keeps.
+    // Every point's position and normal for a state of the samples. The shape before is written over unless
+    // somebody keeps it.
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);
-    const RestShape& posed() const { return posed_; }
+    const RestShape& posed() const { return posed_.now(); }
+    std::shared_ptr<const RestShape> keep_posed() { return posed_.keep_now(); }
+    // Takes the memory for shapes while others are kept; upsample() does so itself, else.
+    void make_spare_shapes() { posed_.make_spares(workers_); }
     // The same for whoever draws where the device shares its memory (upsample/drawing.h), but for the last
     // bits of single points that leave rotation free: posed() stays as it was. Null where that is not to be
     // had.
     std::shared_ptr<const DeviceFrame> frame(const std::vector<HandleMotion>& motions,
                                              const SampleState& state);
     // How often upsample() was called, and in which call, from 1, it wrote each block of points
-    // (upsample/point_blocks.h) of posed() last: since then the block has not changed by a bit. What rests -
+    // (upsample/point_blocks.h) last: since then the block has not changed by a bit. What rests -
     // handles that are held still, what lies outside a region of interest, frozen parts - is written once.
     std::uint64_t upsampled() const { return upsampled_; }
     std::span<const std::uint64_t> written() const { return written_; }
@@ -151,7 +147,8 @@ public:
     Influence influence(Index vertex) const;
     Index first_handle_motion() const { return static_cast<Index>(first_handle_motion_); }
     const SampleSystem& system() const { return system_; }
-    const RestShape& opened() const { return opened_; } // the shape in the file
+    const RestShape& opened() const { return *opened_; } // the shape in the file
+    std::shared_ptr<const RestShape> keep_opened() const { return opened_; }
     // How large it is (cloud/extent.h), as its graph tells; 0 before there is one.
     double cloud_size() const { return cloud_size_; }
 
@@ -205,6 +202,7 @@ private:
     void find_energy(const SampleRest& rest);
     void prepare_systems();
     void prepare_upsampler();
+    const RestShape& rest_shape() const; // that this edit starts from
     UpsampleInput upsample_input() const;
     std::span<const float> vertex_positions() const; // as opened
     std::span<const HandleMotion> all_motions(const std::vector<HandleMotion>& motions);
@@ -212,7 +210,7 @@ private:
     template<typename Visit>
     void for_lone_pegs(Visit&& visit) const;
     void make_motions(const std::vector<HandleMotion>& motions, const SampleState& state);
-    void put_exactly(Index sample, const Vec3d& displacement);
+    void put_exactly(Index sample, const Vec3d& displacement, RestShape& posed);
 
     const PointCloud& cloud_;
     Workers& workers_;
@@ -229,7 +227,7 @@ private:
     Stale stale_;
 
     PointOrder order_;
-    RestShape opened_;
+    std::shared_ptr<const RestShape> opened_ = std::make_shared<RestShape>();
     std::vector<float> merged_positions_;    // of the vertices, if they are fewer than the points; else empty
     std::shared_ptr<const Graph> neighbors_; // of the vertices
     std::shared_ptr<const Graph> graph_;     // the same with outliers hung, perhaps bridged
@@ -262,7 +260,7 @@ private:
     std::uint64_t samples_version_ = 0;
 
     std::vector<Index> mover_of_point_;        // as influence_of() reads it
-    std::vector<Index> mover_ends_;            // one past the largest of the points of each block of vertices
+    std::vector<std::size_t> mover_ends_;      // one past the largest of the points of each block of vertices
     MoverNumbers mover_numbers_;               // that they were made with
     std::vector<Vec3d> sample_places_;         // at rest, while the upsampler sees them
     std::vector<std::uint8_t> changed_points_; // blocks of them, as UpsampleInput has it
@@ -277,7 +275,7 @@ private:
     // parts. Those in between move nothing.
     std::vector<Motion> motions_;
     std::size_t first_handle_motion_ = 0;
-    RestShape posed_;
+    PosedShapes posed_;
     std::uint64_t upsampled_ = 0;
     std::vector<std::uint64_t> written_;
 };

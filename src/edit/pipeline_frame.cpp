@@ -108,15 +108,17 @@ std::shared_ptr<const DeviceFrame> Pipeline::frame(const std::vector<HandleMotio
 void Pipeline::upsample(const std::vector<HandleMotion>& motions, const SampleState& state) {
     make_motions(motions, state);
     ++upsampled_;
-    for (const Index block : upsampler_.run(motions_, posed_.positions, posed_.normals, Held::last_frame))
+    const auto [posed, was_written] = posed_.next(workers_);
+    for (const Index block : upsampler_.run(motions_, posed.positions, posed.normals,
+                                            was_written ? Held::last_frame : Held::nothing))
         written_[block] = upsampled_;
-    for_lone_pegs([&](Index s, Index /*handle*/) { put_exactly(s, state.displacement[s]); });
+    for_lone_pegs([&, &to = posed](Index s, Index /*handle*/) { put_exactly(s, state.displacement[s], to); });
 }
 
 // A turn about a point is A p + b in floats, where A p and b cancel but for their rounding: a peg that is
 // held keeps its bytes all the same. In a block that was not written it is there already.
-void Pipeline::put_exactly(Index sample, const Vec3d& displacement) {
-    const RestShape& rest = input_.rest ? *input_.rest : opened_;
+void Pipeline::put_exactly(Index sample, const Vec3d& displacement, RestShape& posed) {
+    const RestShape& rest = rest_shape();
     const Index vertex = samples_[sample];
     for (Index point = order_.first_point[vertex]; point < order_.first_point[vertex + 1]; ++point) {
         const Index held_by = labels_.point[point];
@@ -127,16 +129,16 @@ void Pipeline::put_exactly(Index sample, const Vec3d& displacement) {
             const double way = displacement[static_cast<Eigen::Index>(axis)];
             const float there =
                 way == 0 ? rest.positions[at] : static_cast<float>(double{rest.positions[at]} + way);
-            if (posed_.positions[at] == there) continue;
-            posed_.positions[at] = there;
+            if (posed.positions[at] == there) continue;
+            posed.positions[at] = there;
             written_[point / points_in_block] = upsampled_;
         }
     }
 }
 
 HandleDemand Pipeline::demand(const SampleState& state) const {
-    const RestShape& rest = input_.rest ? *input_.rest : opened_;
-    const Parting parting = parting_of(*graph_, labels_, order_, rest.positions, posed_.positions);
+    const RestShape& rest = rest_shape();
+    const Parting parting = parting_of(*graph_, labels_, order_, rest.positions, posed().positions);
     HandleDemand demand{
         strain_of(system_, state), parting.factor, {}, {}, rounding_of(posed().positions, cloud_size_)};
     const auto name_of = [&](Index label) {

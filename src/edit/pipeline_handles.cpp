@@ -260,10 +260,10 @@ void Pipeline::prepare_influences() {
         if (only_changed && !labels_.changed[block]) return;
         labels_.changed[block] = 0;
         const std::size_t end = std::min((block + 1) * rows_in_block, order_.vertices());
-        Index& mover_end = mover_ends_[block] = 0;
+        std::size_t& mover_end = mover_ends_[block] = 0;
         for (Index i = order_.first_point[block * rows_in_block]; i < order_.first_point[end]; ++i) {
             mover_of_point_[i] = mover_of(i);
-            mover_end = std::max(mover_end, mover_of_point_[i] + 1);
+            mover_end = std::max(mover_end, std::size_t{mover_of_point_[i]} + 1);
         }
     });
     motions_.assign(first_handle_motion_ + outside + 1 + carried_.size(), Motion{});

@@ -81,7 +81,7 @@ struct Tools {
 bool handle_input(Tools& tools, const ToolContext& context, const Input& input,
                   std::vector<Command>& commands);
 
-// Drops whatever is going on, as when the window loses the hand's attention: a drag is cancelled.
+// Drops whatever is going on: a drag is cancelled.
 void drop_everything(Tools& tools, std::vector<Command>& commands);
 
 } // namespace knead

@@ -99,6 +99,18 @@ std::optional<JoinedGraph> with_hanging_outliers(const Graph& graph, std::span<c
     return result;
 }
 
+namespace {
+
+// Two parts that are nearest to each other name the same link, each from its own end.
+std::size_t count_different(Links links) {
+    for (auto& [one, other] : links)
+        if (other < one) std::swap(one, other);
+    std::ranges::sort(links);
+    return static_cast<std::size_t>(std::unique(links.begin(), links.end()) - links.begin());
+}
+
+} // namespace
+
 JoinedGraph bridged(const Graph& graph, std::span<const float> positions, Workers& workers,
                     Progress& progress) {
     progress.step("joining parts", 0);
@@ -113,7 +125,7 @@ JoinedGraph bridged(const Graph& graph, std::span<const float> positions, Worker
     const std::vector<Index> group = standing(components, result.hanging);
     const GroupTree tree = group_tree(positions, group, workers);
     Links links = find_bridges(tree, spacings.around, components, workers);
-    result.joints = links.size();
+    result.joints = count_different(links);
     progress.step("joining parts", 0.7);
     const Links hooks = find_hooks(tree, workers);
     result.outliers = hooks.size();

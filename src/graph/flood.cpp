@@ -111,7 +111,6 @@ template<typename Places>
 class Flood {
 public:
     using Number = NumberOf<Places>;
-    using Old = OldRow<Places>;
 
     Flood(std::vector<Places>& rows, const Graph& graph, std::span<const std::uint8_t> lengths,
           Workers& workers)

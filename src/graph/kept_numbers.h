@@ -13,7 +13,8 @@ struct Numbered {
     Index item, number;
 };
 
-// Numbers for different items in this order, ascending, from `first` up to `end`, which is no number itself.
+// Numbers for different items in this order, ascending, from `first` up to `end`, which is no number itself;
+// those that stay may lie beyond, where `end` was higher before.
 // `before`: the numbers that there were, from the same `first` on. As many of these as the order allows stay,
 // and what is new gets numbers between them; where there is no room for it, all numbers are new. There are no
 // more items than numbers.

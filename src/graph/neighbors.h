@@ -13,7 +13,8 @@
 namespace knead {
 
 // Links every vertex to its k nearest others (all others, if there are fewer), exactly, by FLANN, and back.
-// `positions`: 3 floats a vertex, finite and pairwise different. k ≥ 1.
+// `positions`: 3 floats a vertex, finite and pairwise different. k ≥ 1. Throws Error (input) for more links
+// than an Index can number.
 Graph neighbor_graph(std::span<const float> positions, std::size_t k, Workers& workers, Progress& progress);
 
 // A component for each vertex. Where there is one alone, nothing is stored.

@@ -1,5 +1,5 @@
 #pragma once
-// The samples of a cloud, the graph between them, and which of them move a point.
+// The samples of a cloud, those of the handles among them, and the graph between them.
 
 #include "graph/changing_territories.h"
 #include "graph/flood.h"

@@ -47,10 +47,9 @@ void counts_to_rows(std::vector<Index>& counts) {
         entry = static_cast<Index>(total);
         total += count;
         if (total >= no_index)
-            throw Error(
-                Trouble::input, "",
-                "the cloud has too many points for so many neighbours each: knead takes 4294967295 links "
-                "in all; cut it into pieces");
+            throw Error(Trouble::input, "",
+                        "the cloud has too many points for so many neighbours each: knead takes " +
+                            std::to_string(no_index - 1) + " links in all; cut it into pieces");
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// From lists of directed links to a symmetric graph.
+// From lists of directed links to a symmetric graph. All of these throw Error (input) where it would have
+// more links than an Index can number, both directions counted.
 
 #include "base/workers.h"
 #include "graph/csr.h"

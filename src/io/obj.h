@@ -9,9 +9,9 @@
 //   behind x y z are kept and not understood. A point without a weight or colour gets 1 where others have
 //   one.
 // - vn x y z: normals: columns nx, ny and nz where each belongs to one point alone. That is so if the corners
-//   that name a point all name one normal, which no other point's do (a point of no corner gets 0 0 0); or if
-//   no corner names any, and there are as many normals as points, in the same order. Other normals are kept
-//   as they are, with a remark.
+//   that name a point all name one normal, which no other point's do (a point of no corner gets 0 0 0); and
+//   where there are as many normals as points and no corner names a normal of another number than its
+//   point's, each belongs to the point of its number. Other normals are kept as they are, with a remark.
 // - f, fo, l, p: numbers are checked: a point, a texture coordinate or a normal that is not in the file is an
 //   error.
 
@@ -32,7 +32,6 @@ struct ObjCounts {
     std::size_t texture_coordinates = 0; // vt
     std::size_t normals = 0;             // vn
     std::size_t faces = 0, lines = 0, point_elements = 0;
-    std::size_t corners_with_normals = 0;
 };
 
 // An OBJ file as it was. Its statements are walked again when it is saved.

@@ -73,7 +73,6 @@ public:
     }
 
     void finish(ObjImage& image) && {
-        image.counts.corners_with_normals = corners_with_normals_;
         const ObjCounts& counts = image.counts;
         if (counts.normals == 0) return;
         if (corners_with_normals_ == 0 && counts.normals == counts.points) {

@@ -70,6 +70,8 @@ public:
     }
 
     void normal(TextStatements& statements) {
+        if (normals_.size() / 3 >= no_index - 1)
+            source_.fail(statements.keyword(), "is one normal more than knead takes");
         std::size_t numbers = 0;
         while (const auto word = statements.word()) {
             if (numbers < 3) normals_.push_back(source_.float_number(*word));

@@ -2,6 +2,7 @@
 #include "io/new_columns.h"
 #include "io/patched_copy.h"
 #include "io/ply.h"
+#include "io/posed_values.h"
 #include "io/scalar_bytes.h"
 
 #include <array>
@@ -29,13 +30,13 @@ std::string new_header(std::size_t points, const std::vector<NewColumn>& columns
 void append_list(BlockWriter& out, const NewColumn& column, std::size_t point, const std::string& shown) {
     const Attribute& list = *column.attribute;
     const std::uint64_t length = list.first[point + 1] - list.first[point];
-    std::array<std::byte, 8> count{};
-    store_scalar(static_cast<double>(length), list.count_type, count.data());
-    const std::int64_t stored = load_integer(count.data(), list.count_type, false);
-    if (stored < 0 || static_cast<std::uint64_t>(stored) != length)
+    const auto as_counted = static_cast<double>(length);
+    if (rounded_to(list.count_type, as_counted) != as_counted)
         throw Error(Trouble::output, shown,
                     "the list " + list.name + " of point " + std::to_string(point) + " has " +
                         std::to_string(length) + " values, more than its length's type can count");
+    std::array<std::byte, 8> count{};
+    store_scalar(as_counted, list.count_type, count.data());
     out.append_little(count.data(), 1, size_of(list.count_type));
     const std::size_t size = size_of(list.type);
     if (list.type == column.type)

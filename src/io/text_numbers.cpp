@@ -19,8 +19,9 @@ namespace {
 // Numbers as programs write them beyond the standard: a plus sign, and what old Windows libraries print.
 template<typename Real>
 bool parse_odd_real(std::string_view word, Real& value) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    if (word.empty()) return false;
+    const bool has_plus = word.starts_with('+');
+    if (has_plus) word.remove_prefix(1);
+    if (word.empty() || (has_plus && word.starts_with('-'))) return false;
     const auto [end, trouble] = fast_float::from_chars(word.data(), word.data() + word.size(), value);
     // Out of range leaves an infinity or a zero, the nearest that there is.
     if (trouble != std::errc::invalid_argument && end == word.data() + word.size()) return true;

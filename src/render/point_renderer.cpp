@@ -66,7 +66,7 @@ struct PointRenderer::State {
 
     // --- The overlay ---
     std::vector<OverlayLine> lines;
-    Box3 lines_box;
+    std::optional<Box3> lines_box; // nothing: no lines
     std::uint64_t overlay_version = 0;
 
     // --- The picture in the making ---
@@ -118,9 +118,9 @@ bool PointRenderer::State::matches(const Shown& other) const {
 
 // Takes the projection whose near and far planes enclose the box and the overlay.
 void PointRenderer::State::project_onto(Box3 box) {
-    if (!lines.empty()) {
-        box.lowest = glm::min(box.lowest, lines_box.lowest);
-        box.highest = glm::max(box.highest, lines_box.highest);
+    if (lines_box) {
+        box.lowest = glm::min(box.lowest, lines_box->lowest);
+        box.highest = glm::max(box.highest, lines_box->highest);
     }
     // Room for the splats, and for boxes that are flat.
     const glm::dvec3 room(2 * spacing + 1e-3 * glm::length(box.highest - box.lowest));
@@ -383,11 +383,12 @@ void PointRenderer::set_overlay(std::span<const OverlayLine> lines) {
         box.lowest = glm::min(box.lowest, glm::min(from, to));
         box.highest = glm::max(box.highest, glm::max(from, to));
     }
-    // The planes of the projection enclose the lines as well, so a larger overlay is a new scene.
-    if (!lines.empty() && (s.lines_box.lowest != box.lowest || s.lines_box.highest != box.highest)) {
-        s.lines_box = box;
-        ++s.points_version;
-    }
+    // The planes of the projection enclose the lines as well, so an overlay of another size is a new scene;
+    // where there is none any more, they may stay as they are.
+    const bool is_other =
+        !s.lines_box || s.lines_box->lowest != box.lowest || s.lines_box->highest != box.highest;
+    if (!lines.empty() && is_other) ++s.points_version;
+    s.lines_box = lines.empty() ? std::nullopt : std::optional(box);
     if (s.splats->by_processor()) ++s.points_version;
     ++s.overlay_version;
 }

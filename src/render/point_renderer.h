@@ -91,12 +91,13 @@ public:
     void set_points(std::size_t n, double spacing);
     std::size_t points() const;
 
-    // Each copies n entries: while something is dragged, positions and normals come every frame. Points that
-    // are not finite are not drawn.
+    // While something is dragged, positions and normals come every frame, and few of them may be drawn. So
+    // they are the caller's, and must stay as they are until others are set, or points, or nothing is drawn
+    // any more. Points that are not finite are not drawn.
     void set_positions(std::span<const float> positions); // 3n
     void set_normals(std::span<const float> normals);     // 3n, unit; or empty: none
     // The same of positions and normals that differ from those before in these ranges only, which ascend: no
-    // more is copied.
+    // more is looked at.
     void set_positions(std::span<const float> positions, std::span<const PointRange> changed);
     void set_normals(std::span<const float> normals, std::span<const PointRange> changed);
     // For whoever writes positions, and normals, where they are drawn from: OpenGL's names of the buffers, of
@@ -108,6 +109,7 @@ public:
     };
     DrawnBuffers buffers_to_write();
     void note_written(std::span<const std::array<float, 6>> boxes, std::size_t points_in_box);
+    // These are copied, n entries each.
     void set_colors(std::span<const std::uint32_t> rgba); // bytes r, g, b, ignored
     // How far apart the points lie around each, in the same unit as `spacing`, which is the least that
     // counts: splats are so much wider. Or empty: all alike.

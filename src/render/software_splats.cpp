@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace knead {
 
@@ -41,17 +40,53 @@ struct Group {
 // What is seen of a chunk.
 struct Batch {
     std::span<const std::uint16_t> slots; // that belong to the subset
+    std::span<const std::uint16_t> order; // of the chunk
+    std::size_t end = 0;                  // one past the last of the slots
     std::size_t first = 0, count = 0;     // of the splats
     std::size_t first_group = 0;
     float top = 0, bottom = 0; // the rows that they reach
 };
 
+// Three floats a point, in every chunk in scattered order. They come in that of the cloud, every frame while
+// something is dragged, and then few are drawn: so what is drawn is put in order when it is drawn.
+class ScatteredVectors {
+public:
+    // All of them, of which these chunks are new; the caller's, good until the next call.
+    void take(std::span<const float> vectors, std::span<const Index> chunks) {
+        given_ = vectors;
+        values_.resize(vectors.size());
+        ready_.resize(chunks_of(vectors.size() / 3), 0);
+        for (const Index chunk : chunks) ready_[chunk] = 0;
+    }
+    // Before slots of a chunk are asked for: it puts the first `count` in order, of which `order` tells the
+    // places. Different chunks may have different threads.
+    void make_ready(std::size_t chunk, std::span<const std::uint16_t> order, std::size_t count) {
+        std::uint16_t& ready = ready_[chunk];
+        const float* const own = given_.data() + 3 * chunk * points_in_chunk;
+        float* const kept = values_.data() + 3 * chunk * points_in_chunk;
+        for (std::size_t slot = ready; slot < count; ++slot)
+            for (std::size_t i = 0; i < 3; ++i) kept[3 * slot + i] = own[3 * std::size_t{order[slot]} + i];
+        ready = std::max(ready, static_cast<std::uint16_t>(count));
+    }
+    // Of the point in this slot, counted through all chunks.
+    const float* operator[](std::size_t slot) const { return &values_[3 * slot]; }
+
+private:
+    std::span<const float> given_;
+    std::vector<float> values_;
+    std::vector<std::uint16_t> ready_; // slots of each chunk, from the first one on
+};
+
 // In every chunk in scattered order.
 struct Points {
-    std::vector<float> positions, normals;
+    ScatteredVectors positions, normals;
     std::vector<std::uint32_t> tinted;
     std::vector<std::uint8_t> widths; // or empty
 };
+
+std::size_t end_of(std::span<const std::uint16_t> slots) {
+    return slots.empty() ? 0 : std::size_t{std::ranges::max(slots)} + 1;
+}
 
 // Times the usual width.
 float width_of(std::uint8_t width) {
@@ -80,7 +115,7 @@ std::uint32_t lit(std::uint32_t color, const float* normal, const SplatView& vie
 bool project(const Points& points, std::size_t i, const SplatView& view, const Pixels& layer, Splat& splat) {
     const std::uint32_t color = points.tinted[i];
     if (color == 0) return false; // hidden
-    const float* p = &points.positions[3 * i];
+    const float* p = points.positions[i];
     const glm::vec4 clip =
         view.to_clip[0] * p[0] + view.to_clip[1] * p[1] + view.to_clip[2] * p[2] + view.to_clip[3];
     if (!(clip.z >= -clip.w && clip.z < clip.w)) return false; // nor if not finite
@@ -95,7 +130,7 @@ bool project(const Points& points, std::size_t i, const SplatView& view, const P
           splat.y < height + splat.radius))
         return false;
     splat.depth = 0.5f + 0.5f * clip.z * part;
-    splat.color = view.shaded ? lit(color, &points.normals[3 * i], view) : color;
+    splat.color = view.shaded ? lit(color, points.normals[i], view) : color;
     splat.bulge = 0;
     if (splat.radius > square_radius) {
         // As in points.vert: the rim of a splat lies a third of its radius behind its middle.
@@ -202,25 +237,20 @@ public:
 
     void set_points(std::size_t n) override {
         last_order_ = scattered_order(n % points_in_chunk);
-        points_.positions.resize(3 * n);
         points_.tinted.resize(n);
         points_.widths.clear();
-        all_chunks_.resize(chunks_of(n));
-        std::iota(all_chunks_.begin(), all_chunks_.end(), Index{0});
     }
     void set_positions(std::span<const float> positions, std::span<const Index> chunks) override {
-        scatter<3>(positions, chunks, points_.positions);
+        points_.positions.take(positions, chunks);
     }
     void set_normals(std::span<const float> normals, std::span<const Index> chunks) override {
-        scatter<3>(normals, chunks, points_.normals);
+        points_.normals.take(normals, chunks);
     }
     void set_widths(std::span<const std::uint8_t> widths) override {
         points_.widths.clear();
-        if (!widths.empty()) scatter<1>(widths, all_chunks_, points_.widths);
+        if (!widths.empty()) scatter(widths, points_.widths);
     }
-    void set_tinted(std::span<const std::uint32_t> tinted) override {
-        scatter<1>(tinted, all_chunks_, points_.tinted);
-    }
+    void set_tinted(std::span<const std::uint32_t> tinted) override { scatter(tinted, points_.tinted); }
 
     // The result does not depend on the number of threads: every band of rows belongs to one, who draws all
     // splats in their order.
@@ -228,7 +258,10 @@ public:
                      const SplatView& view, Layer& /*layer*/, bool clear) override {
         if (clear) clear_pixels(view.viewport);
         const std::size_t drawn = make_room(ranges, subset, stride);
-        workers_.for_each(ranges.size(), 4, [&](std::size_t r) { see(ranges[r].first, view, batches_[r]); });
+        workers_.for_each(ranges.size(), 4, [&](std::size_t r) {
+            make_ready(ranges[r].first / points_in_chunk, view.shaded, batches_[r]);
+            see(ranges[r].first, view, batches_[r]);
+        });
         const auto bands = static_cast<std::size_t>((pixels_.height + rows_in_band - 1) / rows_in_band);
         workers_.for_each(bands, 1,
                           [&](std::size_t band) { draw_band(static_cast<int>(band) * rows_in_band); });
@@ -256,17 +289,14 @@ private:
         return (chunk + 1) * points_in_chunk <= points ? order_ : last_order_;
     }
 
-    // `size` numbers a point.
-    template<std::size_t size, typename Number>
-    void scatter(std::span<const Number> from, std::span<const Index> chunks, std::vector<Number>& to) {
+    // A number a point.
+    template<typename Number>
+    void scatter(std::span<const Number> from, std::vector<Number>& to) {
         to.resize(from.size());
-        const std::size_t points = from.size() / size;
-        workers_.for_each(chunks.size(), 16, [&](std::size_t at) {
-            const std::size_t chunk = chunks[at];
-            const Number* const own = from.data() + size * chunk * points_in_chunk;
-            Number* next = to.data() + size * chunk * points_in_chunk;
-            for (const std::uint16_t place : order_of(chunk, points))
-                for (std::size_t i = 0; i < size; ++i) *next++ = own[size * place + i];
+        workers_.for_each(chunks_of(from.size()), 16, [&](std::size_t chunk) {
+            const Number* const own = from.data() + chunk * points_in_chunk;
+            Number* next = to.data() + chunk * points_in_chunk;
+            for (const std::uint16_t place : order_of(chunk, from.size())) *next++ = own[place];
         });
     }
 
@@ -287,12 +317,15 @@ private:
         const PartOfChunk own = part_of_chunk(subset, stride);
         slots_ = slots_of_part(order_, own.part, own.parts);
         last_slots_ = slots_of_part(last_order_, own.part, own.parts);
+        const std::size_t slots_end = end_of(slots_), last_slots_end = end_of(last_slots_);
         batches_.resize(ranges.size());
         std::size_t room = 0, groups = 0;
         for (std::size_t r = 0; r < ranges.size(); ++r) {
             Batch& batch = batches_[r];
             const bool whole = ranges[r].end - ranges[r].first == points_in_chunk;
             batch.slots = whole ? slots_ : last_slots_;
+            batch.order = whole ? order_ : last_order_;
+            batch.end = whole ? slots_end : last_slots_end;
             if (ranges[r].first / points_in_chunk % own.step != own.rest) batch.slots = {};
             batch.first = room;
             batch.first_group = groups;
@@ -302,6 +335,12 @@ private:
         if (splats_.size() < room) splats_.resize(room);
         groups_.resize(groups);
         return room;
+    }
+
+    void make_ready(std::size_t chunk, bool shaded, const Batch& batch) {
+        if (batch.slots.empty()) return;
+        points_.positions.make_ready(chunk, batch.order, batch.end);
+        if (shaded) points_.normals.make_ready(chunk, batch.order, batch.end);
     }
 
     void see(std::size_t first_point, const SplatView& view, Batch& batch) {
@@ -341,7 +380,6 @@ private:
     Workers& workers_;
     const std::vector<std::uint16_t> order_ = scattered_order(points_in_chunk);
     std::vector<std::uint16_t> last_order_; // of the last chunk, if that is smaller
-    std::vector<Index> all_chunks_;
     Points points_;
     Pixels pixels_;
     SoftwareScreen screen_;

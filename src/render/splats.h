@@ -49,7 +49,8 @@ public:
     virtual ~Splats() = default;
 
     virtual void set_points(std::size_t n) = 0; // the rest comes before draw()
-    // All of them, of which these chunks differ from those before; the first time all chunks.
+    // All of them, of which these chunks differ from those before; the first time all chunks. The caller's,
+    // and good until the next ones come.
     virtual void set_positions(std::span<const float> positions, std::span<const Index> chunks) = 0;
     virtual void set_normals(std::span<const float> normals, std::span<const Index> chunks) = 0; // not empty
     // That these are drawn from, whose contents others may write; 0 where the processor draws, and for

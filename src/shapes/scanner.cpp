@@ -214,8 +214,8 @@ PointCloud scan(const ScannedBody& body, const std::vector<Viewpoint>& viewpoint
     require(options.points > options.strays, "a scan needs a point that is no stray");
     const Scan scan = shoot_enough(body, viewpoints, options, workers, progress);
     const Counts& found = scan.totals();
-    const std::size_t fewest_in_air = options.strays - std::min(options.strays, found[in_the_air]);
-    const std::size_t flying = std::clamp(options.strays / 2, fewest_in_air, found[behind_silhouette]);
+    const std::size_t fewest_flying = options.strays - std::min(options.strays, found[in_the_air]);
+    const std::size_t flying = std::clamp(options.strays / 2, fewest_flying, found[behind_silhouette]);
     const Counts wanted{options.points - options.strays, flying, options.strays - flying};
     std::array<EvenChoice, kinds> choices;
     for (std::size_t kind = 0; kind < kinds; ++kind)

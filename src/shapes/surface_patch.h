@@ -41,7 +41,7 @@ struct SamplingOptions {
 void sample_patches(const std::vector<SurfacePatch>& patches, const SamplingOptions& options,
                     PointColumns& columns, Workers& workers, Progress& progress);
 
-// The fraction of a cell's side in which its point may lie, and the place drawn in it.
+// The place of a point in its cell along one side, in cells: anywhere in the inner 80 %. `random`: 0 … 1.
 inline double jittered(double cell, double random) {
     constexpr double share = 0.8;
     return cell + 0.5 + share * (random - 0.5);

@@ -48,30 +48,41 @@ void ChangedBlocks::prepare(const UpsampleInput& input, std::size_t motions, Wor
         mover = place[motion];
     }
     before_.assign(lone_motions_.size(), {});
-    is_other_.assign(lone_motions_.size(), 1);
+    since_.assign(lone_motions_.size(), 0);
     changed_.clear();
     changed_.reserve(lone_mover_.size());
     last_is_whole_ = false;
+    frame_ = 0;
+}
+
+// Returns the frame that these spans hold, as far as is known.
+std::uint64_t ChangedBlocks::begin_frame_in(Target target) {
+    if (!last_is_whole_) targets_.fill({});
+    last_is_whole_ = false;
+    const auto same = std::ranges::find_if(targets_, [&](const Target& known) {
+        return known.positions == target.positions && known.normals == target.normals;
+    });
+    const auto last = same == targets_.end() ? targets_.end() - 1 : same;
+    const std::uint64_t holds = same == targets_.end() ? 0 : same->frame;
+    std::move_backward(targets_.begin(), last, last + 1);
+    targets_.front() = target;
+    return holds;
 }
 
 std::span<const Index> ChangedBlocks::of_frame(std::span<const PackedMotion> motions,
                                                std::span<const float> positions,
                                                std::span<const float> normals, Held held) {
-    const bool goes_on = last_is_whole_ && held == Held::last_frame && positions.data() == positions_ &&
-                         normals.data() == normals_;
-    last_is_whole_ = false;
-    positions_ = positions.data();
-    normals_ = normals.data();
+    const std::uint64_t known = begin_frame_in({positions.data(), normals.data(), ++frame_});
+    const std::uint64_t holds = held == Held::last_frame ? known : 0;
     for (std::size_t m = 0; m < lone_motions_.size(); ++m) {
         const PackedMotion& now = motions[lone_motions_[m]];
-        is_other_[m] = same_bits(before_[m], now) ? 0 : 1;
+        if (frame_ == 1 || !same_bits(before_[m], now)) since_[m] = frame_;
         before_[m] = now;
     }
     changed_.clear();
     for (std::size_t block = 0; block < lone_mover_.size(); ++block) {
         const Index lone = lone_mover_[block];
-        if (!goes_on || lone == no_index || is_other_[lone] != 0)
-            changed_.push_back(static_cast<Index>(block));
+        if (lone == no_index || since_[lone] > holds) changed_.push_back(static_cast<Index>(block));
     }
     return changed_;
 }

@@ -42,7 +42,8 @@ void require_valid_input(const UpsampleInput& input, std::size_t motions, Worker
     require(input.normals.empty() || input.normals.size() == 3 * points, "a normal for every point, or none");
     if (points == 0) return;
     require(input.rows != nullptr, "points need influences");
-    const std::size_t movers = input.mover_end ? *input.mover_end : largest_of(input.mover, workers) + 1;
+    const std::size_t movers =
+        input.mover_end ? *input.mover_end : std::size_t{largest_of(input.mover, workers)} + 1;
     require(movers <= input.rows->size() + motions, "what moves a point exists");
     require(input.places.size() <= std::min<std::size_t>(motions, input.rows->first_handle),
             "samples alone have places, and a motion each");

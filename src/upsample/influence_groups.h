@@ -41,7 +41,7 @@ inline Index first_without_place(const UpsampleInput& input) {
 class InfluenceGroups {
 public:
     // Takes who moves which points. Only blocks that `input.changed` names are made again where all else is
-    // as before. Throws Error (numeric) where there are more entries than Index can count.
+    // as before. Throws Error (input) where there are more entries than Index can count.
     void prepare(const UpsampleInput& input, Workers& workers);
 
     // One for every sixteen points; of the last one those points that there are.

@@ -44,10 +44,10 @@ OpenedDevice open_device(const OpenClDevice& device, unsigned threads, const GlS
     return opened;
 }
 
-// A buffer for one of the results, and the caller's array that it wraps or is read into.
-struct Result {
+// A buffer that is the caller's array, on a device that shares the processor's memory.
+struct Wrapped {
+    std::span<float> array;
     BufferHandle buffer;
-    std::span<float> wrapped;
 };
 
 class OpenClUpsampler final : public Upsampler {
@@ -78,8 +78,10 @@ public:
         input_ = {};
         motion_count_ = motions;
         if (input.mover.empty()) influences_ = {};
-        moved_positions_ = {};
-        moved_normals_ = {};
+        moved_positions_.reset();
+        moved_normals_.reset();
+        wrapped_.clear();
+        wrapped_.reserve(2 * most_targets + 1);
         on_device_.reset();
         spent_motions_ = no_spent_motions();
         if (!opened_.queue) opened_ = open_device(device_, threads_, sharing_.get());
@@ -187,10 +189,10 @@ private:
     }
 
     void make_results(const UpsampleInput& input) {
-        moved_positions_.buffer =
+        moved_positions_ =
             make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, input.positions.size_bytes(), nullptr);
         if (!input.normals.empty())
-            moved_normals_.buffer =
+            moved_normals_ =
                 make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY, input.normals.size_bytes(), nullptr);
     }
 
@@ -211,19 +213,16 @@ private:
 
     // The frame's motions are packed.
     void move(std::span<const Index> blocks, std::span<float> positions, std::span<float> normals) {
-        if (shares_memory_) {
-            wrap(positions, moved_positions_);
-            if (!normals.empty()) wrap(normals, moved_normals_);
-        }
+        cl_mem const moved_positions = result_in(positions, moved_positions_);
+        cl_mem const moved_normals = normals.empty() ? nullptr : result_in(normals, moved_normals_);
         EventHandle done = write_motions();
         const bool is_listed = std::ranges::equal(blocks, std::span(listed_).first(listed_count_));
         listed_count_ = 0; // until this frame has succeeded nobody knows what the device has
         if (!is_listed) done = write_blocks(blocks, After(done));
-        done = launch_moving(input_.mover.size(), blocks.size(), moved_positions_.buffer.get(),
-                             moved_normals_.buffer.get(), After(done));
+        done = launch_moving(input_.mover.size(), blocks.size(), moved_positions, moved_normals, After(done));
         note_ranges(blocks);
-        done = read(moved_positions_, positions, normals.empty(), std::move(done));
-        if (!normals.empty()) read(moved_normals_, normals, true, std::move(done));
+        done = read(moved_positions, positions, normals.empty(), std::move(done));
+        if (!normals.empty()) read(moved_normals, normals, true, std::move(done));
         listed_count_ = blocks.size();
     }
 
@@ -239,12 +238,21 @@ private:
                             "writing what moves");
     }
 
-    void wrap(std::span<float> array, Result& result) {
-        if (result.wrapped.data() == array.data() && result.wrapped.size() == array.size()) return;
-        result = {};
-        result.buffer = make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY | CL_MEM_USE_HOST_PTR,
-                                    array.size_bytes(), array.data());
-        result.wrapped = array;
+    // Where the device writes what goes into this array: into the array itself where memory is shared.
+    cl_mem result_in(std::span<float> array, const BufferHandle& of_device) {
+        if (!shares_memory_) return of_device.get();
+        const auto known = std::ranges::find_if(wrapped_, [&](const Wrapped& one) {
+            return one.array.data() == array.data() && one.array.size() == array.size();
+        });
+        if (known != wrapped_.end()) {
+            std::rotate(known, known + 1, wrapped_.end()); // the last one used comes last
+        } else {
+            wrapped_.push_back(
+                {array, make_buffer(opened_.context.get(), CL_MEM_WRITE_ONLY | CL_MEM_USE_HOST_PTR,
+                                    array.size_bytes(), array.data())});
+            if (wrapped_.size() > 2 * most_targets) wrapped_.erase(wrapped_.begin());
+        }
+        return wrapped_.back().buffer.get();
     }
 
     // Moves what the first so many blocks of the list have of the first `points`.
@@ -264,13 +272,13 @@ private:
     }
 
     // Makes what moved visible in the caller's array. `waits`: until that is done.
-    EventHandle read(const Result& result, std::span<float> array, bool waits, EventHandle done) {
+    EventHandle read(cl_mem result, std::span<float> array, bool waits, EventHandle done) {
         for (const PointRange& range : ranges_) {
             const std::span<float> part = array.subspan(3 * range.first, 3 * (range.end - range.first));
             const bool is_last = &range == &ranges_.back();
             const After after(done);
             cl_event read = nullptr;
-            check_opencl(clEnqueueReadBuffer(opened_.queue.get(), result.buffer.get(),
+            check_opencl(clEnqueueReadBuffer(opened_.queue.get(), result,
                                              waits && is_last ? CL_TRUE : CL_FALSE,
                                              3 * range.first * sizeof(float), part.size_bytes(), part.data(),
                                              after.count(), after.list(), &read),
@@ -301,7 +309,8 @@ private:
     std::size_t listed_count_ = 0;
     std::vector<PointRange> ranges_; // of them, that are read
     BufferHandle motions_, blocks_;
-    Result moved_positions_, moved_normals_;
+    BufferHandle moved_positions_, moved_normals_; // in the device's own memory, where it has any
+    std::vector<Wrapped> wrapped_;                 // else: the one used last comes last
 };
 
 } // namespace

@@ -57,7 +57,8 @@ struct UpsampleInput {
     std::span<const Vec3d> places = {}; // p_s of all samples, at rest, for smooth weights
     // One past the largest number in all rows, and one past the largest mover, if they are known: prepare()
     // reads them all to find out, else.
-    std::optional<Index> rows_end = std::nullopt, mover_end = std::nullopt;
+    std::optional<Index> rows_end = std::nullopt;
+    std::optional<std::size_t> mover_end = std::nullopt;
     // Of each block of points (point_blocks.h) 0 if what moves it is as it was when prepare() was called
     // last, with these same arrays, and with the points and the samples in the same places; empty if that is
     // not known.
@@ -72,9 +73,13 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-// What the caller's spans hold when a frame begins. The points of last_frame are those that the last frame
-// wrote into the same spans, and nobody has touched them since.
+// What the caller's spans hold when a frame begins: nothing that counts, or what the last frame that was
+// written into the same spans wrote, and nobody has touched it since.
 enum class Held { nothing, last_frame };
+
+// A caller may write its frames into so many arrays in turn, as who shows one while the next is made: of more
+// they are taken to hold nothing.
+inline constexpr std::size_t most_targets = 4;
 
 // Moves all points. One object a device; set-up and per-frame work are separate. One thread at a time.
 class Upsampler {
@@ -92,14 +97,14 @@ public:
 
     // One frame: takes all `motions` that prepare() was told of, for 3n posed positions, and 3n normals if
     // the input had them (else `normals` must be empty). The results must not overlap the rest shape. The
-    // spans are the caller's; on a CPU device nothing is copied on the way if they are the same
-    // as in the last frame. Allocates nothing after the first frame.
+    // spans are the caller's; on a CPU device nothing is copied on the way. Allocates nothing after the first
+    // frame into each of most_targets spans.
     //
     // With Held::last_frame a frame costs what moves: blocks of points (point_blocks.h) that one motion alone
-    // moves, and that it moved in the last frame as in this one, are not computed, written or fetched from
-    // the device again. Those are handles that are held still, what lies outside a region of interest, and
-    // parts that nothing moves. In the first frame after prepare(), and after one that failed, nothing counts
-    // as held. Every bit is the same either way.
+    // moves, and that it moved in the frame that the spans hold, and ever since, as in this one, are not
+    // computed, written or fetched from the device again. Those are handles that are held still, what lies
+    // outside a region of interest, and parts that nothing moves. In the first frame after prepare(), and
+    // after one that failed, nothing counts as held. Every bit is the same either way.
     //
     // Returns the blocks that were written, ascending, good until the next call.
     virtual std::span<const Index> run(std::span<const Motion> motions, std::span<float> positions,

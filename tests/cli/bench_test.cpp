@@ -1,4 +1,4 @@
-// `knead bench` and `knead evaluate` from outside.
+// `knead bench` from outside.
 
 #include "support/run_knead.h"
 #include "support/scratch_folder.h"
@@ -67,24 +67,6 @@ TEST(Bench, RefusesWrongUsage) {
         EXPECT_TRUE(outcome.out.empty());
         EXPECT_FALSE(outcome.err.empty());
     }
-}
-
-TEST(Evaluate, PrintsALikenessWithoutSurveyAndScans) {
-    const ScratchFolder empty;
-    const std::string folder = empty.path().string();
-    const Outcome outcome =
-        run_knead({"evaluate", "--json", "--survey", folder, "--scans", folder, "--shape", "made-cylinder"});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    const json told = json::parse(outcome.out);
-    EXPECT_EQ(told.at("survey"), false);
-    ASSERT_EQ(told.at("tasks").size(), 1U);
-    EXPECT_EQ(told.at("tasks").at(0).at("name"), "made-cylinder");
-}
-
-TEST(Evaluate, RefusesWrongUsage) {
-    EXPECT_EQ(run_knead({"evaluate", "--shape", "teapot"}).code, 2);
-    EXPECT_EQ(run_knead({"evaluate", "--survey", "/nonexistent"}).code, 2);
-    EXPECT_EQ(run_knead({"evaluate", "bar"}).code, 2);
 }
 
 } // namespace

@@ -11,11 +11,13 @@ namespace knead::test {
 
 struct BentBar {
     SampleSystem system;
-    Workers workers{2};
+    Workers workers;
     std::vector<HandleMotion> handles{
         {}, motion_about(Vec3d(1, 0, 0), 100 * degrees, Vec3d(0, 0, 0), Vec3d(0.3, -1, 0.2))};
 
-    explicit BentBar(SampleRest rest = bar(1200)) { EXPECT_TRUE(built(std::move(rest), system).solved); }
+    explicit BentBar(SampleRest rest = bar(1200), unsigned threads = 2) : workers(threads) {
+        EXPECT_TRUE(built(std::move(rest), system, threads).solved);
+    }
 
     SampleState started() {
         SampleState state = rest_state(system);

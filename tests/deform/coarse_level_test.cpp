@@ -17,7 +17,8 @@ namespace {
 struct Bar : test::BentBar {
     CoarseLevel coarse;
 
-    explicit Bar(SampleRest rest = test::bar(1200)) : BentBar(std::move(rest)) {
+    explicit Bar(SampleRest rest = test::bar(1200), unsigned threads = 2)
+        : BentBar(std::move(rest), threads) {
         coarse.samples = coarse_samples(system.rest.graph, system.rest.position, system.rest.handle, workers);
         EXPECT_TRUE(build_coarse_level(system, coarse, workers).solved);
     }
@@ -132,12 +133,7 @@ TEST(CoarseLevel, IsGivenUpWhereItDoesNotHelp) {
 TEST(CoarseLevel, GivesTheSameBitsAgainAndForAnyNumberOfThreads) {
     std::vector<SampleState> results;
     for (const unsigned threads : {1U, 2U, 3U, 2U}) {
-        Bar bar;
-        Workers workers(threads);
-        SampleState state = bar.started();
-        Acceleration memory;
-        for (int i = 0; i < 4; ++i) iterate(bar.system, bar.coarse, bar.handles, state, memory, workers);
-        results.push_back(state);
+        results.push_back(Bar(test::bar(1200), threads).helped(4));
     }
     for (const SampleState& result : results)
         for (std::size_t s = 0; s < result.displacement.size(); ++s)

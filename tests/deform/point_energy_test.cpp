@@ -151,7 +151,6 @@ TEST(PointEnergy, IsTheSumOverThePoints) {
     EXPECT_NEAR(of_pairs, of_points, 1e-9 * of_points);
 }
 
-// Of many points some are asked, and evenly: no part of the bar tells more than where all its points are.
 TEST(PointEnergy, CountsAreasAsTheBaseSamplesSay) {
     Held held;
     const PointEnergy plain = held.energy(InfluenceWeights::smooth, 2);
@@ -173,6 +172,7 @@ TEST(PointEnergy, CountsAreasAsTheBaseSamplesSay) {
         }
 }
 
+// Of many points some are asked, and evenly: no part of the bar tells more than where all its points are.
 TEST(PointEnergy, AsksSomeOfManyPointsEverywhere) {
     const Held few(6000), many(60'000);
     const auto shares = [](const Held& held) { // of the confidence, along the bar

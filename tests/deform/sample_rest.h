@@ -59,8 +59,8 @@ inline Vec3d posed(const SampleSystem& system, const SampleState& state, std::si
 }
 
 // build_system() with workers of its own.
-inline FactorOutcome built(SampleRest rest, SampleSystem& system) {
-    Workers workers(2);
+inline FactorOutcome built(SampleRest rest, SampleSystem& system, unsigned threads = 2) {
+    Workers workers(threads);
     return build_system(std::move(rest), system, workers);
 }
 

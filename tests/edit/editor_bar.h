@@ -44,7 +44,7 @@ protected:
     }
 
     std::size_t points_between(double low, double high) {
-        const std::vector<float>& positions = editor_.frame.positions;
+        const LineArray<float>& positions = editor_.frame.positions();
         std::size_t count = 0;
         for (std::size_t i = 2; i < positions.size(); i += 3)
             count += positions[i] >= static_cast<float>(low) && positions[i] <= static_cast<float>(high);

@@ -49,6 +49,67 @@ TEST_F(BarEditor, KnowsThePoseOfDragsThatTheDocumentHasNotAnswered) {
     EXPECT_EQ(turned(editor_), 0);
 }
 
+TEST_F(BarEditor, KnowsThePosesOfSeveralHandlesThatTheDocumentHasNotAnswered) {
+    make_handles();
+    select_heights(-0.5, 0.5);
+    apply(editor_, MakeHandle{HandleRole::moving, "middle"});
+    calm();
+    const auto choose_and_turn = [&](const char* handle, double degrees) {
+        apply(editor_, ChooseHandle{handle});
+        turn_by(editor_, degrees);
+    };
+    choose_and_turn("high", 10);
+    choose_and_turn("middle", 5);
+    choose_and_turn("high", 20);
+    EXPECT_NEAR(turned(editor_), 30, 1e-6);
+    apply(editor_, BeginDrag{});
+    apply(editor_, CancelDrag{});
+    EXPECT_NEAR(turned(editor_), 30, 1e-6) << "what was cancelled is not what went before";
+    apply(editor_, ChooseHandle{"middle"});
+    EXPECT_NEAR(turned(editor_), 5, 1e-6);
+    apply(editor_, ChooseHandle{"high"});
+    calm();
+    EXPECT_NEAR(turned(editor_), 30, 1e-6) << "as the document counted it";
+    EXPECT_TRUE(editor_.earlier_drags.empty() && !editor_.drag);
+}
+
+TEST_F(BarEditor, ResetsAndMirrorsAPoseThatTheDocumentHasNotAnswered) {
+    make_handles();
+    apply(editor_, ChooseHandle{"high"});
+    calm();
+    const LineArray<float> rest = editor_.frame.positions();
+    turn_by(editor_, 30);
+    apply(editor_, ResetPose{"high"});
+    calm();
+    EXPECT_EQ(editor_.past.size(), 4U + 2U) << "two selections and handles, a turn and its way back";
+    EXPECT_EQ(turned(editor_), 0);
+    turn_by(editor_, 40);
+    apply(editor_, MirrorHandle{"high", 0});
+    calm();
+    for (const Notice& notice : editor_.notices)
+        EXPECT_EQ(notice.words.find("no pose to mirror"), std::string::npos) << notice.words;
+    ASSERT_EQ(editor_.document->handles.size(), 3U);
+}
+
+TEST_F(BarEditor, ADragThatEndsIsOfTheHandleThatItBeganWith) {
+    make_handles();
+    select_heights(-0.5, 0.5);
+    apply(editor_, MakeHandle{HandleRole::moving, "middle"});
+    calm();
+    editor_.pivots["high"] = {1, 0, 2};
+    editor_.pivots["middle"] = {0, 0, 0.25};
+    apply(editor_, ChooseHandle{"high"});
+    Transform shift;
+    shift.shift = {0, 0, 1};
+    apply(editor_, BeginDrag{});
+    apply(editor_, DragTo{shift});
+    apply(editor_, ChooseHandle{"middle"});
+    apply(editor_, EndDrag{});
+    calm();
+    EXPECT_EQ(pivot_of(editor_, "high"), glm::dvec3(1, 0, 3));
+    EXPECT_EQ(pivot_of(editor_, "middle"), glm::dvec3(0, 0, 0.25));
+}
+
 TEST_F(BarEditor, BeginsNoDragBeforeTheOneThatGoesOnHasEnded) {
     make_handles();
     apply(editor_, ChooseHandle{"high"});

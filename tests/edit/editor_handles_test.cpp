@@ -63,7 +63,7 @@ TEST_F(BarEditor, AMirroredHandleIsWoundUpAsTheOtherIs) {
         double sine = 0, cosine = 0;
         for (std::size_t i = 0; i < rest.size(); i += 3) {
             if (std::abs(static_cast<double>(rest[i + 2]) - z) > 0.1) continue;
-            const float* now = editor_.frame.positions.data() + i;
+            const float* now = editor_.frame.positions().data() + i;
             sine += static_cast<double>(rest[i] * now[1] - rest[i + 1] * now[0]);
             cosine += static_cast<double>(rest[i] * now[0] + rest[i + 1] * now[1]);
         }
@@ -206,7 +206,7 @@ TEST_F(BarEditor, AnotherColorLeavesThePoseAndIsAStepToUndo) {
     calm();
     editor_.chosen = "high";
     turn_chosen("40");
-    const std::vector<float> posed = editor_.frame.positions;
+    const LineArray<float> posed = editor_.frame.positions();
     editor_.notices.clear();
     apply(editor_, ColorHandle{"low", 0x123456});
     calm();
@@ -223,7 +223,7 @@ TEST_F(BarEditor, AnotherColorLeavesThePoseAndIsAStepToUndo) {
     calm();
     EXPECT_FALSE(color().has_value());
     EXPECT_TRUE(editor_.document->posed);
-    EXPECT_EQ(editor_.frame.positions, posed);
+    EXPECT_EQ(editor_.frame.positions(), posed);
     apply(editor_, RedoStep{});
     calm();
     EXPECT_EQ(color(), 0x123456U);
@@ -418,7 +418,7 @@ TEST_F(BarEditor, AChangedHandleLeavesLaterOnesTheirPoints) {
         calm();
     }
     const std::vector<std::uint8_t> marks = editor_.marks;
-    const std::vector<float> rest = editor_.frame.positions;
+    const LineArray<float> rest = editor_.frame.positions();
     apply(editor_, ChangeHold{"high", false, 0.25});
     calm();
     std::vector<std::string> order;

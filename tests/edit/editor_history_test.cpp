@@ -71,18 +71,18 @@ TEST_F(BarEditor, MirroringAfterACommitSaysThatThereIsNoPose) {
 
 TEST_F(BarEditor, ResettingAPoseOfAWholeTurnUnwindsIt) {
     make_handles();
-    const std::vector<float> rest = editor_.frame.positions;
+    const LineArray<float> rest = editor_.frame.positions();
     transform_chosen('R', 'Z', "360");
     apply(editor_, ResetPose{"high"});
     calm();
-    ASSERT_EQ(editor_.frame.positions.size(), rest.size());
+    ASSERT_EQ(editor_.frame.positions().size(), rest.size());
     float farthest = 0;
     for (std::size_t i = 0; i < rest.size(); ++i)
-        farthest = std::max(farthest, std::abs(editor_.frame.positions[i] - rest[i]));
+        farthest = std::max(farthest, std::abs(editor_.frame.positions()[i] - rest[i]));
     EXPECT_LT(farthest, 1e-3F);
     apply(editor_, UndoStep{});
     calm();
-    EXPECT_NE(editor_.frame.positions, rest);
+    EXPECT_NE(editor_.frame.positions(), rest);
 }
 
 TEST_F(BarEditor, WhatIsPostedIsUnsavedBeforeItIsDone) {
@@ -150,7 +150,7 @@ TEST_F(BarEditor, HandlesOfAnotherSessionAreNoWayRoundThat) {
 TEST_F(BarEditor, AStepThatIsRefusedLosesNothingToRedo) {
     make_handles();
     turn_chosen("40");
-    const std::vector<float> turned = editor_.frame.positions;
+    const LineArray<float> turned = editor_.frame.positions();
     apply(editor_, UndoStep{});
     calm();
     ASSERT_TRUE(can_redo(editor_));
@@ -167,7 +167,25 @@ TEST_F(BarEditor, AStepThatIsRefusedLosesNothingToRedo) {
     ASSERT_TRUE(can_redo(editor_));
     apply(editor_, RedoStep{});
     calm();
-    EXPECT_EQ(editor_.frame.positions, turned);
+    EXPECT_EQ(editor_.frame.positions(), turned);
+}
+
+// The list still shows the handle whose making was undone.
+TEST_F(BarEditor, DeletingAHandleThatIsGoneCommitsNothing) {
+    make_handles();
+    apply(editor_, ChooseHandle{"high"});
+    turn_chosen("40");
+    select_heights(-0.5, 0.5);
+    apply(editor_, MakeHandle{HandleRole::moving, "third"});
+    calm();
+    apply(editor_, UndoStep{});
+    apply(editor_, DeleteHandle{"third"});
+    calm();
+    EXPECT_TRUE(editor_.document->posed);
+    ASSERT_TRUE(can_redo(editor_));
+    apply(editor_, RedoStep{});
+    calm();
+    EXPECT_EQ(editor_.document->handles.size(), 3U);
 }
 
 TEST_F(BarEditor, AnUndoThatIsStillToBeCarriedOutIsUnsaved) {
@@ -190,7 +208,7 @@ TEST_F(BarEditor, WhoeverLooksBackLosesNothingByAnAct) {
     make_handles();
     turn_chosen("40");
     calm();
-    const std::vector<float> turned = editor_.frame.positions;
+    const LineArray<float> turned = editor_.frame.positions();
     const std::size_t selected = editor_.selected;
     apply(editor_, UndoStep{.to_look = true});
     calm();
@@ -203,7 +221,7 @@ TEST_F(BarEditor, WhoeverLooksBackLosesNothingByAnAct) {
     EXPECT_NE(editor_.notices.back().words.find("earlier step"), std::string::npos);
     apply(editor_, RedoStep{});
     calm();
-    EXPECT_EQ(editor_.frame.positions, turned);
+    EXPECT_EQ(editor_.frame.positions(), turned);
     apply(editor_, ChangeSelection{SelectionStep::invert});
     EXPECT_NE(editor_.selected, selected) << "at the last step there is nothing to lose";
 
@@ -273,7 +291,7 @@ TEST_F(BarEditor, ALaterStepIsNoEarlierOne) {
 TEST_F(BarEditor, PlayingAStepIsDoingItAgain) {
     make_handles();
     transform_chosen('R', 'Z', "90");
-    const std::vector<float> turned = editor_.frame.positions;
+    const LineArray<float> turned = editor_.frame.positions();
     apply(editor_, UndoStep{});
     calm();
     ASSERT_TRUE(can_redo(editor_));
@@ -289,15 +307,18 @@ TEST_F(BarEditor, PlayingAStepIsDoingItAgain) {
     const std::size_t steps = editor_.past.size();
     SettingsChange samples;
     samples.samples = 500;
-    for (const Command& takes_pose : {Command(CommitPose{}), Command(ChangeSettings{samples})}) {
-        apply(editor_, takes_pose);
+    EXPECT_TRUE(poses_may_change(editor_));
+    for (const Command& from_pose : {Command(CommitPose{}), Command(ChangeSettings{samples}),
+                                     Command(BeginDrag{}), Command(ResetPose{"high"}), Command(SetPivot{})}) {
+        apply(editor_, from_pose);
         EXPECT_EQ(editor_.past.size(), steps) << "it would take another pose than is shown";
+        EXPECT_FALSE(editor_.drag);
     }
     ASSERT_FALSE(editor_.notices.empty());
     EXPECT_NE(editor_.notices.back().words.find("middle of a step"), std::string::npos);
     apply(editor_, PacePlaying{4, false});
     calm();
-    EXPECT_EQ(editor_.frame.positions, turned);
+    EXPECT_EQ(editor_.frame.positions(), turned);
     EXPECT_FALSE(editor_.status.playing);
 }
 

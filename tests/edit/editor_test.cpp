@@ -80,14 +80,14 @@ TEST_F(BarEditor, RXNinetyEnterTurnsTheHandleByNinetyDegrees) {
 
 TEST_F(BarEditor, EscapeTakesADragBack) {
     make_handles();
-    const std::vector<float> rest = editor_.frame.positions;
+    const LineArray<float> rest = editor_.frame.positions();
     const std::size_t steps = editor_.past.size();
     move({400, 100});
     press('G');
     move({500, 150});
     press(Key::escape);
     calm();
-    EXPECT_EQ(editor_.frame.positions, rest);
+    EXPECT_EQ(editor_.frame.positions(), rest);
     EXPECT_EQ(editor_.past.size(), steps);
     EXPECT_FALSE(editor_.document->posed);
 }

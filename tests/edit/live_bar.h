@@ -65,7 +65,7 @@ protected:
         const std::span<const float> opened = live_->opened().opened->positions;
         double largest = 0;
         for (std::size_t i = 0; i < opened.size(); ++i)
-            largest = std::max(largest, std::abs(static_cast<double>(frame_.positions[i] - opened[i])));
+            largest = std::max(largest, std::abs(static_cast<double>(frame_.positions()[i] - opened[i])));
         return largest;
     }
 

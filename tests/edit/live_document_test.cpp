@@ -17,7 +17,7 @@ constexpr double pi = std::numbers::pi;
 TEST_F(LiveBar, OpensWithItsPointsInTheOrderOfComputation) {
     const OpenedCloud opened = live_->opened();
     EXPECT_EQ(opened.cloud->size(), 3000U);
-    EXPECT_TRUE(std::ranges::equal(frame_.positions, opened.opened->positions));
+    EXPECT_TRUE(std::ranges::equal(frame_.positions(), opened.opened->positions));
     EXPECT_EQ(opened.order->points(), 3000U);
     EXPECT_GT(opened.spacing, 0.02);
     EXPECT_LT(opened.spacing, 0.2);
@@ -56,7 +56,7 @@ TEST_F(LiveBar, WhereAllSamplesAreTooSlowFewFollowTheHandAndAllComeToRest) {
     const std::vector<Transform> way{turned(0.2), turned(0.4), turned(0.6), turned(0.8)};
     SettingsChange all;
     all.samples = std::optional<std::uint64_t>{};
-    std::vector<std::vector<float>> rested;
+    std::vector<LineArray<float>> rested;
     for (const double quick : {0.0, 1e9}) {
         OpenRequest request = request_for(bar_file(folder_));
         request.settings = all;
@@ -70,7 +70,7 @@ TEST_F(LiveBar, WhereAllSamplesAreTooSlowFewFollowTheHandAndAllComeToRest) {
         live_->drag_to(turned(0.6, {1, 0, 0}));
         live_->end_drag();
         settle_down();
-        rested.push_back(frame_.positions);
+        rested.push_back(frame_.positions());
         expect_replay_makes_the_same();
         std::size_t coarse = 0, others = 0;
         for (const SessionLine& line : read_session(folder_ / "saved.knead").lines)
@@ -117,30 +117,30 @@ TEST_F(LiveBar, ACancelledDragNeverWas) {
     ASSERT_TRUE(wait_until([&] { return live_->take_frame(frame_) && frame_.shows_pose; }));
     live_->cancel_drag();
     settle_down();
-    EXPECT_EQ(frame_.positions, before.positions);
+    EXPECT_EQ(frame_.positions(), before.positions());
     EXPECT_EQ(live_->view()->acts, acts);
-    EXPECT_EQ(live_->take_refused(), std::vector<StepNumber>{step_});
+    EXPECT_EQ(live_->take_refused(), std::vector<LiveDocument::Refused>{{step_}});
     EXPECT_TRUE(live_->take_notices().empty());
 }
 
 TEST_F(LiveBar, UndoAndRedoAreExactAndOneStepADrag) {
-    const std::vector<float> rest = frame_.positions;
+    const LineArray<float> rest = frame_.positions();
     drag({turned(0.5)});
-    const std::vector<float> first = frame_.positions;
+    const LineArray<float> first = frame_.positions();
     drag({turned(0.9, {1, 0, 0})});
-    const std::vector<float> second = frame_.positions;
+    const LineArray<float> second = frame_.positions();
     EXPECT_EQ(live_->view()->undoable_steps, 4U);
     live_->undo(step_);
     settle_down();
-    EXPECT_EQ(frame_.positions, first);
+    EXPECT_EQ(frame_.positions(), first);
     live_->undo(step_);
     settle_down();
-    EXPECT_EQ(frame_.positions, rest);
+    EXPECT_EQ(frame_.positions(), rest);
     EXPECT_FALSE(live_->view()->posed);
     live_->redo(step_);
     live_->redo(step_);
     settle_down();
-    EXPECT_EQ(frame_.positions, second);
+    EXPECT_EQ(frame_.positions(), second);
     EXPECT_EQ(live_->view()->redoable_steps, 0U);
 }
 
@@ -163,7 +163,8 @@ TEST_F(LiveBar, ARefusedStepLeavesNoTraceAndSaysWhy) {
     settle_down();
     EXPECT_EQ(live_->view()->undoable_steps, steps);
     EXPECT_EQ(live_->view()->handles.at(1).name, "high");
-    EXPECT_EQ(live_->take_refused(), std::vector<StepNumber>{step_});
+    const std::vector<LiveDocument::Refused> refused{{step_, true}}; // what was renamed meanwhile ended redo
+    EXPECT_EQ(live_->take_refused(), refused);
     const std::vector<Notice> notices = live_->take_notices();
     ASSERT_EQ(notices.size(), 1U);
     EXPECT_EQ(notices[0].kind, Notice::Kind::error);
@@ -172,7 +173,7 @@ TEST_F(LiveBar, ARefusedStepLeavesNoTraceAndSaysWhy) {
 
 TEST_F(LiveBar, GoesOnFromASavedSession) {
     drag({turned(0.5), turned(1.0, {1, 0, 0})});
-    const std::vector<float> posed = frame_.positions;
+    const LineArray<float> posed = frame_.positions();
     live_->save_session(folder_ / "saved.knead");
     settle_down();
     LiveDocument again(request_for(folder_ / "saved.knead"));
@@ -180,7 +181,7 @@ TEST_F(LiveBar, GoesOnFromASavedSession) {
     ASSERT_EQ(again.status().stage, LiveDocument::Stage::open);
     PosedFrame frame;
     ASSERT_TRUE(again.take_frame(frame));
-    EXPECT_EQ(frame.positions, posed);
+    EXPECT_EQ(frame.positions(), posed);
     EXPECT_EQ(again.view()->undoable_steps, 3U);
     EXPECT_EQ(again.saved().session_state, again.view()->state) << "there is nothing to save yet";
 }
@@ -324,20 +325,20 @@ TEST_F(LiveBar, WhereTheDeviceDrawsTheDragThePointsComeWhenTheHandRests) {
     open(std::move(request));
     ASSERT_FALSE(HasFailure());
     live_->draw_drags_on_device(true);
-    const std::vector<float> rest = frame_.positions;
+    const LineArray<float> rest = frame_.positions();
 
     live_->begin_drag(++step_, "high", {0, 0, 2});
     live_->drag_to(turned(3, {1, 0, 0})); // takes several frames
     ASSERT_TRUE(wait_until([&] { return live_->take_frame(frame_) && frame_.on_device; }));
     EXPECT_TRUE(frame_.shows_pose);
     EXPECT_GT(frame_.version, frame_.points_version);
-    EXPECT_EQ(frame_.positions, rest);
+    EXPECT_EQ(frame_.positions(), rest);
 
     settle_down(); // the hand rests
     EXPECT_FALSE(frame_.on_device);
     EXPECT_EQ(frame_.version, frame_.points_version);
     EXPECT_GT(largest_displacement(), 0.3);
-    const std::vector<float> resting = frame_.positions;
+    const LineArray<float> resting = frame_.positions();
     std::vector<PointRange> changed;
     changed_since(frame_.version - 1, frame_, changed);
     ASSERT_EQ(changed.size(), 1U);
@@ -348,8 +349,8 @@ TEST_F(LiveBar, WhereTheDeviceDrawsTheDragThePointsComeWhenTheHandRests) {
     live_->end_drag(); // before it rests
     settle_down();
     EXPECT_FALSE(frame_.on_device);
-    EXPECT_NE(frame_.positions, resting);
-    const std::vector<float> posed = frame_.positions;
+    EXPECT_NE(frame_.positions(), resting);
+    const LineArray<float> posed = frame_.positions();
 
     live_->begin_drag(++step_, "high", {0, 0, 2});
     live_->drag_to(turned(-2, {1, 0, 0}));
@@ -359,7 +360,7 @@ TEST_F(LiveBar, WhereTheDeviceDrawsTheDragThePointsComeWhenTheHandRests) {
     ASSERT_TRUE(wait_until([&] { return live_->take_frame(frame_) && !frame_.on_device; }));
     live_->cancel_drag();
     settle_down();
-    EXPECT_EQ(frame_.positions, posed);
+    EXPECT_EQ(frame_.positions(), posed);
 }
 
 // What could be prepared meanwhile waits for the drag's end, and is no reason to be busy until then.

@@ -19,10 +19,10 @@ protected:
         std::vector<Transform> poses;
         for (int k = 1; k <= 12; ++k) poses.push_back(turned(k * pi / 24, {1, 0, 0}));
         drag(poses);
-        dragged_ = frame_.positions;
+        dragged_ = frame_.positions();
         live_->undo(step_);
         settle_down();
-        ASSERT_NE(frame_.positions, dragged_);
+        ASSERT_NE(frame_.positions(), dragged_);
     }
 
     bool is_held_at(std::size_t frame) {
@@ -44,7 +44,7 @@ protected:
     }
     std::size_t recorded_frames() { return last_drag().frames.size(); }
 
-    std::vector<float> dragged_;
+    LineArray<float> dragged_;
 };
 
 } // namespace
@@ -66,7 +66,7 @@ TEST_F(PlayedBar, ShowsTheFramesAndEndsAtTheVeryShape) {
     live_->take_frame(frame_);
     EXPECT_GT(shown, 2U);
     EXPECT_GT(frame_.version, first + 3);
-    EXPECT_EQ(frame_.positions, dragged_);
+    EXPECT_EQ(frame_.positions(), dragged_);
     EXPECT_FALSE(live_->status().playing);
     EXPECT_TRUE(live_->view()->posed);
     EXPECT_EQ(live_->view()->redoable_steps, 0U);
@@ -75,25 +75,25 @@ TEST_F(PlayedBar, ShowsTheFramesAndEndsAtTheVeryShape) {
 
 TEST_F(PlayedBar, IsHeldAndGoesBackAndForthByFrames) {
     drag_and_undo();
-    const std::vector<float> rest = frame_.positions;
+    const LineArray<float> rest = frame_.positions();
     live_->set_play_pace(1, true);
     live_->play(step_);
     live_->advance_play(1);
     ASSERT_TRUE(is_held_at(1));
-    const std::vector<float> one = frame_.positions;
+    const LineArray<float> one = frame_.positions();
     EXPECT_NE(one, rest);
     live_->advance_play(2);
     ASSERT_TRUE(is_held_at(3));
-    EXPECT_NE(frame_.positions, one);
+    EXPECT_NE(frame_.positions(), one);
     live_->advance_play(-2);
     ASSERT_TRUE(is_held_at(1));
-    EXPECT_EQ(frame_.positions, one);
+    EXPECT_EQ(frame_.positions(), one);
     live_->advance_play(-1);
     ASSERT_TRUE(is_held_at(0));
-    EXPECT_EQ(frame_.positions, rest);
+    EXPECT_EQ(frame_.positions(), rest);
     live_->set_play_pace(4, false);
     settle_down();
-    EXPECT_EQ(frame_.positions, dragged_);
+    EXPECT_EQ(frame_.positions(), dragged_);
 }
 
 TEST_F(PlayedBar, WhatIsSavedInTheMiddleIsWhatIsSeen) {
@@ -102,7 +102,7 @@ TEST_F(PlayedBar, WhatIsSavedInTheMiddleIsWhatIsSeen) {
     live_->play(step_);
     live_->advance_play(3);
     ASSERT_TRUE(is_held_at(3));
-    const std::vector<float> seen = frame_.positions;
+    const LineArray<float> seen = frame_.positions();
     live_->save_cloud(folder_ / "seen.ply", {.displacement = true});
     ASSERT_TRUE(wait_until([&] { return !live_->status().saving; }));
     SilentProgress silent;
@@ -119,7 +119,7 @@ TEST_F(PlayedBar, WhatIsSavedInTheMiddleIsWhatIsSeen) {
     ASSERT_TRUE(is_held_at(3)) << "and it is held there still";
     live_->set_play_pace(4, false);
     settle_down();
-    EXPECT_EQ(frame_.positions, dragged_);
+    EXPECT_EQ(frame_.positions(), dragged_);
     EXPECT_EQ(live_->view()->last_frames, recorded_frames());
 }
 
@@ -139,7 +139,7 @@ TEST_F(PlayedBar, AnActInTheMiddleComesAfterTheWholeStep) {
     EXPECT_EQ(live_->view()->undoable_steps, 4U) << "two handles, the drag that was played, and another";
     live_->undo(step_);
     settle_down();
-    EXPECT_EQ(frame_.positions, dragged_);
+    EXPECT_EQ(frame_.positions(), dragged_);
     expect_replay_makes_the_same();
 }
 
@@ -156,7 +156,7 @@ TEST_F(PlayedBar, WhatDoesNotMoveIsRedoneAtOnce) {
 
 // Two whole turns leave the handle where it was; only unwinding them brings the middle back.
 TEST_F(PlayedBar, ResettingAPoseUnwindsItsTurns) {
-    const std::vector<float> rest = frame_.positions;
+    const LineArray<float> rest = frame_.positions();
     drag({turned(2 * pi)});
     EXPECT_GT(largest_displacement(), 0.2);
     live_->reset_pose(++step_, "high");

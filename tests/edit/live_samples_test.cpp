@@ -119,7 +119,7 @@ TEST_F(ChoosingBar, WhatItChoosesBelongsToTheActThatLedToIt) {
 TEST_F(ChoosingBar, WaitsForACommitAndNeverMakesOne) {
     make_handles();
     drag({turned(0.5)});
-    const std::vector<float> posed = frame_.positions;
+    const LineArray<float> posed = frame_.positions();
     live_->choose_samples(true);
     drag({turned(0.9)});
     SettingsChange softer;

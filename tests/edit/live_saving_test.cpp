@@ -46,7 +46,7 @@ TEST_F(LiveBar, WhatACrashLeavesIsRestored) {
     ASSERT_EQ(live.status().stage, LiveDocument::Stage::open);
     PosedFrame frame;
     ASSERT_TRUE(live.take_frame(frame));
-    EXPECT_EQ(frame.positions, posed.positions);
+    EXPECT_EQ(frame.positions(), posed.positions());
     EXPECT_FALSE(live.saved().session_state);
     live.post(++step_, {CommitLine{}});
     wait_until_idle(live);

@@ -1,6 +1,7 @@
 // Hands that know nothing do whatever commands there are, in any order and without waiting. Whatever comes of
 // it, the recording replays to the same bytes, and undo and redo lead where they came from, to the bit.
 
+#include "edit/cures.h"
 #include "edit/editor.h"
 #include "edit/live.h"
 #include "edit/replay.h"
@@ -229,7 +230,7 @@ protected:
         refresh(editor_);
         refresh(editor_);
         for (const Notice& notice : editor_.notices)
-            EXPECT_EQ(notice.words.find("nternal"), std::string::npos) << notice.words;
+            EXPECT_EQ(notice.words.find(mistake_in_knead), std::string::npos) << notice.words;
         editor_.notices.clear();
     }
 
@@ -253,7 +254,7 @@ protected:
         if (looks_back(editor_)) return; // the journal is ahead
         std::filesystem::copy(folder_ / "state", folder_ / "crashed",
                               std::filesystem::copy_options::recursive);
-        crashed_ = editor_.frame.positions;
+        crashed_ = editor_.frame.positions();
     }
     void expect_restoring_makes_the_same() {
         if (crashed_.empty()) return;
@@ -270,7 +271,7 @@ protected:
         ASSERT_TRUE(wait_until([&] { return refresh(restored) && restored.document; }));
         wait_until_idle(*restored.live);
         refresh(restored);
-        EXPECT_TRUE(restored.frame.positions == crashed_) << read_text(lost.at(0).journal);
+        EXPECT_TRUE(restored.frame.positions() == crashed_) << read_text(lost.at(0).journal);
     }
 
     LiveDocument& live() { return *editor_.live; }
@@ -279,7 +280,7 @@ protected:
     ScratchFolder folder_;
     std::filesystem::path file_ = folder_ / "cloud.ply";
     Editor editor_{1};
-    std::vector<float> crashed_; // the points when the journal was copied
+    LineArray<float> crashed_; // the points when the journal was copied
 };
 
 TEST_P(RandomHands, LeaveWhatIsTheSameReplayedRestoredAndRedone) {
@@ -291,15 +292,15 @@ TEST_P(RandomHands, LeaveWhatIsTheSameReplayedRestoredAndRedone) {
     calm();
     while (looks_back(editor_) && can_redo(editor_)) do_now(RedoStep{true}), calm();
     expect_replay_makes_the_same();
-    const std::vector<float> last = editor_.frame.positions;
+    const LineArray<float> last = editor_.frame.positions();
     std::size_t steps = 0;
     for (; can_undo(editor_) && steps < 1000; ++steps) do_now(UndoStep{}), calm();
     EXPECT_LT(steps, 1000U);
     const std::span<const float> opened = editor_.opened.opened->positions;
-    EXPECT_TRUE(std::ranges::equal(editor_.frame.positions, opened));
+    EXPECT_TRUE(std::ranges::equal(editor_.frame.positions(), opened));
     EXPECT_TRUE(editor_.document->handles.empty());
     for (std::size_t k = 0; k < steps; ++k) do_now(RedoStep{}), calm();
-    EXPECT_TRUE(editor_.frame.positions == last);
+    EXPECT_TRUE(editor_.frame.positions() == last);
     expect_replay_makes_the_same();
     expect_restoring_makes_the_same();
 }

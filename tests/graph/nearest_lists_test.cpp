@@ -65,7 +65,7 @@ TEST(NearestLists, AreThoseOfASearchOfAllHoweverTheTreesAreCut) {
     expect_plain_lists(ordered(test::random_positions(300, 3, Vec3d(1e6, -1e6, 1e6))), "far from the origin");
 }
 
-TEST(NearestLists, TakeTheLowestNumbersOfEquallyNearOnes) {
+TEST(NearestLists, TakeTheLowestScrambledNumbersOfEquallyNearOnes) {
     expect_plain_lists(ordered(test::grid_positions(20, 20)), "a square lattice");
     std::vector<float> cube;
     for (int x = 0; x < 8; ++x)

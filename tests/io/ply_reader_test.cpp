@@ -66,6 +66,16 @@ TEST(PlyReader, understands_numbers_as_programs_write_them) {
     EXPECT_NE(cloud.remarks[0].find("2 of 3 points"), std::string::npos);
 }
 
+TEST(PlyReader, refuses_a_number_with_two_signs) {
+    for (const char* number : {"+-5", "-+5", "++5", "--5"})
+        EXPECT_THROW(
+            read_bytes("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                       "property float z\nend_header\n" +
+                       std::string(number) + " 0 0\n"),
+            Error)
+            << number;
+}
+
 TEST(PlyReader, takes_a_list_that_was_never_written_as_empty) {
     const std::string file = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
                              "property float z\nproperty list uchar int faces\nend_header\n1 2 3\n4 5 6\n";

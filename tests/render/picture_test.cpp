@@ -49,7 +49,8 @@ TEST_P(Pictures, are_the_scene_from_the_top_row_on_however_finely_drawn) {
     const Viewport size{80, 60};
     const Camera camera = first_view({glm::dvec3(-1), glm::dvec3(1)}, size);
     renderer->set_points(1, 0.1);
-    renderer->set_positions(std::vector<float>{0, 0, 0.8f}); // in the upper half
+    const std::vector<float> point = {0, 0, 0.8f}; // in the upper half
+    renderer->set_positions(point);
     renderer->set_colors(std::vector{rgba(0, 255, 0)});
     flat.pixels = 9;
     const glm::dvec2 pixel = project(camera, size, {0, 0, 0.8f})->pixel;

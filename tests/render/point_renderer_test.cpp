@@ -39,11 +39,15 @@ std::vector<std::uint32_t> many_colors(std::size_t n) {
 
 class Drawing : public HeadlessScene {
 protected:
-    void put(std::span<const float> positions, std::span<const std::uint32_t> colors) {
+    void put(std::vector<float> positions, std::span<const std::uint32_t> colors) {
+        positions_ = std::move(positions);
         renderer->set_points(colors.size(), 0.1);
-        renderer->set_positions(positions);
+        renderer->set_positions(positions_);
         renderer->set_colors(colors);
     }
+
+private:
+    std::vector<float> positions_;
 };
 
 TEST_P(Drawing, a_splat_covers_the_pixels_around_its_projection) {
@@ -326,7 +330,8 @@ TEST_P(Drawing, normals_shade_and_both_sides_alike) {
     flat.shading = true;
     const auto brightness = [&](const glm::vec3& n) {
         put(std::vector<float>{0, 0, 0}, std::vector{rgba(200, 200, 200)});
-        renderer->set_normals(std::vector{n.x, n.y, n.z});
+        const std::vector<float> normal = {n.x, n.y, n.z};
+        renderer->set_normals(normal);
         return at(draw(camera, screen, flat), screen, project(camera, screen, {0, 0, 0})->pixel)[0];
     };
     EXPECT_GT(brightness(towards), brightness(across) + 20);
@@ -423,6 +428,21 @@ TEST_P(Drawing, both_ways_draw_the_same) {
             }
         }
     }
+}
+
+TEST_P(Drawing, an_overlay_that_comes_back_is_whole) {
+    put({0, 0, 0, 0.1f, 0, 0}, std::vector(2, rgba(255, 255, 255)));
+    const Camera camera = some_camera(false);
+    const std::vector<OverlayLine> lines = {{{-1, -1, -1}, {1, 1, 1}, rgba(0, 255, 0), 3}};
+    renderer->set_overlay(lines);
+    const std::vector<Pixel> before = draw(camera, screen, flat);
+    renderer->set_overlay({});
+    Camera other = camera;
+    other.distance *= 1.5;
+    draw(other, screen, flat);
+    draw(camera, screen, flat);
+    renderer->set_overlay(lines);
+    EXPECT_EQ(draw(camera, screen, flat), before);
 }
 
 TEST_P(Drawing, only_ranges_of_points_may_be_handed_over_again) {

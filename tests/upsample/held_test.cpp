@@ -145,12 +145,36 @@ TEST_P(EveryUpsamplerHeld, FillsOtherBuffersFirst) {
     }
 }
 
+// What rests in all but two of the frames moves in these.
+std::vector<Motion> motions_there_and_back(unsigned f) {
+    std::vector<Motion> moved = motions_of_frame(f);
+    if (f == 2 || f == 3) moved.back() = moved.front();
+    return moved;
+}
+
+// As who shows one shape, has the next one waiting, and makes a third.
+TEST_P(EveryUpsamplerHeld, GoesOnInEveryBufferThatItFillsInTurn) {
+    const Scene scene = scene_with_region(5003, {{300, 1001}});
+    const auto upsamplers = all();
+    const auto whole = all();
+    for (std::size_t u = 0; u < upsamplers.size(); ++u) {
+        for (const std::size_t buffers : {2, 3, 4, 5}) {
+            upsamplers[u]->prepare(scene.input(), motions);
+            std::vector<Posed> posed(buffers, nothing_yet(scene));
+            for (unsigned f = 0; f < 12; ++f) {
+                Posed& into = posed[f * f % buffers];
+                const std::vector<Index> written = frame(*upsamplers[u], motions_there_and_back(f), into);
+                EXPECT_TRUE(same_bits(into, whole_frame(*whole[u], scene, motions_there_and_back(f)))) << f;
+                // By then all have been filled since what rests came back.
+                if (f == 11 && buffers <= 3) {
+                    EXPECT_EQ(written, blocks_touched({{300, 1001}})) << buffers;
+                }
+            }
+        }
+    }
+}
+
 TEST_P(EveryUpsamplerHeld, MovesWhatRestedAsSoonAsItMoves) {
-    const auto motions_there_and_back = [](unsigned f) {
-        std::vector<Motion> moved = motions_of_frame(f);
-        if (f == 2 || f == 3) moved.back() = moved.front();
-        return moved;
-    };
     expect_same_bits(scene_with_region(5003, {{300, 1001}}), 5, motions_there_and_back,
                      [](unsigned f, const std::vector<Index>& written) {
                          // what moves all is not twice the same

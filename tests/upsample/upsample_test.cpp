@@ -312,6 +312,8 @@ TEST_P(EveryUpsampler, RefusesRowsAndSamplesThatDoNotExist) {
         EXPECT_THROW(upsampler->prepare(scene.input(), 0), BrokenInvariant);
         scene.mover[3] = static_cast<Index>(scene.rows.size() + 5);
         EXPECT_THROW(upsampler->prepare(scene.input(), 5), BrokenInvariant);
+        scene.mover[3] = no_index;
+        EXPECT_THROW(upsampler->prepare(scene.input(), 5), BrokenInvariant);
         scene.mover[3] = 0;
         std::get<std::vector<NarrowRow>>(scene.rows.rows)[1].sample[0] = 5;
         EXPECT_THROW(upsampler->prepare(scene.input(), 5), BrokenInvariant);
@@ -333,9 +335,9 @@ TEST_P(EveryUpsampler, TakesTheWordOfWhoKnowsWhereNumbersEnd) {
         input.rows_end = 6;
         EXPECT_THROW(upsampler->prepare(input, 5), BrokenInvariant);
         input.rows_end = 5;
-        input.mover_end = static_cast<Index>(scene.rows.size() + 5);
+        input.mover_end = scene.rows.size() + 5;
         upsampler->prepare(input, 5);
-        input.mover_end = static_cast<Index>(scene.rows.size() + 6);
+        input.mover_end = scene.rows.size() + 6;
         EXPECT_THROW(upsampler->prepare(input, 5), BrokenInvariant);
     }
 }

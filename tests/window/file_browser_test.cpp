@@ -61,6 +61,19 @@ TEST_F(Browsing, ShowsAllWhereSomethingIsSaved) {
     EXPECT_TRUE(browser_.filter.empty());
 }
 
+TEST_F(Browsing, AddsTheExtensionThatANameWithADotLacks) {
+    const auto chosen = [&](BrowseFor purpose, const char* typed) {
+        browser_.purpose = purpose;
+        type(typed);
+        return chosen_path(browser_).filename();
+    };
+    EXPECT_EQ(chosen(BrowseFor::save_session, "walk 1.2"), "walk 1.2.knead");
+    EXPECT_EQ(chosen(BrowseFor::save_session, "walk.knead"), "walk.knead");
+    EXPECT_EQ(chosen(BrowseFor::save_cloud, "bunny v1.2"), "bunny v1.2.ply");
+    EXPECT_EQ(chosen(BrowseFor::save_cloud, "bunny"), "bunny.ply");
+    EXPECT_EQ(chosen(BrowseFor::save_cloud, "bunny.stl"), "bunny.stl") << "which is refused with words";
+}
+
 TEST_F(Browsing, MeansTheOnlyOneThatIsLeft) {
     type("drag");
     EXPECT_EQ(chosen_path(browser_).filename(), "dragon.ply");

@@ -217,7 +217,8 @@ TEST_F(TransformFields, TakeWhatIsTypedWhenTheHandGoesElsewhere) {
     frames(2);
     click(field(1, 0));
     type("7");
-    take_typed_pose({editor_, state_, commands_, wishes_});
+    ImGui::ClearActiveID();
+    frame();
     EXPECT_NEAR(told_drag().shift.x, 6.5, 1e-12);
     frames(3);
     EXPECT_TRUE(commands_.empty()) << "once";

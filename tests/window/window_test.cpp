@@ -17,8 +17,8 @@ namespace knead::test {
 
 namespace {
 
-// Where the cloud is drawn in a window of 1280 x 800 (src/app/run_editor.cpp lays it out); a few pixels more
-// or less do not matter here.
+// Where the cloud is drawn in a window of 1280 x 800 (src/app/loop_drawing.cpp lays it out); a few pixels
+// more or less do not matter here.
 constexpr double view_left = 52, view_top = 30;
 constexpr Viewport viewport{1280 - 52 - 310, 800 - 30 - 28};
 
@@ -320,7 +320,7 @@ TEST_F(WindowTest, ACloudThatStandsAlongYIsUpright) {
     EXPECT_GT(points, 500U);
 }
 
-TEST_F(WindowTest, SaysWhyAFileCannotBeOpenedAndStaysUsable) {
+TEST_F(WindowTest, StaysUsableWhereAFileCannotBeOpened) {
     editor_ = desktop_->open_editor({(folder_ / "nothing.ply").string()});
     ASSERT_TRUE(desktop_->wait_for_title("knead"));
     pause(1);

@@ -225,6 +225,29 @@ TEST_F(WindowTest, AsksBeforeItOverwritesWhatSomebodyElseSaved) {
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
 }
 
+TEST_F(WindowTest, WhatIsTypedCountsBeforeTheHandGoesOn) {
+    open_cat();
+    make_handles();
+    desktop_->keys({"Tab", "F2"});
+    pause(0.5);
+    desktop_->type("neck");
+    desktop_->keys({"ctrl+o"}); // without Enter
+    pause(0.7);
+    desktop_->keys({"Escape"});
+    EXPECT_TRUE(wait_for_act("rename", 1));
+    desktop_->keys({"F2"});
+    pause(0.5);
+    desktop_->type("sole");
+    desktop_->drag(1, round(-0.2, 0.2, 0.7, 1.0)); // nor here
+    desktop_->keys({"h"});
+    ASSERT_TRUE(wait_for_act("handle", 3));
+    EXPECT_EQ(acts("rename"), 2U);
+    const std::string text = recording();
+    EXPECT_LT(text.find("\"sole\""), text.rfind(R"({"op":"handle")")) << "first the name";
+    desktop_->keys({"ctrl+q", "Tab", "Return"}); // Discard
+    EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+}
+
 TEST_F(WindowTest, MenusAndQuestionsGoByTheKeyboard) {
     open_cat();
     make_handles();

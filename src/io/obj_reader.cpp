@@ -1,3 +1,4 @@
+#include "base/counts.h"
 #include "base/error.h"
 #include "io/obj.h"
 #include "io/obj_elements.h"
@@ -138,10 +139,6 @@ void read_statements(ObjImage& image, VertexReader& vertices, Progress& progress
         counts.lines += keyword == "l" ? 1 : 0;
         counts.point_elements += keyword == "p" ? 1 : 0;
     }
-}
-
-std::string counted(std::size_t count, const std::string& what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 } // namespace

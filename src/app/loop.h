@@ -38,6 +38,8 @@ struct Loop {
     bool close_menus = false; // in the next frame
     // Events that come after something that the next picture carries out first.
     std::vector<WindowEvent> waiting;
+    Stopwatch waits;             // since the first of them began to
+    bool tabbed = false;         // since the last frame, in a field: nobody knows whether into another one
     bool ends_typing = false;    // in the next frame: what is being typed counts, the hand goes elsewhere
     bool button_is_ours = false; // a press began over the cloud
     bool press_is_hands = false; // and ended what a full hand was doing: no panel is to see it

@@ -62,6 +62,7 @@ void draw_panels(Loop& loop) {
     const Rectangle& view = loop.state.view;
     if (std::exchange(loop.close_menus, false)) close_popups();
     if (std::exchange(loop.ends_typing, false)) ImGui::ClearActiveID();
+    loop.tabbed = false;
     draw_menu_bar(ui);
     draw_overlay(ui);
     draw_legend(ui);

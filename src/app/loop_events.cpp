@@ -115,6 +115,18 @@ bool slides_number(const Loop& loop) {
     return editing.field != 0 && !editing.types && ImGui::GetActiveID() == editing.field;
 }
 
+// Ctrl with one of the letters that save, open or close.
+bool is_for_file(const KeyPress& event) {
+    return event.held.ctrl && !event.held.alt &&
+           std::ranges::any_of(std::string_view("SOEQ"),
+                               [&](char letter) { return event.key == key(letter); });
+}
+
+// Whether the hand draws a lasso or a box, or paints, with the button down.
+bool draws_selection(const Loop& loop) {
+    return loop.button_is_ours && loop.editor.tools.doing == Tools::Doing::selecting;
+}
+
 void take(Loop& loop, const KeyPress& event) {
     if (slides_number(loop)) { // the other keys wait
         loop.state.pose_fields.editing.gives_up |= event.key == Key::escape;
@@ -125,7 +137,11 @@ void take(Loop& loop, const KeyPress& event) {
     if (event.key == Key::escape && popup_is_open() && !ImGui::GetTopMostPopupModal())
         loop.close_menus = true;
     if (walks_bar(loop, event)) return;
+    loop.tabbed |= event.key == Key::tab && is_typing();
     if (is_typing() || popup_is_open()) return;
+    if (hand_is_full(loop) && is_for_file(event))
+        return add_toast(loop.state, {Notice::Kind::information,
+                                      "First end the move: Enter or a click keeps it, Esc takes it back."});
     if (event.key == Key::escape && loop.state.show_help) return; // closes that
     if (event.key == Key::escape && loop.state.playback.shown && !loop.editor.tools.drag)
         return close_timeline(loop.ui);
@@ -133,6 +149,7 @@ void take(Loop& loop, const KeyPress& event) {
     send_slid_settings(loop.ui);
     carry_out_commands(loop);
     if (loop.editor.document && handle_input(loop.editor, event)) return;
+    if (draws_selection(loop)) return; // one thing after the other
     press_shortcut(loop.ui, event);
     carry_out_commands(loop); // the next key finds what this one did
 }
@@ -158,34 +175,48 @@ bool leaves_field(const Loop& loop, const Input& input) {
     if (!is_typing() || popup_is_open()) return false;
     if (const auto* press = std::get_if<MousePress>(&input)) return over_cloud(loop, press->cursor);
     const auto* pressed = std::get_if<KeyPress>(&input);
-    if (!pressed || !pressed->held.ctrl || pressed->held.alt) return false;
-    return std::ranges::any_of(std::string_view("SOEQ"),
-                               [&](char letter) { return pressed->key == key(letter); });
+    return pressed && is_for_file(*pressed);
 }
 
-// Whether something has to be carried out before this event, which the next picture does: what a shortcut
-// wished for, or what is being typed.
+// Whether this moves a handle that the document is yet to show: it was just made, or an undo brings it back.
+bool moves_handle_to_come(const Editor& editor, const Input& input) {
+    const auto* pressed = std::get_if<KeyPress>(&input);
+    if (!pressed || pressed->held.ctrl || pressed->held.alt) return false;
+    if (pressed->key != key('G') && pressed->key != key('R') && pressed->key != key('S')) return false;
+    if (!editor.live || !editor.document || chosen_handle(editor)) return false;
+    const bool was_made = std::ranges::any_of(
+        editor.posted_names, [&](const auto& posted) { return posted.second == editor.chosen; });
+    return was_made || editor.live->status().undoing;
+}
+
+// Whether something has to happen before this event, which is known when the next picture was drawn: what a
+// shortcut wished for, what is being typed, or whether it is typed at all.
 bool has_to_wait(Loop& loop, const WindowEvent& event) {
     const auto* input = std::get_if<Input>(&event);
     if (!input) return false;
     if (leaves_field(loop, *input)) loop.ends_typing = true;
-    const bool begins =
-        !std::holds_alternative<MouseMove>(*input) && !std::holds_alternative<MouseRelease>(*input);
-    return loop.ends_typing || (begins && !loop.wishes.empty());
+    if (loop.ends_typing) return true;
+    if (std::holds_alternative<MouseMove>(*input) || std::holds_alternative<MouseRelease>(*input))
+        return false;
+    return !loop.wishes.empty() || loop.tabbed || tab_may_lead_to_field() ||
+           moves_handle_to_come(loop.editor, *input);
 }
 
 } // namespace
 
 bool take_events(Loop& loop) {
+    constexpr double longest = 3; // seconds: whatever keeps the document busy so long is no reason to wait
     std::vector<WindowEvent> events = std::exchange(loop.waiting, {});
+    const bool waited = !events.empty();
     std::ranges::move(loop.window.take_events(), std::back_inserter(events));
-    for (std::size_t i = 0; i < events.size(); ++i) {
-        if (has_to_wait(loop, events[i])) {
-            loop.waiting.assign(events.begin() + static_cast<std::ptrdiff_t>(i), events.end());
-            break;
-        }
-        take_event(loop, events[i]);
+    std::size_t taken = 0;
+    while (taken < events.size()) {
+        const bool is_due = waited && taken == 0 && loop.waits.seconds() > longest;
+        if (!is_due && has_to_wait(loop, events[taken])) break;
+        take_event(loop, events[taken++]);
     }
+    if (taken > 0 || !waited) loop.waits.lap();
+    loop.waiting.assign(events.begin() + static_cast<std::ptrdiff_t>(taken), events.end());
     return !events.empty();
 }
 

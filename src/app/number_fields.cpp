@@ -204,9 +204,12 @@ bool bar_slider(const char* name, int& value, int lowest, int highest, const cha
 
 bool types_into_field() {
     const ImGuiContext& context = *ImGui::GetCurrentContext();
-    const bool will_type =
-        context.NavMoveSubmitted && (context.NavMoveFlags & ImGuiNavMoveFlags_Tabbing) != 0;
-    return will_type || (context.ActiveId != 0 && ImGui::TempInputIsActive(context.ActiveId));
+    return context.ActiveId != 0 && ImGui::TempInputIsActive(context.ActiveId);
+}
+
+bool tab_may_lead_to_field() {
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    return context.NavMoveSubmitted && (context.NavMoveFlags & ImGuiNavMoveFlags_Tabbing) != 0;
 }
 
 NumberEdit number_field(const char* id, double& value, double speed, const char* format,

@@ -36,8 +36,10 @@ enum class NumberEdit {
 NumberEdit number_field(const char* id, double& value, double speed, const char* format,
                         NumberEditing& editing, double lowest = -FLT_MAX);
 
-// Whether a number is being typed, or will be as soon as the next picture was drawn: keys are meant for it.
+// Whether a number is being typed: keys are meant for it.
 bool types_into_field();
+// Whether Tab was pressed and may have led to a field, which the next picture tells.
+bool tab_may_lead_to_field();
 
 // A printf format with as many digits as tell numbers between the two apart.
 std::string format_between(double low, double high);

@@ -278,6 +278,9 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
                 "Only the handle was mirrored: " + quoted(handle.name) +
                     " is where it was at rest, so there is no pose to mirror.");
     }
+    if (const auto pivot = pivot_of(editor, command.handle))
+        put_pivot_with(editor.past.back(), editor, name,
+                       to_glm(mirrored(to_eigen(*pivot), plane, across.shift)));
     editor.posted_names.emplace_back(editor.last_step, name);
     choose_with_step(editor, name);
 }

@@ -19,6 +19,18 @@ void cancel_opening(Editor& editor) {
 
 namespace {
 
+// Handles are dragged about their middles unless the hand put their pivots elsewhere.
+void take_pivots(Editor& editor) {
+    const double least = 1e-4 * editor.opened.bounds.diagonal();
+    for (const Handle& handle : editor.document->handles) {
+        const auto last = editor.opened.pivots.find(handle.name);
+        if (last == editor.opened.pivots.end()) continue;
+        const glm::dvec3 place = to_glm(last->second);
+        const std::optional<glm::dvec3> middle = middle_of(editor, handle);
+        if (middle && glm::distance(place, *middle) > least) put_pivot(editor, handle.name, place);
+    }
+}
+
 // What was opened takes the place of what was there, of which nothing is to be restored: whoever opens a file
 // was asked about it.
 void take_over(Editor& editor) {
@@ -46,6 +58,7 @@ void take_over(Editor& editor) {
     editor.future.assign(editor.document->redoable_steps, EditorStep{step_of_opened_session});
     editor.looks_from.reset();
     mark_handles(editor);
+    take_pivots(editor);
     editor.camera = first_view(bulk_box(editor.frame.positions()), editor.viewport);
     editor.changes = {};
 }

@@ -26,6 +26,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -105,6 +106,9 @@ struct OpenedCloud {
     const RestShape* opened = nullptr;
     Bounds bounds;      // in the file's coordinates
     double spacing = 0; // the usual distance between neighbouring points
+    // Of the handles that were dragged in what was opened: where the pivots of their last drags are by now
+    // (Document::last_pivot_of()).
+    std::map<std::string, Vec3d> pivots = {};
 };
 
 // What is saved with a cloud beside its own attributes.

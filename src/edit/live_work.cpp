@@ -111,6 +111,8 @@ void LiveWork::publish_opened() {
     opened.opened = &document_->pipeline().opened();
     opened.bounds = document_->bounds();
     opened.spacing = usual_spacing(opened.opened->positions);
+    for (const Handle& handle : document_->handles())
+        if (const auto pivot = document_->last_pivot_of(handle.name)) opened.pivots[handle.name] = *pivot;
     publish_shape(false);
     publish_view();
     shared_.with([&](LiveShared& s) {

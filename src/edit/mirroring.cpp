@@ -251,4 +251,9 @@ PartAcross part_across(const Editor& editor, std::span<const float> positions, c
     return across;
 }
 
+Vec3d mirrored(Vec3d place, const MirrorPlane& plane, const Vec3d& shift) {
+    place[plane.axis] = 2 * plane.at - place[plane.axis];
+    return place + shift;
+}
+
 } // namespace knead

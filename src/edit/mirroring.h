@@ -38,5 +38,7 @@ PartAcross part_across(const Editor& editor, std::span<const float> positions, c
 // The motion seen in the mirror, of what stands so far off there: p → T F M(F T⁻¹ p), with F the reflection
 // and T the shift.
 HandleMotion mirrored(const HandleMotion& motion, const MirrorPlane& plane, const Vec3d& shift);
+// And a place: T F p.
+Vec3d mirrored(Vec3d place, const MirrorPlane& plane, const Vec3d& shift);
 
 } // namespace knead

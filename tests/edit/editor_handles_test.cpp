@@ -367,6 +367,54 @@ TEST_F(BarEditor, EveryHandleKeepsItsPivotAndTakesItAlong) {
     EXPECT_EQ(at("high"), middle);
 }
 
+TEST_F(BarEditor, PivotsAreThereWhenTheSessionIsOpenedAgain) {
+    make_handles();
+    select_heights(-0.5, 0.5);
+    apply(editor_, MakeHandle{HandleRole::moving, "middle"});
+    calm();
+    turn_chosen("20"); // about its middle
+    apply(editor_, ChooseHandle{"high"});
+    editor_.pivots["high"] = {0.5, 0, 1.5};
+    turn_chosen("30");
+    turn_chosen("40");
+    const glm::dvec3 pivot = *pivot_of(editor_, "high");
+    const std::filesystem::path kept = folder_ / "kept.knead";
+    for (const bool commits : {false, true}) {
+        if (commits) apply(editor_, CommitPose{});
+        save_session(editor_, kept, true);
+        calm();
+        Editor again{1};
+        again.viewport = {800, 800};
+        OpenRequest request;
+        request.file = kept;
+        request.device = "reference";
+        open(again, request);
+        ASSERT_TRUE(wait_until([&] { return refresh(again) && again.document; }));
+        ASSERT_TRUE(pivot_of(again, "high"));
+        EXPECT_LT(glm::distance(*pivot_of(again, "high"), pivot), 1e-6);
+        EXPECT_FALSE(pivot_of(again, "middle"));
+    }
+}
+
+TEST_F(BarEditor, AMirroredHandleHasItsPivotAcross) {
+    make_handles();
+    apply(editor_, ChooseHandle{"high"});
+    calm();
+    editor_.pivots["high"] = {0.4, 0.1, 2};
+    turn_chosen("30");
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    const std::string made = editor_.document->handles.back().name;
+    ASSERT_NE(made, "high");
+    const glm::dvec3 there = *pivot_of(editor_, "high"), across = pivot_of(editor_, made).value_or(there);
+    EXPECT_NEAR(across.x, there.x, 0.05);
+    EXPECT_NEAR(across.y, there.y, 0.05);
+    EXPECT_LT(across.z, -1);
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_FALSE(pivot_of(editor_, made));
+}
+
 TEST_F(BarEditor, AHandleOfANameThatWasBeginsWithNoPivot) {
     make_handles();
     const glm::dvec3 middle = gizmo_of(editor_)->center, elsewhere(5, 5, 5);

@@ -147,6 +147,12 @@ void Desktop::keys(std::initializer_list<const char*> names) const {
     xdotool(arguments);
 }
 
+void Desktop::burst(std::initializer_list<const char*> names) const {
+    std::vector<std::string> arguments{"key", "--delay", "2"};
+    arguments.insert(arguments.end(), names.begin(), names.end());
+    xdotool(arguments);
+}
+
 void Desktop::type(const std::string& text) const {
     xdotool({"type", "--delay", "20", text});
 }

@@ -56,6 +56,7 @@ public:
     void focus() const;
     void
     keys(std::initializer_list<const char*> names) const; // as xdotool calls them: "r", "Return", "ctrl+s"
+    void burst(std::initializer_list<const char*> names) const; // the same, as fast as they can be sent
     void type(const std::string& text) const;
     void move(double x, double y) const;
     void drag(int button, const std::vector<std::pair<double, double>>& path,

@@ -225,6 +225,18 @@ TEST_F(WindowTest, AsksBeforeItOverwritesWhatSomebodyElseSaved) {
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
 }
 
+// All at once: the document has not answered the first key when the others come.
+TEST_F(WindowTest, KeysThatComeAheadOfTheDocumentActInTheirOrder) {
+    open_cat();
+    make_handles();
+    desktop_->drag(1, round(-0.2, 0.2, 0.7, 1.0));
+    desktop_->burst({"h", "g", "z", "0", "period", "1", "Return"});
+    ASSERT_TRUE(wait_for_act("handle", 3));
+    ASSERT_TRUE(wait_for_act("drag", 1));
+    desktop_->keys({"ctrl+q", "Tab", "Return"}); // Discard
+    EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+}
+
 TEST_F(WindowTest, WhatIsTypedCountsBeforeTheHandGoesOn) {
     open_cat();
     make_handles();

@@ -7,6 +7,7 @@
 #include "edit/pipeline.h"
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -114,9 +115,9 @@ public:
     const std::vector<HandleMotion>& motions() const { return motions_; }
     // Every pose that a handle was given in this edit, the first one first.
     std::vector<HandleMotion> way_of(const std::string& handle) const;
-    // Where the pivot of its last drag is by now, which that took along; relative to the cloud's origin.
-    // Nothing for one that was not dragged under its present name.
-    std::optional<Vec3d> last_pivot_of(const std::string& handle) const;
+    // Of all handles that were ever dragged, by the names that they had then: where the pivot of the last
+    // drag is by now, which that took along; relative to the cloud's origin.
+    std::map<std::string, Vec3d> last_pivots() const;
 
     // --- What history costs ---
     //

@@ -130,17 +130,18 @@ std::vector<HandleMotion> Document::way_of(const std::string& handle) const {
     return way;
 }
 
-std::optional<Vec3d> Document::last_pivot_of(const std::string& handle) const {
+std::map<std::string, Vec3d> Document::last_pivots() const {
+    std::map<std::string, Vec3d> pivots;
     for (std::size_t at = at_; at > 0; --at) {
         const std::shared_ptr<Posed>& posed = history_[at].posed;
         if (!posed || posed == history_[at - 1].posed) continue;
         const auto* drag = std::get_if<DragLine>(&posed->act);
-        if (!drag || drag->handle != handle) continue;
+        if (!drag || pivots.contains(drag->handle)) continue;
         const HandleMotion before = motions_of(posed->made_from)[posed->handle];
         const Vec3d at_rest = point_at_rest(before, drag->pivot - cloud_.origin);
-        return posed->motion.linear * at_rest + posed->motion.offset;
+        pivots[drag->handle] = posed->motion.linear * at_rest + posed->motion.offset;
     }
-    return std::nullopt;
+    return pivots;
 }
 
 std::shared_ptr<const RestShape> Document::kept_rest() const {

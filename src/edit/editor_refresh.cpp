@@ -19,15 +19,18 @@ void cancel_opening(Editor& editor) {
 
 namespace {
 
-// Handles are dragged about their middles unless the hand put their pivots elsewhere.
+// Handles are dragged about their middles unless the hand put their pivots elsewhere. Where these were before
+// the last step nobody knows, so they go with it when it is undone.
 void take_pivots(Editor& editor) {
+    if (editor.past.empty()) return; // nothing was dragged
     const double least = 1e-4 * editor.opened.bounds.diagonal();
     for (const Handle& handle : editor.document->handles) {
         const auto last = editor.opened.pivots.find(handle.name);
         if (last == editor.opened.pivots.end()) continue;
         const glm::dvec3 place = to_glm(last->second);
         const std::optional<glm::dvec3> middle = middle_of(editor, handle);
-        if (middle && glm::distance(place, *middle) > least) put_pivot(editor, handle.name, place);
+        if (middle && glm::distance(place, *middle) > least)
+            put_pivot_with(editor.past.back(), editor, handle.name, place);
     }
 }
 

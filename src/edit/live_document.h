@@ -104,11 +104,9 @@ struct OpenedCloud {
     const PointCloud* cloud = nullptr;
     const PointOrder* order = nullptr;
     const RestShape* opened = nullptr;
-    Bounds bounds;      // in the file's coordinates
-    double spacing = 0; // the usual distance between neighbouring points
-    // Of the handles that were dragged in what was opened: where the pivots of their last drags are by now
-    // (Document::last_pivot_of()).
-    std::map<std::string, Vec3d> pivots = {};
+    Bounds bounds;                            // in the file's coordinates
+    double spacing = 0;                       // the usual distance between neighbouring points
+    std::map<std::string, Vec3d> pivots = {}; // Document::last_pivots(), as it was opened
 };
 
 // What is saved with a cloud beside its own attributes.

@@ -111,8 +111,7 @@ void LiveWork::publish_opened() {
     opened.opened = &document_->pipeline().opened();
     opened.bounds = document_->bounds();
     opened.spacing = usual_spacing(opened.opened->positions);
-    for (const Handle& handle : document_->handles())
-        if (const auto pivot = document_->last_pivot_of(handle.name)) opened.pivots[handle.name] = *pivot;
+    opened.pivots = document_->last_pivots();
     publish_shape(false);
     publish_view();
     shared_.with([&](LiveShared& s) {

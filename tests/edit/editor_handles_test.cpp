@@ -1,19 +1,11 @@
-// Handles in the editor: made, changed, mirrored.
+// Handles in the editor: made, changed, told of.
 
 #include "edit/editor_bar.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <tuple>
 
 namespace knead::test {
-
-namespace {
-
-constexpr double pi = std::numbers::pi;
-
-} // namespace
 
 TEST_F(BarEditor, ASelectionBecomesAHandleAndBackInOneStep) {
     make_handles();
@@ -32,62 +24,6 @@ TEST_F(BarEditor, ASelectionBecomesAHandleAndBackInOneStep) {
     calm();
     EXPECT_EQ(editor_.document->handles.size(), 2U);
     EXPECT_EQ(editor_.selected, 0U);
-}
-
-TEST_F(BarEditor, MirroringTakesThePointsAndThePoseAcross) {
-    make_handles();
-    transform_chosen('R', 'X', "40");
-    const Eigen::AngleAxisd first(editor_.document->motions[1].rotation);
-    apply(editor_, MirrorHandle{"high", 2});
-    calm();
-    ASSERT_EQ(editor_.document->handles.size(), 3U);
-    const Handle& mirrored = editor_.document->handles[2];
-    EXPECT_EQ(mirrored.name, "high mirrored");
-    EXPECT_NEAR(static_cast<double>(mirrored.points->size()), static_cast<double>(points_between(-3, -2)),
-                60);
-    const Eigen::AngleAxisd turn(editor_.document->motions[2].rotation);
-    EXPECT_NEAR(turn.angle(), 40 * pi / 180, 1e-9);
-    EXPECT_NEAR(turn.axis().x() * first.axis().x(), -1, 1e-9);
-}
-
-// Also by more than half a turn, which by the shortest way would be less the other way round.
-TEST_F(BarEditor, AMirroredHandleIsWoundUpAsTheOtherIs) {
-    editor_.camera.orthographic = true;
-    select_heights(-0.2, 0.2);
-    apply(editor_, MakeHandle{HandleRole::fixed, "middle"});
-    select_heights(2, 3);
-    apply(editor_, MakeHandle{HandleRole::moving, "high"});
-    calm();
-    const auto& rest = editor_.opened.opened->positions;
-    const auto turn_at = [&](double z) { // about the bar's axis, of a slice
-        double sine = 0, cosine = 0;
-        for (std::size_t i = 0; i < rest.size(); i += 3) {
-            if (std::abs(static_cast<double>(rest[i + 2]) - z) > 0.1) continue;
-            const float* now = editor_.frame.positions().data() + i;
-            sine += static_cast<double>(rest[i] * now[1] - rest[i + 1] * now[0]);
-            cosine += static_cast<double>(rest[i] * now[0] + rest[i + 1] * now[1]);
-        }
-        return std::atan2(sine, cosine);
-    };
-    const auto twist_to = [&](double end) { // from the middle, in degrees
-        double sum = 0;
-        for (int step = 0; step < 20; ++step)
-            sum += std::remainder(turn_at(end * (step + 1) / 20) - turn_at(end * step / 20), 2 * pi);
-        return sum * 180 / pi;
-    };
-    apply(editor_, ChooseHandle{"high"});
-    apply(editor_, BeginDrag{glm::dvec3(0, 0, 2)});
-    Transform twist;
-    twist.axis = {0, 0, 1};
-    twist.angle = 190 * pi / 180;
-    apply(editor_, DragTo{twist});
-    apply(editor_, EndDrag{});
-    calm();
-    apply(editor_, MirrorHandle{"high", 2});
-    calm();
-    EXPECT_EQ(editor_.document->handles.back().name, "high mirrored");
-    EXPECT_NEAR(twist_to(2), 190, 5);
-    EXPECT_NEAR(twist_to(-2), 190, 5);
 }
 
 TEST_F(BarEditor, AHandleIsToldHowItHoldsAndKeepsItThroughItsRole) {
@@ -170,33 +106,6 @@ TEST_F(BarEditor, AHandleSaysFromWhomItTakesPoints) {
     apply(editor_, ChangeSelection{SelectionStep::all});
     apply(editor_, MakeHandle{HandleRole::region_of_interest, "where"});
     EXPECT_TRUE(editor_.notices.empty()) << "a region takes nothing";
-}
-
-TEST_F(BarEditor, MirrorsAPoseInTheShapeThatWasCommitted) {
-    editor_.camera.orthographic = true;
-    apply(editor_, ChangeSelection{SelectionStep::all});
-    apply(editor_, MakeHandle{HandleRole::moving, "whole"});
-    calm();
-    transform_chosen('G', 'Z', "3");
-    press(Key::enter); // committed
-    calm();
-    apply(editor_, DeleteHandle{"whole"});
-    calm();
-    apply(editor_, FrameView{});
-    select_heights(2.5, 3.5); // the middle of the bar is at 3 now
-    apply(editor_, MakeHandle{HandleRole::fixed, "middle"});
-    select_heights(5, 6);
-    apply(editor_, MakeHandle{HandleRole::moving, "high"});
-    calm();
-    turn_chosen("40");
-    apply(editor_, MirrorHandle{"high", 2});
-    calm();
-    ASSERT_EQ(editor_.document->handles.size(), 3U);
-    const std::optional<glm::dvec3> high = middle_of(editor_, editor_.document->handles[1]);
-    const std::optional<glm::dvec3> low = middle_of(editor_, editor_.document->handles[2]);
-    ASSERT_TRUE(high && low);
-    EXPECT_NEAR(low->z + high->z, 6, 0.05) << "across the plane z = 3";
-    EXPECT_NEAR(low->x, high->x, 0.05);
 }
 
 TEST_F(BarEditor, AnotherColorLeavesThePoseAndIsAStepToUndo) {
@@ -321,140 +230,9 @@ TEST_F(BarEditor, AnAmountThatIsTypedForNoMovingHandleIsNotTakenForOtherKeys) {
     EXPECT_FALSE(editor_.document->posed) << "one amount alone";
 }
 
-TEST_F(BarEditor, EveryHandleKeepsItsPivotAndTakesItAlong) {
-    make_handles();
-    select_heights(-0.5, 0.5);
-    apply(editor_, MakeHandle{HandleRole::moving, "middle"});
-    calm();
-    const auto at = [&](const char* handle) {
-        apply(editor_, ChooseHandle{handle});
-        return gizmo_of(editor_)->center;
-    };
-    const glm::dvec3 middle = at("high"), joint(0, 0, 2);
-    apply(editor_, SetPivot{glm::dvec3(1, 0, 2), SetPivot::Stage::moving});
-    apply(editor_, SetPivot{joint});
-    EXPECT_NE(at("middle"), joint);
-    apply(editor_, DropChoice{});
-    EXPECT_EQ(at("high"), joint) << "also after another was chosen, and none";
-
-    turn_chosen("90"); // about the view's axis, y
-    EXPECT_LT(glm::distance(at("high"), joint), 1e-9);
-    transform_chosen('G', 'Z', "1");
-    EXPECT_LT(glm::distance(at("high"), joint + glm::dvec3(0, 0, 1)), 1e-9) << "it goes along";
-    apply(editor_, ResetPose{"high"});
-    calm();
-    EXPECT_LT(glm::distance(at("high"), joint), 1e-9);
-    apply(editor_, UndoStep{});
-    EXPECT_LT(glm::distance(at("high"), joint + glm::dvec3(0, 0, 1)), 1e-9);
-    apply(editor_, RenameHandle{"high", "top"});
-    calm();
-    EXPECT_LT(glm::distance(at("top"), joint + glm::dvec3(0, 0, 1)), 1e-9);
-    for (int step = 0; step < 3; ++step) apply(editor_, UndoStep{}); // the name, the shift, the turn
-    calm();
-    EXPECT_EQ(at("high"), joint);
-
-    const std::size_t steps = editor_.past.size();
-    apply(editor_, UndoStep{});
-    EXPECT_EQ(editor_.past.size(), steps - 1) << "one step, however often the hand moved";
-    EXPECT_EQ(at("high"), middle);
-    apply(editor_, RedoStep{});
-    EXPECT_EQ(at("high"), joint);
-    apply(editor_, SetPivot{glm::dvec3(3, 3, 3), SetPivot::Stage::moving});
-    apply(editor_, SetPivot{{}, SetPivot::Stage::given_up});
-    EXPECT_EQ(at("high"), joint);
-    EXPECT_EQ(editor_.past.size(), steps) << "nothing moved";
-    apply(editor_, SetPivot{});
-    EXPECT_EQ(at("high"), middle);
-}
-
-TEST_F(BarEditor, PivotsAreThereWhenTheSessionIsOpenedAgain) {
-    make_handles();
-    select_heights(-0.5, 0.5);
-    apply(editor_, MakeHandle{HandleRole::moving, "middle"});
-    calm();
-    turn_chosen("20"); // about its middle
-    apply(editor_, ChooseHandle{"high"});
-    editor_.pivots["high"] = {0.5, 0, 1.5};
-    turn_chosen("30");
-    turn_chosen("40");
-    const glm::dvec3 pivot = *pivot_of(editor_, "high");
-    const std::filesystem::path kept = folder_ / "kept.knead";
-    for (const bool commits : {false, true}) {
-        if (commits) apply(editor_, CommitPose{});
-        save_session(editor_, kept, true);
-        calm();
-        Editor again{1};
-        again.viewport = {800, 800};
-        OpenRequest request;
-        request.file = kept;
-        request.device = "reference";
-        open(again, request);
-        ASSERT_TRUE(wait_until([&] { return refresh(again) && again.document; }));
-        ASSERT_TRUE(pivot_of(again, "high"));
-        EXPECT_LT(glm::distance(*pivot_of(again, "high"), pivot), 1e-6);
-        EXPECT_FALSE(pivot_of(again, "middle"));
-    }
-}
-
-TEST_F(BarEditor, AMirroredHandleHasItsPivotAcross) {
-    make_handles();
-    apply(editor_, ChooseHandle{"high"});
-    calm();
-    editor_.pivots["high"] = {0.4, 0.1, 2};
-    turn_chosen("30");
-    apply(editor_, MirrorHandle{"high", 2});
-    calm();
-    const std::string made = editor_.document->handles.back().name;
-    ASSERT_NE(made, "high");
-    const glm::dvec3 there = *pivot_of(editor_, "high"), across = pivot_of(editor_, made).value_or(there);
-    EXPECT_NEAR(across.x, there.x, 0.05);
-    EXPECT_NEAR(across.y, there.y, 0.05);
-    EXPECT_LT(across.z, -1);
-    apply(editor_, UndoStep{});
-    calm();
-    EXPECT_FALSE(pivot_of(editor_, made));
-}
-
-TEST_F(BarEditor, AHandleOfANameThatWasBeginsWithNoPivot) {
-    make_handles();
-    const glm::dvec3 middle = gizmo_of(editor_)->center, elsewhere(5, 5, 5);
-    const auto pivot = [&] {
-        calm();
-        apply(editor_, ChooseHandle{"high"});
-        return gizmo_of(editor_)->center;
-    };
-    apply(editor_, SetPivot{elsewhere});
-    apply(editor_, DeleteHandle{"high"});
-    calm();
-    select_heights(2, 3);
-    apply(editor_, MakeHandle{HandleRole::moving, "high"});
-    EXPECT_EQ(pivot(), middle);
-    for (int step = 0; step < 3; ++step) apply(editor_, UndoStep{}); // made, selected, deleted
-    EXPECT_EQ(pivot(), elsewhere) << "it comes back with the handle that was deleted";
-    apply(editor_, RenameHandle{"high", "top"});
-    calm();
-    select_heights(0, 1);
-    apply(editor_, MakeHandle{HandleRole::moving, "high"});
-    EXPECT_NE(pivot(), elsewhere);
-}
-
 TEST_F(BarEditor, LargeHandlesNeedNoFalloff) {
     make_handles();
     for (const Handle& handle : editor_.document->handles) EXPECT_EQ(least_falloff(editor_, handle), 0);
-}
-
-TEST_F(BarEditor, MirroringElsewhereMakesAnotherHandle) {
-    make_handles();
-    const auto names = [&] {
-        std::vector<std::string> all;
-        for (const Handle& handle : editor_.document->handles) all.push_back(handle.name);
-        return all;
-    };
-    for (const int axis : {0, 2, 2}) { // on itself; across; and there again
-        apply(editor_, MirrorHandle{"high", axis});
-        calm();
-    }
-    EXPECT_EQ(names(), (std::vector<std::string>{"low", "high", "high mirrored", "high mirrored 2"}));
 }
 
 // What is declared anew comes last, and the last one has what several hold.

@@ -1,0 +1,128 @@
+// Where handles turn about, and how that goes along.
+
+#include "edit/editor_bar.h"
+
+namespace knead::test {
+
+TEST_F(BarEditor, EveryHandleKeepsItsPivotAndTakesItAlong) {
+    make_handles();
+    select_heights(-0.5, 0.5);
+    apply(editor_, MakeHandle{HandleRole::moving, "middle"});
+    calm();
+    const auto at = [&](const char* handle) {
+        apply(editor_, ChooseHandle{handle});
+        return gizmo_of(editor_)->center;
+    };
+    const glm::dvec3 middle = at("high"), joint(0, 0, 2);
+    apply(editor_, SetPivot{glm::dvec3(1, 0, 2), SetPivot::Stage::moving});
+    apply(editor_, SetPivot{joint});
+    EXPECT_NE(at("middle"), joint);
+    apply(editor_, DropChoice{});
+    EXPECT_EQ(at("high"), joint) << "also after another was chosen, and none";
+
+    turn_chosen("90"); // about the view's axis, y
+    EXPECT_LT(glm::distance(at("high"), joint), 1e-9);
+    transform_chosen('G', 'Z', "1");
+    EXPECT_LT(glm::distance(at("high"), joint + glm::dvec3(0, 0, 1)), 1e-9) << "it goes along";
+    apply(editor_, ResetPose{"high"});
+    calm();
+    EXPECT_LT(glm::distance(at("high"), joint), 1e-9);
+    apply(editor_, UndoStep{});
+    EXPECT_LT(glm::distance(at("high"), joint + glm::dvec3(0, 0, 1)), 1e-9);
+    apply(editor_, RenameHandle{"high", "top"});
+    calm();
+    EXPECT_LT(glm::distance(at("top"), joint + glm::dvec3(0, 0, 1)), 1e-9);
+    for (int step = 0; step < 3; ++step) apply(editor_, UndoStep{}); // the name, the shift, the turn
+    calm();
+    EXPECT_EQ(at("high"), joint);
+
+    const std::size_t steps = editor_.past.size();
+    apply(editor_, UndoStep{});
+    EXPECT_EQ(editor_.past.size(), steps - 1) << "one step, however often the hand moved";
+    EXPECT_EQ(at("high"), middle);
+    apply(editor_, RedoStep{});
+    EXPECT_EQ(at("high"), joint);
+    apply(editor_, SetPivot{glm::dvec3(3, 3, 3), SetPivot::Stage::moving});
+    apply(editor_, SetPivot{{}, SetPivot::Stage::given_up});
+    EXPECT_EQ(at("high"), joint);
+    EXPECT_EQ(editor_.past.size(), steps) << "nothing moved";
+    apply(editor_, SetPivot{});
+    EXPECT_EQ(at("high"), middle);
+}
+
+TEST_F(BarEditor, PivotsAreThereWhenTheSessionIsOpenedAgain) {
+    make_handles();
+    select_heights(-0.5, 0.5);
+    apply(editor_, MakeHandle{HandleRole::moving, "middle"});
+    calm();
+    turn_chosen("20"); // about its middle
+    apply(editor_, ChooseHandle{"high"});
+    editor_.pivots["high"] = {0.5, 0, 1.5};
+    turn_chosen("30");
+    turn_chosen("40");
+    const glm::dvec3 pivot = *pivot_of(editor_, "high");
+    const std::filesystem::path kept = folder_ / "kept.knead";
+    for (const bool commits : {false, true}) {
+        if (commits) apply(editor_, CommitPose{});
+        save_session(editor_, kept, true);
+        calm();
+        Editor again{1};
+        again.viewport = {800, 800};
+        OpenRequest request;
+        request.file = kept;
+        request.device = "reference";
+        open(again, request);
+        ASSERT_TRUE(wait_until([&] { return refresh(again) && again.document; }));
+        ASSERT_TRUE(pivot_of(again, "high"));
+        EXPECT_LT(glm::distance(*pivot_of(again, "high"), pivot), 1e-6);
+        EXPECT_FALSE(pivot_of(again, "middle"));
+        apply(again, UndoStep{});
+        EXPECT_FALSE(pivot_of(again, "high")) << "the handle may be elsewhere then";
+        apply(again, RedoStep{});
+        EXPECT_TRUE(pivot_of(again, "high"));
+    }
+}
+
+TEST_F(BarEditor, AMirroredHandleHasItsPivotAcross) {
+    make_handles();
+    apply(editor_, ChooseHandle{"high"});
+    calm();
+    editor_.pivots["high"] = {0.4, 0.1, 2};
+    turn_chosen("30");
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    const std::string made = editor_.document->handles.back().name;
+    ASSERT_NE(made, "high");
+    const glm::dvec3 there = *pivot_of(editor_, "high"), across = pivot_of(editor_, made).value_or(there);
+    EXPECT_NEAR(across.x, there.x, 0.05);
+    EXPECT_NEAR(across.y, there.y, 0.05);
+    EXPECT_LT(across.z, -1);
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_FALSE(pivot_of(editor_, made));
+}
+
+TEST_F(BarEditor, AHandleOfANameThatWasBeginsWithNoPivot) {
+    make_handles();
+    const glm::dvec3 middle = gizmo_of(editor_)->center, elsewhere(5, 5, 5);
+    const auto pivot = [&] {
+        calm();
+        apply(editor_, ChooseHandle{"high"});
+        return gizmo_of(editor_)->center;
+    };
+    apply(editor_, SetPivot{elsewhere});
+    apply(editor_, DeleteHandle{"high"});
+    calm();
+    select_heights(2, 3);
+    apply(editor_, MakeHandle{HandleRole::moving, "high"});
+    EXPECT_EQ(pivot(), middle);
+    for (int step = 0; step < 3; ++step) apply(editor_, UndoStep{}); // made, selected, deleted
+    EXPECT_EQ(pivot(), elsewhere) << "it comes back with the handle that was deleted";
+    apply(editor_, RenameHandle{"high", "top"});
+    calm();
+    select_heights(0, 1);
+    apply(editor_, MakeHandle{HandleRole::moving, "high"});
+    EXPECT_NE(pivot(), elsewhere);
+}
+
+} // namespace knead::test

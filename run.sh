@@ -6,7 +6,7 @@
 #   ./run.sh FILE       opens a point cloud in the editor
 #   ./run.sh --build    only builds, and the tests too (test.sh does so)
 #
-# Without a display a session is replayed (the bent cloud goes to build/), and a cloud is described.
+# Without a display a session is replayed (the bent cloud goes to build/replayed/), and a cloud is described.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -61,7 +61,8 @@ is_session() {
 replay() {
     local session=$1 name result code=0
     name=$(basename -- "$session")
-    result="$root/build/${name%.*}.ply"
+    result="$root/build/replayed/${name%.*}.ply"
+    mkdir -p "$root/build/replayed"
     "$root/build/knead" replay "$session" --out "$result" || code=$?
     if [ "$code" = 0 ] || [ "$code" = 4 ]; then say "The bent cloud is in $result"; fi
     return "$code"

@@ -99,11 +99,42 @@ std::size_t check_coordinates(const PointCloud& cloud) {
     return points;
 }
 
+using NormalColumns = std::array<std::size_t, 3>;
+
 // Whole numbers with a sign are directions whatever their unit; without one, nobody knows where their zero
 // is.
 bool holds_directions(ScalarType type) {
     return !is_whole(type) || type == ScalarType::int8 || type == ScalarType::int16 ||
            type == ScalarType::int32;
+}
+
+// Whether three columns are of one unit, and say where it points.
+bool are_directions(const PointCloud& cloud, const NormalColumns& columns) {
+    const ScalarType first = cloud.attributes[columns[0]].type;
+    return std::ranges::all_of(columns, [&](std::size_t column) {
+        const ScalarType type = cloud.attributes[column].type;
+        return holds_directions(type) && (type == first || !(is_whole(type) || is_whole(first)));
+    });
+}
+
+// The first columns that are called as normals are, of one number a point, and of which is_right(columns).
+template<typename IsRight>
+std::optional<NormalColumns> first_normals(const PointCloud& cloud, IsRight&& is_right) {
+    constexpr std::array<std::string_view, 3> spellings[] = {{"nx", "ny", "nz"},
+                                                             {"normal_x", "normal_y", "normal_z"},
+                                                             {"NormalX", "NormalY", "NormalZ"},
+                                                             {"Nx", "Ny", "Nz"}};
+    for (const auto& names : spellings) {
+        NormalColumns columns{};
+        std::size_t found = 0;
+        for (const std::string_view name : names) {
+            const auto column = find_attribute(cloud, name);
+            if (!column || cloud.attributes[*column].is_list()) break;
+            columns[found++] = *column;
+        }
+        if (found == 3 && is_right(columns)) return columns;
+    }
+    return std::nullopt;
 }
 
 } // namespace
@@ -178,28 +209,12 @@ std::optional<std::size_t> find_attribute(const PointCloud& cloud, std::string_v
     return std::nullopt;
 }
 
+std::optional<std::array<std::size_t, 3>> find_normal_names(const PointCloud& cloud) {
+    return first_normals(cloud, [](const NormalColumns&) { return true; });
+}
+
 std::optional<std::array<std::size_t, 3>> find_normals(const PointCloud& cloud) {
-    constexpr std::array<std::string_view, 3> spellings[] = {{"nx", "ny", "nz"},
-                                                             {"normal_x", "normal_y", "normal_z"},
-                                                             {"NormalX", "NormalY", "NormalZ"},
-                                                             {"Nx", "Ny", "Nz"}};
-    for (const auto& names : spellings) {
-        std::array<std::size_t, 3> columns{};
-        std::size_t found = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto column = find_attribute(cloud, names[axis]);
-            if (!column) break;
-            const Attribute& attribute = cloud.attributes[*column];
-            if (attribute.is_list() || !holds_directions(attribute.type)) break;
-            const ScalarType first = cloud.attributes[axis == 0 ? *column : columns[0]].type;
-            const bool one_unit = attribute.type == first || !(is_whole(attribute.type) || is_whole(first));
-            if (!one_unit) break;
-            columns[axis] = *column;
-            ++found;
-        }
-        if (found == 3) return columns;
-    }
-    return std::nullopt;
+    return first_normals(cloud, [&](const NormalColumns& columns) { return are_directions(cloud, columns); });
 }
 
 std::vector<float> read_normals(const PointCloud& cloud) {

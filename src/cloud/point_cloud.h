@@ -79,8 +79,11 @@ struct PointCloud {
 // The column called `name` (letter case counts), if there is one.
 std::optional<std::size_t> find_attribute(const PointCloud& cloud, std::string_view name);
 
-// The three columns of the normals (nx ny nz, normal_x normal_y normal_z, NormalX NormalY NormalZ, or Nx Ny
-// Nz), if all three are there as float32 or float64, or all as int8, int16 or int32.
+// The three columns that are called as normals are, of whatever types: nx ny nz, normal_x normal_y normal_z,
+// NormalX NormalY NormalZ, or Nx Ny Nz, in this order of preference.
+std::optional<std::array<std::size_t, 3>> find_normal_names(const PointCloud& cloud);
+
+// The first such columns that are float32 or float64, or all three int8, int16 or int32.
 std::optional<std::array<std::size_t, 3>> find_normals(const PointCloud& cloud);
 
 // Normals as 3n floats, interleaved; empty without such columns.

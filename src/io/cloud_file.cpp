@@ -39,14 +39,16 @@ void remark_on_coarse_coordinates(PointCloud& cloud, const Bounds& bounds) {
     cloud.remarks.push_back(words.str());
 }
 
-// Normals of whole numbers, unless they are of one type with a sign.
+// Normals that nobody knows the directions of.
 void remark_on_normals_that_stay(PointCloud& cloud) {
     if (find_normals(cloud)) return;
-    for (const char* const name : {"nx", "ny", "nz"})
-        if (!find_attribute(cloud, name)) return;
-    cloud.remarks.emplace_back(
-        "its normals nx, ny and nz are not of one type with a sign, so that nobody knows where "
-        "they point; they are kept and do not turn with the points");
+    const auto columns = find_normal_names(cloud);
+    if (!columns) return;
+    const auto name = [&](std::size_t axis) { return cloud.attributes[(*columns)[axis]].name; };
+    cloud.remarks.push_back("its normals " + name(0) + ", " + name(1) + " and " + name(2) +
+                            " are neither floats nor of one type of whole numbers with a sign, of 1, 2 or 4 "
+                            "bytes, so that nobody knows where they point; they are kept and do not turn "
+                            "with the points");
 }
 
 void add_remarks(PointCloud& cloud) {

@@ -38,7 +38,7 @@ struct Format {
     bool (*looks_like_with_its_name)(std::span<const std::byte> first_bytes) = nullptr;
 };
 
-constexpr std::size_t first_bytes_size = 4096;
+constexpr std::size_t first_bytes_size = 65536;
 
 // All of them, in the order in which content is tried.
 std::span<const Format> known_formats();

@@ -21,12 +21,12 @@ struct AxisFrame {
     LasAxis own;                         // of the file
     LasAxis axis;                        // to save with
     bool moves = false;                  // whether any number changes
-    double lowest = 0, highest = 0;      // of all numbers, by `own`
+    double lowest = 0, highest = 0;      // of all numbers to save
 
     bool is_new() const { return axis.scale != own.scale || axis.offset != own.offset; }
 
     // A number by `own`, for a value that keeps its place, as a number to save.
-    double converted(double number) const {
+    double converted(std::int32_t number) const {
         return is_new() ? std::nearbyint((own.value(number) - axis.offset) / axis.scale) : number;
     }
 
@@ -42,7 +42,7 @@ struct Patching {
     const LasImage& image;
     const std::string& shown;
     std::array<AxisFrame, 3> frames;
-    std::vector<PosedColumn> normals; // the columns that are no coordinates
+    std::vector<PosedColumn> turned; // normals and what else turns (turned_splats.h): no coordinates
     std::vector<AddedColumn> added;
 };
 
@@ -111,6 +111,7 @@ std::vector<std::string> choose_frames(Patching& patching) {
         measure(patching.image, axis, patching.shown, frame);
         if (!fits_int32(frame.lowest) || !fits_int32(frame.highest)) {
             frame.axis = axis_that_holds(frame, patching.shown);
+            measure(patching.image, axis, patching.shown, frame);
             heard.push_back(words_about(frame, "xyz"[axis]));
         }
     }
@@ -126,16 +127,16 @@ void patch_header(const Patching& patching, std::span<std::byte> head) {
             store_little(frame.axis.scale, head, las_at::scale + 8 * axis);
             store_little(frame.axis.offset, head, las_at::offset + 8 * axis);
         }
-        double low = frame.axis.value(frame.converted(frame.lowest));
-        double high = frame.axis.value(frame.converted(frame.highest));
+        double low = frame.axis.value(frame.lowest);
+        double high = frame.axis.value(frame.highest);
         if (low > high) std::swap(low, high); // of a negative scale
         store_little(high, head, las_at::bounds + 16 * axis);
         store_little(low, head, las_at::bounds + 16 * axis + 8);
     }
 }
 
-// A normal's component, by the type that it has in the file.
-void patch_normal(const Patching& patching, const PosedColumn& column, std::size_t point,
+// A component of what turns, by the type that it has in the file.
+void patch_turned(const Patching& patching, const PosedColumn& column, std::size_t point,
                   std::span<std::byte> row) {
     auto value = posed_value(column, point, patching.shown);
     if (!value) return;
@@ -143,7 +144,7 @@ void patch_normal(const Patching& patching, const PosedColumn& column, std::size
     if (dimension.scaled) {
         const double number = (*value - dimension.axis.offset) / dimension.axis.scale;
         value = is_whole(dimension.type) ? rounded_to(dimension.type, number) : std::optional(number);
-        if (!value) return; // a normal does not leave its file's range by a turn; what does was none
+        if (!value) return; // no direction leaves its file's range by a turn; what does was none
     }
     const StoredScalar scalar =
         stored_scalar(*value, dimension.type, std::endian::native == std::endian::big);
@@ -159,7 +160,7 @@ void patch_row(const Patching& patching, std::size_t point, std::span<std::byte>
         if (!fits_int32(number)) refuse_extent(patching.shown);
         store_little(static_cast<std::int32_t>(number), row, 4 * axis);
     }
-    for (const PosedColumn& column : patching.normals) patch_normal(patching, column, point, row);
+    for (const PosedColumn& column : patching.turned) patch_turned(patching, column, point, row);
     std::size_t at = patching.image.header.point_length;
     for (const AddedColumn& column : patching.added) {
         store_little(column.values[point], row, at);
@@ -191,7 +192,7 @@ std::vector<std::string> write_patched(FileInTheMaking& file, const LasImage& im
         if (column.column < 3)
             patching.frames[column.column].column = &column;
         else
-            patching.normals.push_back(column);
+            patching.turned.push_back(column);
     std::vector<std::string> heard = choose_frames(patching);
 
     const std::span<const std::byte> bytes = image.bytes;
@@ -203,7 +204,7 @@ std::vector<std::string> write_patched(FileInTheMaking& file, const LasImage& im
     out.append(head);
     const bool some_move = std::any_of(patching.frames.begin(), patching.frames.end(),
                                        [](const AxisFrame& frame) { return frame.moves; });
-    if (some_move || !patching.normals.empty() || !patching.added.empty())
+    if (some_move || !patching.turned.empty() || !patching.added.empty())
         write_rows(patching, out);
     else
         out.append(rows_of(image));

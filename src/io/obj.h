@@ -10,8 +10,8 @@
 //   one.
 // - vn x y z: normals: columns nx, ny and nz where each belongs to one point alone. That is so if the corners
 //   that name a point all name one normal, which no other point's do (a point of no corner gets 0 0 0); and
-//   where there are as many normals as points and no corner names a normal of another number than its
-//   point's, each belongs to the point of its number. Other normals are kept as they are, with a remark.
+//   where there are as many normals as points and every corner that names a point names the normal of the
+//   same number, each belongs to the point of its number. Other normals are kept as they are, with a remark.
 // - f, fo, l, p: numbers are checked: a point, a texture coordinate or a normal that is not in the file is an
 //   error.
 

@@ -151,6 +151,45 @@ void note_line_end(std::string_view text, const Words& words, PcdFieldLine line,
         static_cast<std::size_t>(last.data() + last.size() - text.data());
 }
 
+std::string viewpoint_of(const Words& words) {
+    std::string viewpoint;
+    for (const std::string_view word : std::span(words).subspan(1))
+        viewpoint.append(viewpoint.empty() ? "" : " ").append(word);
+    return viewpoint;
+}
+
+// A line before DATA.
+void take_line(const Words& words, std::string_view text, const HeaderLines& lines, Lines& said,
+               PcdHeader& header) {
+    const std::string_view keyword = words.front();
+    const auto field_line = [&](PcdFieldLine line, std::optional<Words>& to) {
+        keep_field_line(words, lines, to);
+        note_line_end(text, words, line, header);
+    };
+    if (keyword == "VERSION")
+        check_version(words, lines);
+    else if (keyword == "FIELDS" || keyword == "COLUMNS")
+        field_line(PcdFieldLine::fields, said.fields);
+    else if (keyword == "SIZE")
+        field_line(PcdFieldLine::size, said.sizes);
+    else if (keyword == "TYPE")
+        field_line(PcdFieldLine::type, said.types);
+    else if (keyword == "COUNT")
+        field_line(PcdFieldLine::count, said.counts);
+    else if (keyword == "WIDTH")
+        parse_number_line(words, lines, said.width);
+    else if (keyword == "HEIGHT")
+        parse_number_line(words, lines, said.height);
+    else if (keyword == "POINTS")
+        parse_number_line(words, lines, said.points);
+    else if (keyword == "VIEWPOINT")
+        header.viewpoint = viewpoint_of(words);
+    else
+        lines.fail("unknown header line " + in_quotes(keyword) +
+                   "; a PCD header has VERSION, FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, VIEWPOINT, "
+                   "POINTS and DATA");
+}
+
 } // namespace
 
 std::string_view name_of(PcdEncoding encoding) {
@@ -178,42 +217,15 @@ PcdHeader parse_pcd_header(std::span<const std::byte> bytes, const std::string& 
     Lines said;
     while (const auto words = lines.next()) {
         if (words->empty() || words->front().starts_with('#')) continue;
-        const std::string_view keyword = words->front();
-        const auto field_line = [&](PcdFieldLine line, std::optional<Words>& to) {
-            keep_field_line(*words, lines, to);
-            note_line_end(text, *words, line, header);
-        };
-        if (keyword == "VERSION") {
-            check_version(*words, lines);
-        } else if (keyword == "FIELDS" || keyword == "COLUMNS") {
-            field_line(PcdFieldLine::fields, said.fields);
-        } else if (keyword == "SIZE") {
-            field_line(PcdFieldLine::size, said.sizes);
-        } else if (keyword == "TYPE") {
-            field_line(PcdFieldLine::type, said.types);
-        } else if (keyword == "COUNT") {
-            field_line(PcdFieldLine::count, said.counts);
-        } else if (keyword == "WIDTH") {
-            parse_number_line(*words, lines, said.width);
-        } else if (keyword == "HEIGHT") {
-            parse_number_line(*words, lines, said.height);
-        } else if (keyword == "POINTS") {
-            parse_number_line(*words, lines, said.points);
-        } else if (keyword == "VIEWPOINT") {
-            header.viewpoint.clear();
-            for (const std::string_view word : std::span(*words).subspan(1))
-                header.viewpoint.append(header.viewpoint.empty() ? "" : " ").append(word);
-        } else if (keyword == "DATA") {
-            header.encoding = parse_encoding(*words, lines);
-            make_fields(said, lines, header);
-            make_points(said, lines, header);
-            header.body = lines.at();
-            return header;
-        } else {
-            lines.fail("unknown header line " + in_quotes(keyword) +
-                       "; a PCD header has VERSION, FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, VIEWPOINT, "
-                       "POINTS and DATA");
+        if (words->front() != "DATA") {
+            take_line(*words, text, lines, said, header);
+            continue;
         }
+        header.encoding = parse_encoding(*words, lines);
+        make_fields(said, lines, header);
+        make_points(said, lines, header);
+        header.body = lines.at();
+        return header;
     }
     lines.fail("the header has no DATA line: the file is cut off; get it again from its source");
 }

@@ -136,6 +136,7 @@ struct Numbers {
     bool begins_with_intensity() const {
         if (columns == 4) return kind == TableKind::pts;
         if (columns == 7 && are_colors(3) && is_opaque(6)) return false;
+        if (are_normals(3)) return false; // of a level floor, 0 0 1, they look like parts of colours
         return columns % 3 == 1 && are_colors(4);
     }
 };

@@ -1,8 +1,8 @@
 #pragma once
 // The rows of a table of numbers, walked one number at a time: by the reader, and again by the writer.
 
-#include "io/ascii_rows.h"
 #include "io/table_layout.h"
+#include "io/text_cursor.h"
 
 #include <array>
 #include <charconv>

@@ -2,7 +2,7 @@
 // Numbers in text files, read and written, and what messages about a text need.
 
 #include "cloud/point_cloud.h"
-#include "io/ascii_rows.h"
+#include "io/text_cursor.h"
 
 #include <cstddef>
 #include <span>

@@ -3,7 +3,7 @@
 // each column. Readers only.
 
 #include "cloud/point_cloud.h"
-#include "io/ascii_rows.h"
+#include "io/text_cursor.h"
 
 #include <cstddef>
 #include <cstdint>

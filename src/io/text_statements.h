@@ -1,7 +1,7 @@
 #pragma once
 // Lines of words with comments, as OBJ and OFF files have them, for their readers and writers.
 
-#include "io/ascii_rows.h"
+#include "io/text_cursor.h"
 
 #include <cstddef>
 #include <optional>

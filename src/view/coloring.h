@@ -61,8 +61,8 @@ struct Legend {
 Legend color_points(const ColorBy& by, const PointsToColor& points, std::span<std::uint32_t> colors,
                     Workers& workers);
 
-// Whether the cloud has colours of its own: columns red green blue, diffuse_red … or r g b, of bytes,
-// 16-bit numbers or floats.
+// Whether the cloud has colours of its own: columns red green blue, diffuse_red … or r g b, of any
+// type.
 bool has_colors(const PointCloud& cloud);
 
 // The columns that points can be coloured by: every one of scalars but the coordinates.

@@ -50,6 +50,8 @@ TEST(PointCloud, holds_every_type_exactly) {
     expect_extremes<std::uint16_t>(ScalarType::uint16);
     expect_extremes<std::int32_t>(ScalarType::int32);
     expect_extremes<std::uint32_t>(ScalarType::uint32);
+    expect_extremes<std::int64_t>(ScalarType::int64);
+    expect_extremes<std::uint64_t>(ScalarType::uint64);
     expect_extremes<float>(ScalarType::float32);
     expect_extremes<double>(ScalarType::float64);
 }
@@ -100,8 +102,9 @@ TEST(PointCloud, may_have_no_point_or_none_that_is_finite) {
     }
 }
 
-TEST(PointCloud, finds_normals_by_either_spelling) {
-    for (const auto& names : {std::array{"nx", "ny", "nz"}, std::array{"normal_x", "normal_y", "normal_z"}}) {
+TEST(PointCloud, finds_normals_by_any_spelling) {
+    for (const auto& names : {std::array{"nx", "ny", "nz"}, std::array{"normal_x", "normal_y", "normal_z"},
+                              std::array{"NormalX", "NormalY", "NormalZ"}, std::array{"Nx", "Ny", "Nz"}}) {
         PointCloud cloud = make_cloud(std::vector<float>{0, 0, 0, 1, 1, 1});
         EXPECT_FALSE(find_normals(cloud));
         EXPECT_TRUE(read_normals(cloud).empty());
@@ -118,11 +121,20 @@ TEST(PointCloud, takes_whole_numbers_for_normals_if_they_have_a_sign) {
     PointCloud cloud = make_cloud(std::vector<float>{0, 0, 0});
     for (const char* name : {"nx", "ny", "nz"}) add_attribute(cloud, name, std::vector<std::uint8_t>{0xFF});
     EXPECT_FALSE(find_normals(cloud));
+    EXPECT_EQ(find_normal_names(cloud), (std::array<std::size_t, 3>{3, 4, 5}));
     for (Attribute& attribute : cloud.attributes)
         if (attribute.type == ScalarType::uint8) attribute.type = ScalarType::int8;
     EXPECT_EQ(read_normals(cloud), (std::vector<float>{-1, -1, -1}));
     cloud.attributes.back() = {"nz", ScalarType::int16, std::vector<std::byte>(2), {}, ScalarType::uint8};
     EXPECT_FALSE(find_normals(cloud)) << "of what unit?";
+    EXPECT_TRUE(find_normal_names(cloud));
+}
+
+TEST(PointCloud, takes_other_columns_for_normals_where_the_first_ones_point_nowhere) {
+    PointCloud cloud = make_cloud(std::vector<float>{0, 0, 0});
+    for (const char* name : {"nx", "ny", "nz"}) add_attribute(cloud, name, std::vector<std::uint8_t>{9});
+    for (const char* name : {"Nx", "Ny", "Nz"}) add_attribute(cloud, name, std::vector<float>{1});
+    EXPECT_EQ(find_normals(cloud), (std::array<std::size_t, 3>{6, 7, 8}));
 }
 
 TEST(PointCloud, refuses_columns_that_are_not_equally_long) {

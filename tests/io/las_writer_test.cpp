@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iomanip>
@@ -114,6 +115,24 @@ TEST(LasWriter, takes_coarser_steps_where_the_extent_asks_for_them) {
     EXPECT_NEAR(back.file_position(3).y(), -2000, 1e-4);
     EXPECT_NEAR(back.file_position(0).y(), cloud.file_position(0).y(), 0.6e-6);
     EXPECT_NE(refusal_to_write(cloud, {moved(cloud, 3, {std::nanf(""), 0, 0}), {}}, "out.las"), "");
+}
+
+TEST(LasWriter, has_the_bounds_of_the_points_in_coarser_steps_too) {
+    LasKind kind;
+    kind.scale = {1e-7, 1e-7, 1e-7};
+    const PointCloud cloud = read_bytes(las_sample(kind));
+    for (int i = 0; i < 60; ++i) {
+        const float far = 1200 + 7.31F * static_cast<float>(i);
+        const std::string saved = written(cloud, {moved(cloud, 3, {far, 0, 0}), {}}, "out.las");
+        const PointCloud back = read_bytes(saved);
+        double lowest = back.file_position(0).x(), highest = lowest;
+        for (std::size_t p = 1; p < back.size(); ++p) {
+            lowest = std::min(lowest, back.file_position(p).x());
+            highest = std::max(highest, back.file_position(p).x());
+        }
+        EXPECT_EQ(get<double>(saved, 179), highest) << far;
+        EXPECT_EQ(get<double>(saved, 187), lowest) << far;
+    }
 }
 
 TEST(LasWriter, turns_normals_that_are_floats) {

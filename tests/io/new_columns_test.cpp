@@ -24,7 +24,7 @@ TEST(FreeNames, numbers_what_was_taken) {
     EXPECT_EQ(names.take(longer, 20), longer.substr(0, 18) + "_2");
 }
 
-TEST(FreeNames, takes_many_of_one_name_in_no_time) {
+TEST(FreeNames, counts_on_where_very_many_have_one_name) {
     FreeNames names;
     for (int i = 0; i < 200'000; ++i) (void)names.take("a");
     EXPECT_EQ(names.take("a"), "a_200001");

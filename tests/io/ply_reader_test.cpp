@@ -203,7 +203,6 @@ TEST(PlyReader, passes_over_an_element_without_properties) {
               1U);
 }
 
-// In time that grows with the file and not with its square, which would be minutes.
 TEST(PlyReader, opens_headers_of_very_many_lines) {
     constexpr std::size_t many = 200'000;
     std::string bytes = "ply\nformat ascii 1.0\n";

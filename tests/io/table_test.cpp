@@ -169,6 +169,9 @@ TEST(Table, KnowsUnnamedColumnsByTheirValues) {
     EXPECT_EQ(columns_of("1 2 3 70 255 0 255\n"), "x y z red green blue alpha");
     EXPECT_EQ(columns_of("1 2 3 1 0 0 9 9 9\n"), "x y z nx ny nz red green blue");
     EXPECT_EQ(columns_of("1 2 3 9 9 9 1 0 0\n"), "x y z red green blue nx ny nz");
+    EXPECT_EQ(columns_of("1 2 3 0 0 1 10 20 30 0.5\n"), "x y z nx ny nz red green blue column_10")
+        << "a level floor's normals are no colours";
+    EXPECT_EQ(columns_of("1 2 3 0 0 1 5\n"), "x y z nx ny nz column_7");
     EXPECT_EQ(columns_of("1 2 3 0.5 0.5 7\n"), "x y z column_4 column_5 column_6");
     EXPECT_EQ(columns_of("1 2 3 25\n"), "x y z column_4");
     EXPECT_EQ(columns_of("1 2 3 25\n", "cloud.pts"), "x y z intensity");

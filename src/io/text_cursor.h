@@ -1,12 +1,13 @@
 #pragma once
-// Words and rows of text, for the readers and writers of all formats that have some: blanks part words, a row
-// is a line, and empty lines between rows are passed over. Lines end in \n, \r or both.
+// A place in a text, and what it moves over: blanks part words, a row is a line, and empty lines between rows
+// are passed over. Lines end in \n, \r or both. For the readers and writers of all formats that have text.
 
 #include <cstddef>
 #include <string_view>
 
 namespace knead {
 
+// What is left of the text: from the place on to the end.
 struct TextCursor {
     const char* at = nullptr;
     const char* end = nullptr;

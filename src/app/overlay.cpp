@@ -6,6 +6,7 @@
 #include "app/icons.h"
 #include "app/widgets.h"
 #include "edit/selecting.h"
+#include "view/amount_text.h"
 
 #include <algorithm>
 #include <array>

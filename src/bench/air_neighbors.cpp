@@ -1,6 +1,7 @@
 #include "bench/air_neighbors.h"
 
 #include "base/workers.h"
+#include "bench/bare_pipeline.h"
 #include "deform/rotation.h"
 
 #include <algorithm>
@@ -71,11 +72,8 @@ Vec3d displaced(const Vec3d& p, const std::vector<AirSample>& samples) {
 std::vector<float> posed_through_the_air(const Pipeline& pipeline, const std::vector<HandleMotion>& motions,
                                          const SampleState& state, Workers& workers) {
     const std::vector<AirSample> samples = moved_samples(pipeline, motions, state);
-    const std::vector<Index>& label = pipeline.labels().vertex;
     const Components& components = pipeline.components();
-    std::vector<bool> held(components.size.size(), false);
-    for (std::size_t v = 0; v < label.size(); ++v)
-        if (label[v] != no_index) held[components.component[v]] = true;
+    const std::vector<bool> held = held_parts(pipeline);
 
     const std::span<const float> opened = pipeline.opened().positions;
     std::vector<float> posed(opened.begin(), opened.end());

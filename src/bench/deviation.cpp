@@ -2,6 +2,7 @@
 
 #include "base/require.h"
 #include "base/workers.h"
+#include "bench/bare_pipeline.h"
 #include "deform/rotation.h"
 #include "edit/pipeline.h"
 
@@ -101,9 +102,7 @@ double link_noise(const Pipeline& pipeline, std::span<const float> posed) {
     const Graph& graph = pipeline.graph();
     const std::vector<Index>& label = pipeline.labels().vertex;
     const Components& components = pipeline.components();
-    std::vector<bool> held(components.size.size(), false);
-    for (std::size_t v = 0; v < label.size(); ++v)
-        if (label[v] != no_index) held[components.component[v]] = true;
+    const std::vector<bool> held = held_parts(pipeline);
 
     double sum = 0;
     std::size_t links = 0;

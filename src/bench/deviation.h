@@ -40,7 +40,7 @@ Deviation field_deviation(const PosedCloud& a, const PosedCloud& b, double diago
 // pipeline. 0 where there is no such link.
 double link_noise(const Pipeline& pipeline, std::span<const float> posed);
 
-// How many times as uneven few samples may be as the full solution (issue 4).
+// How many times as uneven few samples may be as the full solution.
 inline constexpr double noise_bar = 1.2;
 
 } // namespace knead

@@ -44,8 +44,8 @@ struct Evaluation {
 };
 
 // The names that `shapes` may hold with these folders: the tasks, generated clouds ("made-knot"),
-// "elasticity", "sampling", "turns", "stiffness", "demands", "samples-bunny" and the other scans of the
-// paper, and the scans' file names without ".ply", for their properties.
+// "elasticity", "sampling", "turns", "stiffness", "demands", "samples-bunny" and the others of
+// scans_to_sample(), and the scans' file names without ".ply", for their properties.
 std::vector<std::string> evaluation_names(const EvaluationOptions& options);
 
 // Throws Error (usage) for a name or a device that is not there, Error (input) for a file that cannot be

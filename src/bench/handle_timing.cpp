@@ -3,6 +3,7 @@
 #include "base/counts.h"
 #include "base/stopwatch.h"
 #include "bench/automatic_handles.h"
+#include "bench/bare_pipeline.h"
 #include "bench/made_cloud.h"
 #include "bench/report.h"
 #include "edit/json_text.h"
@@ -31,17 +32,10 @@ constexpr std::array<TimedStage, 4> stages{{
     {"device", &StageSeconds::device, &HandleTimingRow::device},
 }};
 
-Handle handle_of(HandleRole role, std::vector<Index> points) {
-    Handle handle;
-    handle.role = role;
-    handle.points = std::make_shared<const std::vector<Index>>(std::move(points));
-    return handle;
-}
-
 std::vector<Handle> two_handles(const PointCloud& cloud) {
     AutomaticHandles automatic = automatic_handles(cloud);
-    return {handle_of(HandleRole::fixed, std::move(automatic.fixed)),
-            handle_of(HandleRole::moving, std::move(automatic.moving))};
+    return {{"", HandleRole::fixed, shared_points(std::move(automatic.fixed))},
+            {"", HandleRole::moving, shared_points(std::move(automatic.moving))}};
 }
 
 Handle third_handle(const PointCloud& cloud, double radius) {
@@ -50,16 +44,7 @@ Handle third_handle(const PointCloud& cloud, double radius) {
     std::vector<Index> points;
     for (Index i = 0; i < cloud.size(); ++i)
         if ((cloud.file_position(i) - middle).norm() <= radius) points.push_back(i);
-    return handle_of(HandleRole::moving, std::move(points));
-}
-
-void show_frame(Pipeline& pipeline, const PipelineInput& input) {
-    const std::vector<HandleMotion> motions(input.handles.size());
-    SampleState state = pipeline.rest_state();
-    Acceleration acceleration;
-    pipeline.follow_handles(motions, state);
-    for (unsigned i = 0; i < input.settings.iterations; ++i) pipeline.iterate(motions, state, acceleration);
-    pipeline.upsample(motions, state);
+    return {"", HandleRole::moving, shared_points(std::move(points))};
 }
 
 HandleTimingRow measure_plane(const PointCloud& cloud, std::uint64_t samples, bool is_first,
@@ -86,7 +71,7 @@ HandleTimingRow measure_plane(const PointCloud& cloud, std::uint64_t samples, bo
         Stopwatch clock;
         pipeline.prepare(input, progress);
         const double prepared = clock.lap();
-        show_frame(pipeline, input);
+        pose_from_rest(pipeline, std::vector<HandleMotion>(input.handles.size()), input.settings.iterations);
         const double shown = clock.lap();
         if (change % 2 == 0) figures.samples = pipeline.samples().size();
         if (change < 2) continue; // warms up

@@ -32,7 +32,7 @@ struct HandleTiming {
 // Measures planes of 100,000, 1,000,000 … points up to `most_points` with 1000 and with 5000 samples: the
 // third handle, a disc in the middle with a radius of 3 % of the cloud's size, comes and goes
 // `options.repeats` times each, after once that warms up; at the end of the list, as in the editor, and at
-// its beginning, where the territories of all samples that others added are flooded again.
+// its beginning, where the numbers of all other handles change.
 HandleTiming measure_handle_timing(std::size_t most_points, const Table1Options& options, Progress& progress);
 
 // A table for people, at most 130 columns wide; one JSON object with every number.

@@ -1,6 +1,7 @@
 // Figure 2 of the paper: neighbours through the air, and along the surface.
 
 #include "bench/air_neighbors.h"
+#include "bench/bare_pipeline.h"
 #include "bench/deviation.h"
 #include "bench/made_cloud.h"
 #include "bench/page_studio.h"
@@ -124,21 +125,13 @@ PageScene scene_of(const Close& close, const DeformationTask& task, const std::f
 // Poses the points, and says by which motions of the handles; returns the samples.
 SampleState pose(Pipeline& pipeline, const DeformationTask& task, const Settings& settings,
                  std::vector<HandleMotion>& motions, Progress& progress) {
-    const auto held = [](const std::vector<Index>& points) {
-        return std::make_shared<const std::vector<Index>>(points);
-    };
-    pipeline.prepare(
-        {settings,
-         {{"fixed", HandleRole::fixed, held(task.fixed)}, {"handle", HandleRole::moving, held(task.handle)}},
-         nullptr},
-        progress);
+    pipeline.prepare({settings,
+                      {{"fixed", HandleRole::fixed, shared_points(task.fixed)},
+                       {"handle", HandleRole::moving, shared_points(task.handle)}},
+                      nullptr},
+                     progress);
     motions = {HandleMotion{}, motion_of(task.pose, task.pivot, task.cloud.origin, {})};
-    SampleState state = pipeline.rest_state();
-    pipeline.follow_handles(motions, state);
-    Acceleration acceleration;
-    for (unsigned i = 0; i < iterations; ++i) pipeline.iterate(motions, state, acceleration);
-    pipeline.upsample(motions, state);
-    return state;
+    return pose_from_rest(pipeline, motions, iterations);
 }
 
 PageRow row_of(PageStudio& studio, const Close& close, PointCloud cloud,

@@ -39,7 +39,7 @@ struct PageStudio {
     std::vector<std::string> files; // and what was
 };
 
-// A task's handles, its drag in one frame and a settling; and the same with other frames.
+// A task's handles, its drag in one frame and a settling.
 std::vector<SessionAction> acts_of(const DeformationTask& task);
 
 // The creature as a scanner without strays would see it, 50,000 points.

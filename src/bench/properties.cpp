@@ -2,6 +2,7 @@
 
 #include "base/workers.h"
 #include "bench/automatic_handles.h"
+#include "bench/bare_pipeline.h"
 #include "bench/posing.h"
 #include "edit/document.h"
 #include "edit/handle_motion.h"
@@ -28,13 +29,11 @@ HandlePose rigid_pose(double diagonal) {
 
 // Of each ordered point: whether its part of the cloud holds a handle.
 std::vector<bool> held_points(const Pipeline& pipeline) {
-    const Components& components = pipeline.components();
-    std::vector<bool> held(components.size.size(), false);
-    for (std::size_t v = 0; v < components.component.size(); ++v)
-        if (pipeline.labels().vertex[v] != no_index) held[components.component[v]] = true;
+    const std::vector<bool> held = held_parts(pipeline);
     std::vector<bool> result;
     const Numbering& vertex = pipeline.order().vertex;
-    for (std::size_t i = 0; i < vertex.size(); ++i) result.push_back(held[components.component[vertex[i]]]);
+    for (std::size_t i = 0; i < vertex.size(); ++i)
+        result.push_back(held[pipeline.components().component[vertex[i]]]);
     return result;
 }
 
@@ -73,19 +72,11 @@ void check_rigid_frame(const PointCloud& cloud, const AutomaticHandles& automati
                        Workers& workers, Upsampler& upsampler, Progress& progress, CloudProperties& result) {
     Pipeline pipeline(cloud, workers, upsampler);
     PipelineInput input;
-    const auto held = [](const std::vector<Index>& points) {
-        return std::make_shared<const std::vector<Index>>(points);
-    };
-    input.handles = {{"lower", HandleRole::moving, held(automatic.fixed)},
-                     {"upper", HandleRole::moving, held(automatic.moving)}};
+    input.handles = {{"lower", HandleRole::moving, shared_points(automatic.fixed)},
+                     {"upper", HandleRole::moving, shared_points(automatic.moving)}};
     pipeline.prepare(input, progress);
     const HandleMotion motion = motion_of(pose, automatic.pivot, cloud.origin, {});
-    const std::vector<HandleMotion> motions(2, motion);
-    SampleState state = pipeline.rest_state();
-    pipeline.follow_handles(motions, state);
-    Acceleration acceleration;
-    for (unsigned i = 0; i < input.settings.iterations; ++i) pipeline.iterate(motions, state, acceleration);
-    pipeline.upsample(motions, state);
+    pose_from_rest(pipeline, std::vector<HandleMotion>(2, motion), input.settings.iterations);
     result.strays = pipeline.strays().points;
     result.rigid = deviation_from(motion, pipeline, pipeline.posed().positions, bounds_of(cloud).diagonal());
 }

@@ -15,7 +15,7 @@ namespace knead {
 class Upsampler;
 class Workers;
 
-// What is aimed at. Two shapes that are each within the 0.2 % of D that 1000 samples are allowed (issue 4)
+// What is aimed at. Two shapes that are each within the 0.2 % of D that 1000 samples are allowed
 // are within 0.4 % of each other; and no point may spike by a whole per cent.
 inline constexpr double sampling_rms_bar = 0.004, sampling_largest_bar = 0.01;
 

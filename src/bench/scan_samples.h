@@ -43,10 +43,10 @@ struct NamedScan {
 };
 std::span<const NamedScan> scans_of_the_paper();
 
-// These, and two that are all rims and holes: one from the air, and a room from inside.
+// These and the horse, and two that are all rims and holes: one from the air, and a room from inside.
 std::span<const NamedScan> scans_to_sample();
 
-// The task with 50, 200, … 10,000 samples, as far as those are fewer than the full solution's.
+// The task with so many samples each, as far as those are fewer than the full solution's.
 ScanSamples evaluate_scan_samples(const DeformationTask& task, std::span<const std::uint64_t> counts,
                                   Workers& workers, Upsampler& upsampler, Progress& progress);
 

@@ -20,9 +20,9 @@ namespace knead {
 class Upsampler;
 class Workers;
 
-// How far the same stiffness may look different with 200, 1000 and 5000 samples (rms over D; issue 4 names
-// the first two, for the survey's shapes at the usual stiffness), and at another size (largest over D:
-// rounding).
+// How far the same stiffness may look different with 200, 1000 and 5000 samples (rms over D; what was aimed
+// at names the first two, for the survey's shapes at the usual stiffness), and at another size (largest over
+// D: rounding).
 double stiffness_rms_bar(std::uint64_t samples);
 inline constexpr double scale_bar = 1e-4;
 

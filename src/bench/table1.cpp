@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/stopwatch.h"
 #include "bench/automatic_handles.h"
+#include "bench/bare_pipeline.h"
 #include "bench/made_cloud.h"
 #include "bench/upsampler_probe.h"
 #include "edit/handle_motion.h"
@@ -51,7 +52,7 @@ struct BendingPipelineInput {
 BendingPipelineInput bending_input(const PointCloud& cloud, std::size_t samples) {
     BendingPipelineInput result{{}, automatic_handles(cloud)};
     const auto handle = [](const char* name, HandleRole role, const std::vector<Index>& points) {
-        return Handle{name, role, std::make_shared<const std::vector<Index>>(points)};
+        return Handle{name, role, shared_points(points)};
     };
     result.input.settings.samples = samples;
     result.input.handles = {handle("fixed", HandleRole::fixed, result.automatic.fixed),

@@ -15,7 +15,7 @@ namespace knead {
 class Upsampler;
 class Workers;
 
-// How far apart the same end pose may come out (issue 4), where the way to it is not ambiguous: the largest
+// How far apart the same end pose may come out, where the way to it is not ambiguous: the largest
 // distance over D.
 inline constexpr double turn_bar = 0.01;
 

@@ -7,6 +7,7 @@
 #include "graph/neighbors.h"
 #include "graph/point_order.h"
 #include "graph/relaxing.h"
+#include "graph/scrambled.h"
 
 #include <algorithm>
 #include <cmath>

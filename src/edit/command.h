@@ -4,7 +4,7 @@
 
 #include "edit/session.h"
 #include "view/screen_region.h"
-#include "view/transform.h"
+#include "view/transform_drag.h"
 
 #include <string>
 #include <variant>

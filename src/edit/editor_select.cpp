@@ -1,6 +1,7 @@
 // The editor's commands that select points and hide them.
 
 #include "edit/editor_steps.h"
+#include "view/visibility.h"
 
 #include <algorithm>
 #include <ranges>

@@ -14,6 +14,7 @@
 #include "graph/octree.h"
 #include "graph/relaxing.h"
 #include "graph/row_ends.h"
+#include "graph/scrambled.h"
 #include "graph/solid_links.h"
 
 #include <algorithm>

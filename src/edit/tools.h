@@ -18,11 +18,11 @@
 // Handles. H makes a moving one, Shift+H a fixed one, Ctrl+H the region of interest. Where the pivot is moved
 //   (move_pivot), Esc ends that first.
 // Moving. A press on the gizmo drags its part until the release; G, R, S follow the hand until a click
-//   or Enter. X, Y, Z constrain (press_axis() in view/transform.h), Ctrl snaps, Shift slows, digits and . -
-//   arrive as Characters, Tab goes to the next length. Esc, Ctrl+Z or right click cancels; another of G, R, S
-//   goes on as that. R and S of what they would not change are refused, and all three without a gizmo; an
-//   amount that is typed on then means nothing. No other key is taken in a drag, which is BeginDrag, DragTo
-//   whenever the transform changed, and EndDrag; or CancelDrag, also where it ends with nothing moved.
+//   or Enter. X, Y, Z constrain (press_axis() in view/transform_drag.h), Ctrl snaps, Shift slows, digits and
+//   . - arrive as Characters, Tab goes to the next length. Esc, Ctrl+Z or right click cancels; another of G,
+//   R, S goes on as that. R and S of what they would not change are refused, and all three without a gizmo;
+//   an amount that is typed on then means nothing. No other key is taken in a drag, which is BeginDrag,
+//   DragTo whenever the transform changed, and EndDrag; or CancelDrag, also where it ends with nothing moved.
 // Enter commits the pose; Ctrl+Z undoes, Ctrl+Shift+Z and Ctrl+Y redo.
 
 #include "edit/command.h"

@@ -1,6 +1,7 @@
 // The gizmo's drags and the modal G, R, S.
 
 #include "edit/tool_steps.h"
+#include "view/typed_amount.h"
 
 namespace knead {
 

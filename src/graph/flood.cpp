@@ -392,18 +392,6 @@ void put_back(const OldRows<Row>& blocks, std::vector<Row>& rows) {
 
 } // namespace
 
-std::vector<Index> shuffled(std::vector<Index> vertices) {
-    std::ranges::sort(vertices, {}, scrambled);
-    return vertices;
-}
-
-void shuffle_in_runs(std::span<Index> vertices) {
-    constexpr std::size_t run = 1024;
-    std::ranges::sort(vertices);
-    for (std::size_t first = 0; first < vertices.size(); first += run)
-        std::ranges::sort(vertices.subspan(first, std::min(run, vertices.size() - first)), {}, scrambled);
-}
-
 InfluenceRows flood(const Graph& graph, std::span<const std::uint8_t> lengths, std::span<const Index> samples,
                     Workers& workers, Progress& progress) {
     return flooded<InfluenceRows>(graph, lengths, samples, workers, progress, [](auto& rows) {

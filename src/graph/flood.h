@@ -28,12 +28,6 @@
 
 namespace knead {
 
-// The same vertices in an order that depends on nothing but their numbers and follows no direction.
-std::vector<Index> shuffled(std::vector<Index> vertices);
-// Sorts them, and shuffles each run of 1024: near vertices get near places, and where they are it still
-// follows no direction.
-void shuffle_in_runs(std::span<Index> vertices);
-
 // Floods the graph from `samples`, which are different vertices; sample s is the one at samples[s].
 // `lengths`: one entry for every entry of graph.neighbor, 1 … 255, the same in both directions. Returns one
 // row a vertex: narrow ones for fewer than 65,535 samples, unless one of them is met so far away that a

@@ -2,6 +2,7 @@
 
 #include "base/require.h"
 #include "graph/octree.h"
+#include "graph/scrambled.h"
 #include "graph/symmetric_graph.h"
 
 #include <algorithm>

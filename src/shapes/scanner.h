@@ -42,8 +42,8 @@ struct ScanOptions {
 };
 
 // Normals (from the field's gradient; a stray's faces the scanner) and colours are included. The points come
-// look after look, row after row from the top, left to right. The rays' density is chosen so that they return
-// a few per cent more than the points asked for, and the surplus is dropped evenly.
+// look after look, row after row from the top, left to right. The rays are 50,000, or so
+// many more that they return a few per cent more than the points asked for; the surplus is dropped evenly.
 PointCloud scan(const ScannedBody& body, const std::vector<Viewpoint>& viewpoints, const ScanOptions& options,
                 Workers& workers, Progress& progress);
 

@@ -3,8 +3,8 @@
 // pixels.
 //
 // Everything is in the cloud's units relative to its origin; the world's z axis points up, or for clouds that
-// were made so, its y axis. Pixels are those of the framebuffer, x to the right and y downwards from the
-// upper left corner, pixel centres at halves.
+// were made so, its y axis, or that axis points down. Pixels are those of the framebuffer, x to the right and
+// y downwards from the upper left corner, pixel centres at halves.
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>

@@ -28,7 +28,7 @@ Box3 bulk_box(std::span<const float> positions) {
         const std::size_t left_out = values.size() / 500;
         const double low = values[left_out], high = values[values.size() - 1 - left_out];
         // A cloud goes on a little beyond its percentiles.
-        const double room = 0.05 * (high - low);
+        const double room = 0.2 * (high - low);
         box.lowest[axis] = std::max<double>(values.front(), low - room);
         box.highest[axis] = std::min<double>(values.back(), high + room);
     }

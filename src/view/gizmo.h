@@ -2,7 +2,7 @@
 // The gizmo on the chosen handle: arrows, planes, rings, a screen ring and scale boxes, of constant size on
 // the screen. Mathematics only: what it looks like is a list of polylines in pixels that the window draws.
 
-#include "view/transform.h"
+#include "view/transform_drag.h"
 
 #include <cstdint>
 #include <optional>

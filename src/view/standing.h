@@ -13,7 +13,7 @@ namespace knead {
 // that their convex hull, seen from above, has of that of all points. The larger share is of the axis if it
 // is a fifth at least and half as much again as the other. Where neither is that large and the highest 3 %
 // along y have half of it, y points down. Else nothing can be told. `positions`: 3n floats, finite, in any
-// order; some 50,000 of them are looked at.
+// order; some 25,000 to 50,000 of more are looked at.
 std::optional<UpAxis> standing_axis(std::span<const float> positions);
 
 } // namespace knead

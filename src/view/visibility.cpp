@@ -1,6 +1,8 @@
+#include "view/visibility.h"
+
 #include "base/require.h"
+#include "base/types.h"
 #include "view/projector.h"
-#include "view/screen_region.h"
 
 #include <algorithm>
 #include <array>

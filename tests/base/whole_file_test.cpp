@@ -190,12 +190,13 @@ TEST(FileInTheMaking, refuses_what_is_write_protected_or_no_file) {
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0666), 0);
     EXPECT_EQ(trouble_of(folder / "pipe"), Trouble::output);
     const std::string words = in_child([&]() -> std::string {
-        if (!become_nobody()) return "write-protected";
+        if (!become_nobody()) return "";
         FileInTheMaking file(folder / "protected");
         return "accepted";
     });
-    EXPECT_NE(words.find("write-protected"), std::string::npos) << words;
     EXPECT_EQ(entries_of(folder.path()), 2U);
+    if (words.empty()) GTEST_SKIP() << "root's rights cannot be given up here";
+    EXPECT_NE(words.find("write-protected"), std::string::npos) << words;
 }
 
 // --- What stands in the way of writing: the old file stays, and nothing else

@@ -9,7 +9,7 @@ namespace {
 
 using namespace knead;
 
-TEST(DragSpeed, FewSamplesAnswerSoonerAndComeToTheSameRest) {
+TEST(DragSpeed, FewSamplesComeToTheSameRest) {
     Workers workers(2);
     SilentProgress progress;
     Table1Options options;

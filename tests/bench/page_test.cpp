@@ -2,6 +2,7 @@
 
 #include "bench/air_neighbors.h"
 #include "bench/automatic_handles.h"
+#include "bench/bare_pipeline.h"
 #include "bench/deviation.h"
 #include "bench/made_cloud.h"
 #include "bench/page_joints.h"
@@ -9,6 +10,7 @@
 
 #include "base/error.h"
 #include "edit/handle_motion.h"
+#include "shapes/shapes.h"
 #include "support/scratch_folder.h"
 #include "upsample/devices.h"
 
@@ -58,34 +60,53 @@ TEST(PageJoints, RollUpWithoutStretching) {
     EXPECT_LT((end_at(frames[4]) - (joint.pivot + Vec3d(2, 0, 2))).norm(), 1e-12); // a quarter of radius 2
 }
 
-TEST(AirNeighbors, CountOnlyWhereThePathsDiffer) {
+// How far apart, over D, points end by the samples near them along the surface and by those near in the air.
+Deviation through_the_air(const PointCloud& cloud, std::vector<Index> fixed, std::vector<Index> moving,
+                          const HandleMotion& motion) {
     Workers workers(2);
     SilentProgress progress;
     const auto upsampler = make_reference_upsampler(workers);
-    const PointCloud cloud = made_cloud(Shape::bar, 3000, workers, progress);
-    const AutomaticHandles ends = automatic_handles(cloud);
-    const auto held = [](const std::vector<Index>& points) {
-        return std::make_shared<const std::vector<Index>>(points);
-    };
     Pipeline pipeline(cloud, workers, *upsampler);
-    pipeline.prepare(
-        {with_samples(200),
-         {{"fixed", HandleRole::fixed, held(ends.fixed)}, {"handle", HandleRole::moving, held(ends.moving)}},
-         nullptr},
-        progress);
-    std::vector<HandleMotion> motions(2);
-    SampleState state = pipeline.rest_state();
-    EXPECT_TRUE(std::ranges::equal(posed_through_the_air(pipeline, motions, state, workers),
-                                   pipeline.opened().positions));
+    pipeline.prepare({with_samples(200),
+                      {{"fixed", HandleRole::fixed, shared_points(std::move(fixed))},
+                       {"handle", HandleRole::moving, shared_points(std::move(moving))}},
+                      nullptr},
+                     progress);
+    const std::vector<HandleMotion> motions{{}, motion};
+    const SampleState state = pose_from_rest(pipeline, motions, 30);
+    return deviation_between(posed_through_the_air(pipeline, motions, state, workers),
+                             pipeline.posed().positions, bounds_of(cloud).diagonal());
+}
 
-    motions[1] = motion_of(bent_by(ends, 30), ends.pivot, cloud.origin, {});
-    pipeline.follow_handles(motions, state);
-    Acceleration acceleration;
-    for (int i = 0; i < 30; ++i) pipeline.iterate(motions, state, acceleration);
-    pipeline.upsample(motions, state);
-    const std::vector<float> air = posed_through_the_air(pipeline, motions, state, workers);
-    // A bar comes near itself nowhere, so both ways of telling neighbours agree but for their distances.
-    EXPECT_LT(deviation_between(air, pipeline.posed().positions, bounds_of(cloud).diagonal()).largest, 0.02);
+PointCloud made(Shape shape) {
+    Workers workers(2);
+    SilentProgress progress;
+    return made_cloud(shape, 3000, workers, progress);
+}
+
+TEST(AirNeighbors, AgreeWhereAShapeComesNearItselfNowhere) {
+    const PointCloud cloud = made(Shape::bar);
+    const AutomaticHandles ends = automatic_handles(cloud);
+    EXPECT_EQ(through_the_air(cloud, ends.fixed, ends.moving, {}).largest, 0);
+    const HandleMotion bent = motion_of(bent_by(ends, 30), ends.pivot, cloud.origin, {});
+    const Deviation apart = through_the_air(cloud, ends.fixed, ends.moving, bent);
+    EXPECT_LT(apart.largest, 0.02);
+    EXPECT_GT(apart.largest, 0) << "their distances are others";
+}
+
+// Figure 2 of the paper: the upper strand of a crossing is lifted, and takes some of the lower one along.
+TEST(AirNeighbors, TearWhatLiesCloseAndIsFarAlongTheSurface) {
+    const PointCloud cloud = made(Shape::knot);
+    const Vec3d upper = knot_spine(std::numbers::pi / 6);
+    std::vector<Index> fixed, lifted;
+    for (Index i = 0; i < cloud.size(); ++i) {
+        const Vec3d p = cloud.file_position(i);
+        if (p.x() < -1.5) fixed.push_back(i);
+        if (p.z() > 0 && (p - upper).norm() < 0.7) lifted.push_back(i);
+    }
+    EXPECT_EQ(through_the_air(cloud, fixed, lifted, {}).largest, 0);
+    const HandleMotion up = motion_of(shifted({0, 0, 1.2}), Vec3d::Zero(), cloud.origin, {});
+    EXPECT_GT(through_the_air(cloud, fixed, lifted, up).largest, 0.05);
 }
 
 TEST(PageScenes, LeaveASessionThatReplays) {

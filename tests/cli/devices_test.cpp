@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdlib>
+#include <optional>
 #include <set>
+#include <string>
 
 namespace {
 
@@ -43,8 +45,20 @@ TEST(Devices, NumbersTheDevicesInJson) {
 // The loader reads its list of drivers from the folder that this variable names; an empty one has none.
 class HiddenDevices : public ::testing::Test {
 protected:
-    HiddenDevices() { ::setenv("OCL_ICD_VENDORS", "/nonexistent/", 1); }
-    ~HiddenDevices() override { ::unsetenv("OCL_ICD_VENDORS"); }
+    HiddenDevices() {
+        if (const char* const before = std::getenv(variable)) before_ = before;
+        ::setenv(variable, "/nonexistent/", 1);
+    }
+    ~HiddenDevices() override {
+        if (before_)
+            ::setenv(variable, before_->c_str(), 1);
+        else
+            ::unsetenv(variable);
+    }
+
+private:
+    static constexpr const char* variable = "OCL_ICD_VENDORS";
+    std::optional<std::string> before_;
 };
 
 TEST_F(HiddenDevices, AreNoError) {

@@ -34,7 +34,8 @@ protected:
 };
 
 TEST_F(Formats, AnUneditedCloudComesBackAsTheIdenticalFile) {
-    for (const char* extension : {".ply", ".las", ".pcd", ".xyz", ".txt", ".asc", ".csv", ".pts"}) {
+    for (const char* extension :
+         {".ply", ".las", ".pcd", ".xyz", ".txt", ".asc", ".csv", ".pts", ".obj", ".off"}) {
         const std::string file = std::string("bar") + extension;
         ASSERT_EQ(run({"make", "bar", "--points", "600", "--out", file}).code, 0);
         session(file, ends);

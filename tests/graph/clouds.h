@@ -7,6 +7,7 @@
 #include "graph/octree.h"
 #include "graph/point_order.h"
 #include "graph/sampling.h"
+#include "graph/scrambled.h"
 #include "shapes/shapes.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #include "view/screen_region.h"
 
 #include "view/viewing.h"
+#include "view/visibility.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "shapes/shapes.h"
 #include "view/screen_region.h"
 #include "view/viewing.h"
+#include "view/visibility.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <random>
 
@@ -161,50 +161,6 @@ TEST(Visible, DoesNotDependOnTheThreads) {
     const VisibleSurface b = visible_surface(camera, screen, positions, {}, 0.015, three);
     EXPECT_EQ(a.depth, b.depth);
     EXPECT_EQ(a.limit, b.limit);
-}
-
-TEST(Selecting, AMillionPointsTakesNoTimeToSpeakOf) {
-    const auto positions = random_sphere(1000000);
-    Camera camera = camera_from(Side::front, 5);
-    Workers workers(2);
-    std::vector<std::uint8_t> inside(1000000);
-    std::vector<glm::dvec2> lasso;
-    std::vector<glm::dvec2> path;
-    for (int i = 0; i < 600; ++i) {
-        const double angle = 2 * pi * i / 600;
-        const double radius = 180 + 40 * std::sin(9 * angle);
-        lasso.push_back(glm::dvec2(400, 300) + radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-        path.emplace_back(200 + 0.6 * i, 300 + 100 * std::sin(angle));
-    }
-    const auto best_of = [](auto&& work) {
-        double best = 1e9;
-        for (int i = 0; i < 5; ++i) {
-            const auto begin = std::chrono::steady_clock::now();
-            work();
-            best = std::min(
-                best,
-                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
-        }
-        return best;
-    };
-    const auto select = [&](const ScreenRegion& region) {
-        return best_of([&] { points_in_region(camera, screen, positions, {}, region, inside, workers); });
-    };
-    const double stroke_ms = select(ScreenStroke{path, 24});
-    const double box_ms = select(ScreenBox{{250, 150}, {550, 450}});
-    const double lasso_ms = select(ScreenPolygon{lasso});
-    const double visible_ms = best_of([&] {
-        const VisibleSurface surface = visible_surface(camera, screen, positions, {}, 0.0035, workers);
-        keep_visible(camera, screen, positions, surface, inside, workers);
-    });
-    const double click_ms = best_of([&] {
-        point_under(camera, screen, positions, {}, {400, 300}, 8, workers);
-    });
-    std::printf(
-        "A million points, 2 threads: box %.1f ms, lasso %.1f ms, stroke %.1f ms, visible only %.1f ms "
-        "more, click %.1f ms\n",
-        box_ms, lasso_ms, stroke_ms, visible_ms, click_ms);
-    EXPECT_LT(lasso_ms, 500) << "generous, for sanitizers and busy machines";
 }
 
 } // namespace

@@ -1,5 +1,7 @@
-#include "view/transform.h"
+#include "view/transform_drag.h"
 
+#include "view/amount_text.h"
+#include "view/typed_amount.h"
 #include "view/viewing.h"
 
 #include <array>
@@ -477,6 +479,10 @@ TEST(AmountText, SaysWhatWasDone) {
     EXPECT_EQ(amount_text(size.drag), "S  × 1.30  in world XY");
     size.type("0");
     EXPECT_EQ(amount_text(size.drag), "S  × [0] is 0.01  in world XY");
+    Scene wound(TransformKind::rotate);
+    wound.type("99999");
+    EXPECT_EQ(amount_text(wound.drag), "R  [99999] is 7119.0°")
+        << "twenty turns, and what is left of the others";
     size.type(".5");
     EXPECT_EQ(amount_text(size.drag), "S  × [0.5]  in world XY");
     Scene shift(TransformKind::translate);
@@ -514,14 +520,6 @@ TEST(Scaling, TabGoesToTheFactorOfTheNextAxis) {
     EXPECT_TRUE(near(scene.now().scale, {1.5, 1, 0.01}, 1e-12)) << "what is not typed stays as large";
     press_axis(scene.drag, 2, false);
     EXPECT_TRUE(near(scene.now().scale, {1, 1, 0.01}, 1e-12)) << "each axis keeps its own";
-}
-
-TEST(Rotating, TabChangesNothing) {
-    Scene scene(TransformKind::rotate);
-    for (const char c : std::string_view("45")) type_character(scene.drag, c);
-    const double before = scene.now().angle;
-    next_field(scene.drag, false);
-    EXPECT_EQ(scene.now().angle, before);
 }
 
 TEST(AmountText, NothingIsNeverNegative) {

@@ -27,26 +27,31 @@ std::string chosen_name(const Ui& ui) {
     return name_of(has_none ? Coloring::plain : display.coloring);
 }
 
-void coloring_choice(const Ui& ui) {
-    inline_caption("Colour by", ui.scaled(92));
+// What this cloud can be coloured by: item(name, is it chosen) lays one out, and returns whether it was
+// taken.
+void coloring_items(const Ui& ui, bool (*item)(const char* name, bool chosen)) {
     const Display& display = ui.state.display;
-    if (!ImGui::BeginCombo("##coloring", chosen_name(ui).c_str(), ImGuiComboFlags_HeightLarge)) return;
     const PointCloud& cloud = *ui.editor.opened.cloud;
     for (const Coloring coloring : {Coloring::file, Coloring::plain, Coloring::height, Coloring::normal,
                                     Coloring::displacement, Coloring::stretch, Coloring::parts}) {
         if (coloring == Coloring::file && !has_colors(cloud)) continue;
         if (coloring == Coloring::normal && ui.editor.frame.normals().empty()) continue;
-        if (ImGui::Selectable(name_of(coloring), chosen_name(ui) == name_of(coloring))) choose(ui, coloring);
+        if (item(name_of(coloring), chosen_name(ui) == name_of(coloring))) choose(ui, coloring);
     }
     const std::vector<std::string> columns = scalar_columns(cloud);
-    if (!columns.empty()) {
-        ImGui::Separator();
-        caption("Attributes of the file");
-        for (const std::string& column : columns) {
-            const bool chosen = display.coloring == Coloring::attribute && display.attribute == column;
-            if (ImGui::Selectable(column.c_str(), chosen)) choose(ui, Coloring::attribute, column);
-        }
+    if (columns.empty()) return;
+    ImGui::Separator();
+    caption("Attributes of the file");
+    for (const std::string& column : columns) {
+        const bool chosen = display.coloring == Coloring::attribute && display.attribute == column;
+        if (item(column.c_str(), chosen)) choose(ui, Coloring::attribute, column);
     }
+}
+
+void coloring_choice(const Ui& ui) {
+    inline_caption("Colour by", ui.scaled(92));
+    if (!ImGui::BeginCombo("##coloring", chosen_name(ui).c_str(), ImGuiComboFlags_HeightLarge)) return;
+    coloring_items(ui, [](const char* name, bool chosen) { return ImGui::Selectable(name, chosen); });
     ImGui::EndCombo();
 }
 
@@ -146,6 +151,14 @@ void up_choice(const Ui& ui) {
 }
 
 } // namespace
+
+void coloring_menu(const Ui& ui) {
+    const bool open = ImGui::BeginMenu("Colour by", ui.has_cloud());
+    if (!open) ui.state.menus.at_submenu |= ImGui::IsItemFocused();
+    if (!open) return;
+    coloring_items(ui, [](const char* name, bool chosen) { return ImGui::MenuItem(name, nullptr, chosen); });
+    ImGui::EndMenu();
+}
 
 void display_panel(const Ui& ui) {
     if (!ui.has_cloud()) {

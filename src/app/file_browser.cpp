@@ -205,8 +205,16 @@ void places(const Ui& ui) {
     if (!folders.empty()) {
         ImGui::Dummy({0, ui.scaled(4)});
         caption("Recent folders");
-        for (const std::filesystem::path& folder : folders)
-            place(ui, Icon::folder, folder, folder.filename().string());
+        const auto is_namesake = [](const std::filesystem::path& a, const std::filesystem::path& b) {
+            return a != b && a.filename() == b.filename();
+        };
+        for (const std::filesystem::path& folder : folders) {
+            const bool has_namesake = std::ranges::any_of(
+                folders, [&](const std::filesystem::path& other) { return is_namesake(folder, other); });
+            const std::filesystem::path above = folder.parent_path().filename();
+            place(ui, Icon::folder, folder,
+                  (has_namesake ? above / folder.filename() : folder.filename()).string());
+        }
     }
     ImGui::EndChild();
 }
@@ -372,6 +380,8 @@ void bottom_row(const Ui& ui) {
                          (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
                           ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false));
     if (confirmed || entered || pressed) choose(ui);
+    // Whatever was clicked, what is typed next is the name.
+    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive()) browser.focus_name = true;
 }
 
 } // namespace

@@ -178,15 +178,12 @@ bool leaves_field(const Loop& loop, const Input& input) {
     return pressed && is_for_file(*pressed);
 }
 
-// Whether this moves a handle that the document is yet to show: it was just made, or an undo brings it back.
-bool moves_handle_to_come(const Editor& editor, const Input& input) {
+// Whether this begins a move from where nobody knows yet: the handle was just made, or an undo takes it back.
+bool moves_from_elsewhere(const Editor& editor, const Input& input) {
     const auto* pressed = std::get_if<KeyPress>(&input);
     if (!pressed || pressed->held.ctrl || pressed->held.alt) return false;
     if (pressed->key != key('G') && pressed->key != key('R') && pressed->key != key('S')) return false;
-    if (!editor.live || !editor.document || chosen_handle(editor)) return false;
-    const bool was_made = std::ranges::any_of(
-        editor.posted_names, [&](const auto& posted) { return posted.second == editor.chosen; });
-    return was_made || editor.live->status().undoing;
+    return !editor.tools.drag && !editor.status.playing && handles_may_be_elsewhere(editor);
 }
 
 // Whether something has to happen before this event, which is known when the next picture was drawn: what a
@@ -199,7 +196,7 @@ bool has_to_wait(Loop& loop, const WindowEvent& event) {
     if (std::holds_alternative<MouseMove>(*input) || std::holds_alternative<MouseRelease>(*input))
         return false;
     return !loop.wishes.empty() || loop.tabbed || tab_may_lead_to_field() ||
-           moves_handle_to_come(loop.editor, *input);
+           moves_from_elsewhere(loop.editor, *input);
 }
 
 } // namespace

@@ -47,6 +47,7 @@ void items(const Ui& ui, std::string_view menu) {
         if (of == menu) {
             item(ui, action);
             if (action.label == std::string_view("Open…")) recent_menu(ui);
+            if (action.label == std::string_view("Orthographic")) coloring_menu(ui);
         } else {
             inner = of;
             const std::string title(of.substr(menu.size() + 1));

@@ -174,6 +174,20 @@ bool take_typed(const char* id, bool is_typed, Number before, const char* format
     return true;
 }
 
+// What is typed beyond the ends of a slider is not what it becomes.
+template<typename Number>
+void tell_limits(Number lowest, Number highest, const char* format) {
+    const std::optional<double> typed = typed_number();
+    if (!typed || (*typed >= static_cast<double>(lowest) && *typed <= static_cast<double>(highest))) return;
+    const ImVec2 corner = ImGui::GetItemRectMin();
+    ImGui::SetNextWindowPos({corner.x, ImGui::GetItemRectMax().y + ImGui::GetStyle().ItemSpacing.y});
+    ImGui::BeginTooltip();
+    const Number end = *typed < static_cast<double>(lowest) ? lowest : highest;
+    ImGui::Text("From %s to %s; this becomes %s", as_words(format, lowest).c_str(),
+                as_words(format, highest).c_str(), as_words(format, end).c_str());
+    ImGui::EndTooltip();
+}
+
 template<typename Number>
 bool slide(const char* name, ImGuiDataType type, Number& value, Number lowest, Number highest,
            const char* format, int flags) {
@@ -182,6 +196,7 @@ bool slide(const char* name, ImGuiDataType type, Number& value, Number lowest, N
     const Number before = value;
     const bool slid = bar_slider_of(name, type, &value, &lowest, &highest, format, flags);
     const bool changed = take_typed(id.c_str(), typed, before, format, value) || (slid && !typed);
+    if (typed && (flags & ImGuiSliderFlags_AlwaysClamp) != 0) tell_limits(lowest, highest, format);
     if (typed) leave_by_tab();
     if (typed) return false;
     const std::string words = as_words(format, value);
@@ -221,6 +236,8 @@ NumberEdit number_field(const char* id, double& value, double speed, const char*
     if (editing.frame + 1 < frame) editing.field = 0;
     const bool was_edited = editing.field == field;
     double number = was_edited && !editing.types ? editing.number : value;
+    const std::string shown = as_words(format, number);
+    if (!was_edited && shown.find_first_of("123456789") == std::string::npos) number = 0; // not "-0.000"
     arrive_by_tab(field, &editing);
     const bool slid = ImGui::DragScalar(id, ImGuiDataType_Double, &number, static_cast<float>(speed), &lowest,
                                         nullptr, format);

@@ -50,8 +50,10 @@ bool take_news(Loop& loop) {
         else
             remember_file(loop.state.recent, request.file);
         static_cast<UiOfDocument&>(loop.state) = {};
+        forget_shape(loop.state.toasts);
         loop.state.display.look.scale = 1; // another cloud is another matter
-        editor.held_saves.clear();         // which would ask about the document before
+        loop.state.browser.columns = {};
+        editor.held_saves.clear(); // which would ask about the document before
         loop.state.playback.playing = false;
         loop.state.playback.steps = 0; // where looking began was in the document before
         loop.state.playback.wanted.reset();

@@ -132,12 +132,12 @@ void samples_slider(const Ui& ui, const Settings& settings) {
     ui.state.some_samples = settings.samples.value_or(ui.state.some_samples);
     const std::uint64_t used = std::max<std::uint64_t>(ui.editor.document->samples, 1);
     int samples = static_cast<int>(std::min<std::uint64_t>(settings.samples.value_or(used), 1'000'000'000));
-    if (bar_slider("Samples", samples, 50, 20000, "%d",
-                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
+    if (bar_slider("Samples", samples, 50, 20000, "%d", ImGuiSliderFlags_Logarithmic)) {
         SettingsChange wanted;
-        const bool is_typed = !ImGui::IsItemActive(); // a hand means round numbers
-        const int step = is_typed ? 1 : samples < 1000 ? 50 : samples < 5000 ? 250 : 1000;
-        wanted.samples = static_cast<std::uint64_t>(std::max(50, (samples + step / 2) / step * step));
+        const bool is_typed = !ImGui::IsItemActive(); // it may be any number; a hand means round ones
+        const int step = samples < 1000 ? 50 : samples < 5000 ? 250 : 1000;
+        wanted.samples = static_cast<std::uint64_t>(
+            is_typed ? std::max(1, samples) : std::max(50, (samples + step / 2) / step * step));
         change(ui, wanted);
     }
     ImGui::EndDisabled();
@@ -146,7 +146,8 @@ void samples_slider(const Ui& ui, const Settings& settings) {
             "rests. "
             "Changing it while handles are posed commits the pose first.\n" +
             sample_words(*ui.editor.document) +
-            " Up to a fifth more than asked for lie along the borders of the handles.");
+            " Up to a fifth more than asked for lie along the borders of the handles. Ctrl+click types any "
+            "number.");
     sample_choice(ui, settings);
     if (!ui.editor.chooses_samples) return;
     const SampleChoice& suited = ui.editor.document->suited;

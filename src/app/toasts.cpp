@@ -136,6 +136,10 @@ Drawn draw_toast(const Ui& ui, const Toast& toast, int number, ImVec2 corner) {
 
 } // namespace
 
+void forget_shape(std::deque<Toast>& toasts) {
+    std::erase_if(toasts, [](const Toast& toast) { return toast.notice.about != Notice::About::itself; });
+}
+
 void add_toast(UiState& state, Notice notice) {
     // The same again only begins its time anew.
     std::erase_if(state.toasts, [&](const Toast& old) {

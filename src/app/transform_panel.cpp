@@ -124,7 +124,7 @@ void type(const Ui& ui, const ChosenPose& pose, Field field, double value) {
 // What a field shows, and how it is used.
 std::string words_about(const Ui& ui, const RowLook& look, Field field, double value, bool is_sheared) {
     char number[48];
-    std::snprintf(number, sizeof number, "%c: %.9g%s. ", "XYZ"[field.axis], value, look.unit);
+    std::snprintf(number, sizeof number, "%c: %.7g%s. ", "XYZ"[field.axis], value, look.unit);
     std::string words = number;
     words += moves_pivot(ui, field) ? "Where its pivot is: moves that alone, as the gizmo's arrows do now"
                                     : look.words;

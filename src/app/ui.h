@@ -256,6 +256,10 @@ void shape_panel(const Ui& ui);
 // What is being slid there counts now, if anything is: the hand goes elsewhere.
 void send_slid_settings(const Ui& ui);
 void display_panel(const Ui& ui);
+void coloring_menu(const Ui& ui); // the same choice of colours, in a menu
+
+// What is said of the shape of a document holds no longer once another one is opened.
+void forget_shape(std::deque<Toast>& toasts);
 
 // Puts a notice among the toasts.
 void add_toast(UiState& state, Notice notice);

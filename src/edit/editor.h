@@ -171,6 +171,9 @@ bool is_or_will_be_posed(const Editor& editor);
 // Whether poses may be others by the time that the document has done what it was told: it takes something
 // back, resets or commits; or a step is being played.
 bool poses_may_change(const Editor& editor);
+// Whether handles are yet to be where the document has them, or will have them once it has taken back, made,
+// reset or committed what it was told: what is moved then begins elsewhere, and about another pivot.
+bool handles_may_be_elsewhere(const Editor& editor);
 // How far the handle pulls what is around it, whatever its own falloff is; 0 for one that is large enough.
 double least_falloff(const Editor& editor, const Handle& handle);
 // Of one of the document's: how many points follow it, those not that later handles hold, too.

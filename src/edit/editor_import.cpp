@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -38,11 +39,29 @@ std::optional<std::vector<LabelColumn::Value>> values_of(const Attribute& attrib
     return values;
 }
 
-// Posts handles as one step.
+// Posts handles as one step. Those whose names the document has already get others: nobody's handle is lost.
 void post_handles(Editor& editor, std::vector<SessionAction> lines) {
     const std::size_t count = lines.size();
-    post_step(editor, std::move(lines));
-    say(editor, Notice::Kind::information, "Made " + counted(count, "handle") + ".");
+    std::set<std::string> taken;
+    for (const Handle& handle : editor.document->handles) taken.insert(handle.name);
+    for (const auto& [step, name] : editor.posted_names) taken.insert(name);
+    std::string renamed;
+    for (SessionAction& line : lines) {
+        std::string& name = std::get<HandleLine>(line).name;
+        const std::string wanted = name;
+        for (unsigned number = 2; !taken.insert(name).second; ++number)
+            name = wanted + " (" + std::to_string(number) + ")";
+        if (name != wanted)
+            renamed +=
+                (renamed.empty() ? " " : ", ") + knead::quoted(wanted) + " is called " + knead::quoted(name);
+    }
+    std::vector<std::string> names;
+    for (const SessionAction& line : lines) names.push_back(std::get<HandleLine>(line).name);
+    const StepNumber step = post_step(editor, std::move(lines));
+    for (std::string& name : names) editor.posted_names.emplace_back(step, std::move(name));
+    say(editor, Notice::Kind::information,
+        "Made " + counted(count, "handle") + "." +
+            (renamed.empty() ? "" : renamed + ", as there was one of that name."));
 }
 
 // Handles of a session, in the order of their last lines, under the names that they have by now. Points are
@@ -72,6 +91,11 @@ HandleLines handles_at_end(const Session& session) {
                 if (handle.name == named->handle) handle.name = named->to;
     }
     return handles;
+}
+
+// Whether a handle names its points by their numbers, which mean others in another cloud; a region does not.
+bool is_of_numbers(const NamedLine& handle) {
+    return std::holds_alternative<std::vector<IndexRange>>(std::get<HandleLine>(handle.line->action).points);
 }
 
 // The lines with points instead of regions, as a recording has them. Throws Error (input).
@@ -152,6 +176,12 @@ void handles_from_session(Editor& editor, const std::filesystem::path& session) 
         if (handles.empty())
             return say(editor, Notice::Kind::information,
                        session.filename().string() + " has no handles at its end.");
+        const std::size_t points = editor.opened.cloud->size();
+        if (read.points.value_or(points) != points && std::ranges::any_of(handles, is_of_numbers))
+            return say(editor, Notice::Kind::error,
+                       "No handles were made. " + session.filename().string() + " is of a cloud of " +
+                           counted(*read.points, "point") + ", and this one has " + grouped(points) +
+                           ": its handles name points by number, which are others here.");
         post_handles(editor, with_points(editor, read, handles));
     } catch (const Error& error) {
         say(editor, Notice::Kind::error, "No handles were made. " + words_in_window(error));

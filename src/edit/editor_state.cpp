@@ -210,6 +210,14 @@ bool poses_may_change(const Editor& editor) {
            });
 }
 
+bool handles_may_be_elsewhere(const Editor& editor) {
+    if (!editor.live || !editor.document) return false;
+    return editor.live->status().undoing || editor.live->view()->state != editor.document->state ||
+           std::ranges::any_of(editor.past, [&](const EditorStep& step) {
+               return !step.is_drag && !step.settings_changed && is_pending(editor, step);
+           });
+}
+
 bool has_unsaved_session(const Editor& editor) {
     if (!editor.document) return false;
     // As they are by now, be they taken in or not.

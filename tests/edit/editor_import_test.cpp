@@ -46,9 +46,11 @@ protected:
         refresh(editor_);
     }
 
-    std::filesystem::path session(const std::string& lines) {
-        std::ofstream(folder_ / "other.knead") << "{\"knead\":1,\"cloud\":{\"path\":\"gone.ply\"}}\n"
-                                               << lines;
+    // `points`: of its cloud, as the header tells.
+    std::filesystem::path session(const std::string& lines, std::size_t points = 9) {
+        std::ofstream(folder_ / "other.knead")
+            << R"({"knead":1,"cloud":{"path":"gone.ply","points":)" << points << "}}\n"
+            << lines;
         return folder_ / "other.knead";
     }
 
@@ -144,6 +146,22 @@ TEST_F(Import, ASessionGivesTheHandlesThatItEndsWith) {
     EXPECT_TRUE(editor_.document->handles.empty());
 }
 
+TEST_F(Import, TakesNoHandleThePlaceOfAnotherOfItsName) {
+    const std::filesystem::path other = session(R"({"op":"handle","name":"a","role":"fixed","points":[0]}
+{"op":"handle","name":"b","role":"moving","points":[8]}
+)");
+    handles_from_session(editor_, other);
+    handles_from_session(editor_, other); // with no answer yet
+    calm();
+    handles_from_session(editor_, other);
+    calm();
+    ASSERT_EQ(editor_.document->handles.size(), 6U);
+    for (const char* const name : {"a", "b", "a (2)", "b (2)", "a (3)", "b (3)"})
+        EXPECT_TRUE(handle(name)) << name;
+    EXPECT_NE(editor_.notices.back().words.find("\"a\" is called \"a (3)\""), std::string::npos)
+        << editor_.notices.back().words;
+}
+
 TEST_F(Import, RedoneHandlesOfASessionCount) {
     handles_from_session(editor_, session(R"({"op":"handle","name":"a","role":"fixed","points":[0]}
 {"op":"handle","name":"b","role":"moving","points":[8]}
@@ -168,6 +186,19 @@ TEST_F(Import, ASessionOfAnotherCloudIsRefusedWithWords) {
         EXPECT_TRUE(editor_.document->handles.empty()) << lines;
         EXPECT_FALSE(can_undo(editor_)) << lines;
     }
+    const std::string of_numbers = R"({"op":"handle","name":"a","role":"fixed","points":[0]})";
+    const std::string of_region =
+        R"({"op":"handle","name":"b","role":"fixed","region":{"box":{"min":[-1,-1,-1],"max":[1.5,1,1]}}})";
+    editor_.notices.clear();
+    handles_from_session(editor_, session(of_numbers + "\n" + of_region + "\n", 10));
+    calm();
+    ASSERT_EQ(editor_.notices.size(), 1U);
+    EXPECT_NE(editor_.notices[0].words.find("of 10 points, and this one has 9"), std::string::npos)
+        << editor_.notices[0].words;
+    EXPECT_TRUE(editor_.document->handles.empty());
+    handles_from_session(editor_, session(of_region + "\n", 10));
+    calm();
+    EXPECT_EQ(*handle("b")->points, (Points{0, 1})) << "a region is one in any cloud";
     editor_.notices.clear();
     handles_from_session(editor_, folder_ / "nowhere.knead");
     EXPECT_EQ(editor_.notices.size(), 1U);

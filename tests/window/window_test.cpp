@@ -233,6 +233,15 @@ TEST_F(WindowTest, KeysThatComeAheadOfTheDocumentActInTheirOrder) {
     desktop_->burst({"h", "g", "z", "0", "period", "1", "Return"});
     ASSERT_TRUE(wait_for_act("handle", 3));
     ASSERT_TRUE(wait_for_act("drag", 1));
+    // About the place where the handle is once the move is taken back.
+    desktop_->burst({"ctrl+z", "r", "z", "3", "0", "Return"});
+    ASSERT_TRUE(wait_for_act("drag", 2));
+    const std::string text = recording();
+    const auto pivot_at = [&](std::size_t drag) {
+        const std::size_t at = text.find("\"pivot\"", drag);
+        return text.substr(at, text.find(']', at) - at);
+    };
+    EXPECT_EQ(pivot_at(text.find(R"({"op":"drag")")), pivot_at(text.rfind(R"({"op":"drag")")));
     desktop_->keys({"ctrl+q", "Tab", "Return"}); // Discard
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
 }

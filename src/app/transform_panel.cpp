@@ -192,13 +192,13 @@ void pose_rows(const Ui& ui, const ChosenPose& pose) {
 void cloud_words(const Ui& ui) {
     const Bounds& bounds = ui.editor.opened.bounds;
     const Vec3d size = bounds.highest - bounds.lowest, middle = (bounds.lowest + bounds.highest) / 2;
-    std::string words = "The cloud: ";
+    std::string words = "Size: ";
     const auto add = [&](double length, const char* behind) {
         char number[48];
         std::snprintf(number, sizeof number, format_of(ui, PoseRow::place, length).c_str(), length);
         words.append(number).append(behind);
     };
-    for (int axis = 0; axis < 3; ++axis) add(size[axis], axis < 2 ? " × " : "\nIts middle: ");
+    for (int axis = 0; axis < 3; ++axis) add(size[axis], axis < 2 ? " × " : "\nMiddle: ");
     for (int axis = 0; axis < 3; ++axis) add(middle[axis], axis < 2 ? ", " : "");
     faint_text(words);
     explain("As it was opened, in the file's units");

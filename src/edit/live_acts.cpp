@@ -68,10 +68,10 @@ void LiveWork::carry_out(task::Lines& lines) {
         throw;
     }
     last_step_ = lines.step;
-    ahead_ = may_choose_ = true;
+    ahead_ = choice_.is_due = true;
     // New settings show at once on a pose that stands; nothing else leaves one.
-    converge_ = document_->is_posed();
-    if (!converge_) publisher_.demand({});
+    settling_.wanted = document_->is_posed();
+    if (!settling_.wanted) publisher_.demand({});
     show_document();
 }
 
@@ -124,7 +124,7 @@ void LiveWork::carry_out(task::ResetPose& task) {
 
 void LiveWork::carry_out(task::Undo& task) {
     finish_settling();
-    may_choose_ = false;
+    choice_.is_due = false;
     if (refused_.contains(task.step) || !recording_->can_undo()) return;
     take_back_step(task.to_look);
     publisher_.say(Notice::Kind::information, {}, Notice::About::committed); // it may have been this
@@ -161,7 +161,7 @@ void LiveWork::show_where_it_rests() {
 
 // Somebody else's changes are lost only if the user says so.
 bool LiveWork::hold_back(HeldSave save) {
-    if (!was_changed(known_files_, save.target)) return false;
+    if (!was_changed(files_.known, save.target)) return false;
     shared_.with([&](LiveShared& s) { s.held_saves.push_back(std::move(save)); });
     return true;
 }
@@ -179,7 +179,7 @@ void LiveWork::carry_out(task::SaveCloud& task) {
     if (task.columns.displacement) shape.added.push_back({"displacement", far});
     if (task.columns.stretch) shape.added.push_back({"stretch", stretch});
     const std::vector<std::string> heard = write_cloud(task.target, document_->cloud(), shape, progress_);
-    take_note(known_files_, task.target);
+    take_note(files_.known, task.target);
     say(Notice::Kind::information, "Saved the cloud as " + task.target.string());
     for (const std::string& words : heard) say(Notice::Kind::warning, words);
     publish_view();
@@ -191,12 +191,12 @@ void LiveWork::carry_out(task::SaveSession& task) {
     look_for_others(task.target);
     note_digest();
     recording_->save(task.target);
-    take_note(known_files_, task.target);
-    may_choose_ = false;   // or it would be unsaved again at once
-    recording_->discard(); // the journal: a crash loses nothing of this any more
+    take_note(files_.known, task.target);
+    choice_.is_due = false; // or it would be unsaved again at once
+    recording_->discard();  // the journal: a crash loses nothing of this any more
     recording_->is_in(task.target);
-    saved_.session_state = recording_->state();
-    session_file_ = std::filesystem::absolute(task.target);
+    files_.saved.session_state = recording_->state();
+    files_.session = std::filesystem::absolute(task.target);
     tell_what_is_open();
     say(Notice::Kind::information, "Saved the session as " + task.target.string());
     publish_view();
@@ -204,9 +204,9 @@ void LiveWork::carry_out(task::SaveSession& task) {
 
 // As early as may be: the file could be another one by the time that a session is saved.
 void LiveWork::begin_digest() {
-    if (digest_ || !cloud_stamp_ || recording_->sha256()) return;
+    if (files_.digest || !files_.cloud_stamp || recording_->sha256()) return;
     try {
-        digest_.emplace(recording_->cloud(), *cloud_stamp_);
+        files_.digest.emplace(recording_->cloud(), *files_.cloud_stamp);
     } catch (
         const std::exception&) { // there is no memory or no thread for it now; the next time there may be
     }
@@ -216,10 +216,10 @@ void LiveWork::begin_digest() {
 // where it lay, is still that one.
 void LiveWork::note_digest() {
     begin_digest();
-    if (digest_ && digest_->get()) recording_->set_sha256(*digest_->get());
+    if (files_.digest && files_.digest->get()) recording_->set_sha256(*files_.digest->get());
     const std::filesystem::path& cloud = recording_->cloud();
     const std::optional<FileStamp> now = stamp_of(cloud);
-    if (now && now == cloud_stamp_) return;
+    if (now && now == files_.cloud_stamp) return;
     bool is_as_read = false;
     try {
         is_as_read = now && recording_->sha256() && sha256_of_file(cloud) == *recording_->sha256();
@@ -291,7 +291,7 @@ void LiveWork::take_back_step(bool to_look) {
         joins = recording_->last_joins();
         take_back_act(to_look);
     } while (joins);
-    converge_ = false; // an undone pose is shown as it was
+    settling_.wanted = false; // an undone pose is shown as it was
 }
 
 } // namespace knead

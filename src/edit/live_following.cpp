@@ -90,7 +90,7 @@ void LiveWork::finish_drag() {
     LiveDrag drag = std::move(*drag_);
     drag_.reset();
     last_step_ = drag.step;
-    converge_ = true;
+    settling_.wanted = true;
     learn_cost(std::move(drag.solving), std::move(drag.upsampling));
     publish_view(); // first: it cannot fail
     if (publisher_.last_is_drawn()) publish_shape(false);
@@ -119,9 +119,9 @@ bool LiveWork::is_too_slow() const {
     const Pipeline& pipeline = document_->pipeline();
     const auto samples = static_cast<double>(pipeline.samples().size());
     const double iterations = 1.0 + document_->settings().iterations;
-    const double each = cost_
-                            ? cost_->solving / static_cast<double>(cost_->samples) / (1.0 + cost_iterations_)
-                            : usual_iteration;
+    const double each = choice_.cost ? choice_.cost->solving / static_cast<double>(choice_.cost->samples) /
+                                           (1.0 + choice_.cost_iterations)
+                                     : usual_iteration;
     return pipeline.has_coarse_samples() && samples * iterations * each > request_.quick;
 }
 
@@ -177,11 +177,11 @@ unsigned LiveWork::iterations_a_picture() const {
 }
 
 void LiveWork::settle() {
-    if (!settling_) {
-        converge_ = false; // if it cannot begin now, it could not at once again
+    if (!settling_.begun) {
+        settling_.wanted = false; // if it cannot begin now, it could not at once again
         document_->begin_settling(progress_);
-        settling_ = converge_ = true;
-        settled_ = 0;
+        settling_.begun = settling_.wanted = true;
+        settling_.iterations = 0;
     }
     const Stopwatch clock;
     const unsigned iterations = iterations_a_picture();
@@ -192,20 +192,20 @@ void LiveWork::settle() {
         stop_settling();
         throw;
     }
-    settled_ += iterations;
+    settling_.iterations += iterations;
     solve_seconds_ = clock.seconds();
     publish_shape(false);
-    if (rests || settled_ >= most_settling) finish_settling();
+    if (rests || settling_.iterations >= most_settling) finish_settling();
 }
 
 void LiveWork::stop_settling() {
-    converge_ = settling_ = false;
+    settling_.wanted = settling_.begun = false;
     document_->abandon();
 }
 
 void LiveWork::finish_settling() {
-    converge_ = false;
-    if (!std::exchange(settling_, false)) return;
+    settling_.wanted = false;
+    if (!std::exchange(settling_.begun, false)) return;
     try {
         auto coming = recording_->coming_to_last(SettleLine{});
         coming.line = document_->end_settling();

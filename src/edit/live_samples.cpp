@@ -27,27 +27,27 @@ constexpr std::size_t most_looked_at = 100'000;
 } // namespace
 
 void LiveWork::carry_out(task::ChooseSamples& task) {
-    choosing_ = task.by_itself;
-    record([&] { recording_->chooses_samples(choosing_); });
+    choice_.by_itself = task.by_itself;
+    record([&] { recording_->chooses_samples(choice_.by_itself); });
     publish_view();
 }
 
 // A frame's start costs about what an iteration does.
 SampleNeeds LiveWork::sample_needs() const {
     const PointOrder& order = document_->pipeline().order();
-    SampleNeeds needs{order.vertices(), spread_, cost_};
+    SampleNeeds needs{order.vertices(), choice_.spread, choice_.cost};
     if (needs.cost)
-        needs.cost->solving *= (1.0 + document_->settings().iterations) / (1.0 + cost_iterations_);
+        needs.cost->solving *= (1.0 + document_->settings().iterations) / (1.0 + choice_.cost_iterations);
     return needs;
 }
 
 // After the stages are prepared. What is chosen is part of the act that led to it, and undone with it.
 void LiveWork::choose_samples() {
     look_at_handles();
-    const bool now = choosing_ && may_choose_ && !document_->is_posed() && recording_->can_undo();
+    const bool now = choice_.by_itself && choice_.is_due && !document_->is_posed() && recording_->can_undo();
     if (!now) return;
-    if (!cost_) measure_frame();
-    may_choose_ = false;
+    if (!choice_.cost) measure_frame();
+    choice_.is_due = false;
     const auto samples = choose_samples_again(sample_needs(), document_->settings().samples).samples;
     if (samples == document_->settings().samples) return;
     SettingsChange change;
@@ -60,9 +60,9 @@ void LiveWork::choose_samples() {
 
 void LiveWork::look_at_handles() {
     const Pipeline& pipeline = document_->pipeline();
-    spread_ = {};
+    choice_.spread = {};
     if (document_->handles().empty() || pipeline.samples().size() > most_looked_at) return;
-    spread_ =
+    choice_.spread =
         spread_of(pipeline.labels(), pipeline.graph(), pipeline.samples(), pipeline.sample_graph().graph);
 }
 
@@ -100,9 +100,11 @@ void LiveWork::learn_cost(std::vector<double> solving, std::vector<double> upsam
     const std::uint64_t points = document_->pipeline().order().vertices();
     const std::uint64_t samples = std::min(document_->settings().samples.value_or(points), points);
     // Frames that are drawn on the device tell nothing of those that are not.
-    const double moving = !upsampling.empty() ? median(std::move(upsampling)) : cost_ ? cost_->upsampling : 0;
-    cost_ = FrameCost{samples, median(std::move(solving)), moving};
-    cost_iterations_ = document_->settings().iterations;
+    const double moving = !upsampling.empty() ? median(std::move(upsampling))
+                          : choice_.cost      ? choice_.cost->upsampling
+                                              : 0;
+    choice_.cost = FrameCost{samples, median(std::move(solving)), moving};
+    choice_.cost_iterations = document_->settings().iterations;
 }
 
 } // namespace knead

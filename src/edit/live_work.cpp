@@ -38,7 +38,7 @@ LiveWork::LiveWork(OpenRequest request, Locked<LiveShared>& shared)
 
 void LiveWork::open() {
     std::string about_journal;
-    if (!request_.restore) take_note(known_files_, request_.file);
+    if (!request_.restore) take_note(files_.known, request_.file);
     Session session = session_to_open(request_, progress_, about_journal);
     if (!about_journal.empty()) say(Notice::Kind::warning, about_journal);
     const bool is_plain_cloud = session.file.empty();
@@ -47,26 +47,26 @@ void LiveWork::open() {
     UpsamplerChoice choice = request_.make_upsampler(request_.device, workers_, request_.threads);
     if (!choice.warning.empty()) say(Notice::Kind::warning, choice.warning);
     upsampler_ = std::move(choice.upsampler);
-    choosing_ = !request_.restore && !request_.settings.samples &&
-                (is_plain_cloud ? request_.choose_samples : request_.session_chooses_samples);
-    if (choosing_ && is_plain_cloud)
+    choice_.by_itself = !request_.restore && !request_.settings.samples &&
+                        (is_plain_cloud ? request_.choose_samples : request_.session_chooses_samples);
+    if (choice_.by_itself && is_plain_cloud)
         session.settings.samples = knead::choose_samples({cloud.size(), {}, {}}).samples;
     document_ = std::make_unique<Document>(std::move(cloud), session.settings, workers_, *upsampler_);
     recording_ = std::make_unique<LiveRecording>(session, request_.restore);
     if (request_.restore)
         belong_to_session_of(recording_->facts());
     else if (!is_plain_cloud)
-        session_file_ = std::filesystem::absolute(request_.file);
+        files_.session = std::filesystem::absolute(request_.file);
     tell_what_is_open();
     document_->shape(progress_); // the order of the points
     replay_session(session, *document_, *recording_, progress_);
-    if (request_.restore && !session_file_.empty())
-        saved_.session_state = state_after(session.lines, recording_->facts().saved_lines);
+    if (request_.restore && !files_.session.empty())
+        files_.saved.session_state = state_after(session.lines, recording_->facts().saved_lines);
     // One that was opened with another cloud than it names is not saved before it names that.
-    if (!request_.restore && !request_.cloud) saved_.session_state = recording_->state();
-    if (!request_.restore && !is_plain_cloud) recording_->is_in(session_file_);
-    recording_->chooses_samples(choosing_);
-    recording_->is_on(cloud_stamp_);
+    if (!request_.restore && !request_.cloud) files_.saved.session_state = recording_->state();
+    if (!request_.restore && !is_plain_cloud) recording_->is_in(files_.session);
+    recording_->chooses_samples(choice_.by_itself);
+    recording_->is_on(files_.cloud_stamp);
     if (!is_plain_cloud && request_.sets_session) take_settings();
     publish_opened();
     begin_digest();
@@ -79,13 +79,13 @@ void LiveWork::take_settings() {
     if (changed(document_->settings(), line.change) == document_->settings()) return;
     StepSoFar step;
     carry_out_line(line, false, true, step);
-    converge_ = document_->is_posed();
+    settling_.wanted = document_->is_posed();
 }
 
 PointCloud LiveWork::read_cloud_of(Session& session) {
     const std::filesystem::path file = request_.cloud ? *request_.cloud : session.resolve(session.cloud);
-    take_note(known_files_, file);
-    cloud_stamp_ = stamp_of(file);
+    take_note(files_.known, file);
+    files_.cloud_stamp = stamp_of(file);
     try {
         if (request_.restore && !request_.cloud) refuse_changed_cloud(file, *request_.restore);
         return cloud_to_open(request_, session, progress_);
@@ -98,9 +98,9 @@ PointCloud LiveWork::read_cloud_of(Session& session) {
 // A restored one is saved where it was saved before, unless somebody else wrote there meanwhile, and goes on
 // choosing its samples if it did.
 void LiveWork::belong_to_session_of(const JournalFacts& facts) {
-    session_file_ = facts.session;
-    if (facts.stamp) take_note(known_files_, facts.session, *facts.stamp);
-    choosing_ = facts.chooses_samples;
+    files_.session = facts.session;
+    if (facts.stamp) take_note(files_.known, facts.session, *facts.stamp);
+    choice_.by_itself = facts.chooses_samples;
 }
 
 void LiveWork::publish_opened() {
@@ -117,7 +117,7 @@ void LiveWork::publish_opened() {
     shared_.with([&](LiveShared& s) {
         if (s.stop) throw Cancelled(); // or the window would look at what is about to go
         s.opened = opened;
-        s.saved = saved_;
+        s.saved = files_.saved;
         s.status.stage = Stage::open;
         s.status.busy = something_to_do();
         s.status.doing.clear();
@@ -173,7 +173,7 @@ void LiveWork::take_turn(std::list<LiveTask>& task) {
     if (!std::holds_alternative<task::SaveCloud>(one)) guarded([&] { finish_playing(); });
     guarded([&] { std::visit([&](auto& t) { carry_out(t); }, one); });
     if (const auto count = count_of(one)) shared_.with([&](LiveShared& s) { --(s.*count); });
-    if (since_look_.seconds() > between_looks) guarded([&] { look_for_others(); });
+    if (others_.since_look.seconds() > between_looks) guarded([&] { look_for_others(); });
 }
 
 void LiveWork::end() {
@@ -210,7 +210,7 @@ void LiveWork::wait_for_next_frame() {
 
 bool LiveWork::something_to_do() const {
     if (drag_) return !drag_->rests; // all else waits for its end
-    return !after_drag_.empty() || ahead_ || converge_;
+    return !after_drag_.empty() || ahead_ || settling_.wanted;
 }
 
 void LiveWork::go_on() {
@@ -223,39 +223,39 @@ void LiveWork::go_on() {
         choose_samples();
         return publish_view();
     }
-    if (converge_) settle();
+    if (settling_.wanted) settle();
 }
 
 void LiveWork::tell_what_is_open() {
     std::vector<std::filesystem::path> files{recording_->cloud()};
-    if (!session_file_.empty()) files.push_back(session_file_);
-    open_files_.reset();
-    open_files_.emplace(request_.journal_folder, files);
+    if (!files_.session.empty()) files.push_back(files_.session);
+    others_.open_files.reset();
+    others_.open_files.emplace(request_.journal_folder, files);
     look_for_others();
 }
 
 // After this one told what it has open itself: so of two that open a file at once, one sees the other.
 bool LiveWork::look_for_others(const std::filesystem::path& file) {
-    const std::vector<pid_t> others = open_files_->others_with(file);
+    const std::vector<pid_t> others = others_.open_files->others_with(file);
     for (const pid_t process : others) {
         const std::string words = "Another knead (process " + std::to_string(process) + ") has " +
                                   file.string() + " open, too: of what both save there, the last stays.";
-        if (told_of_others_.insert(words).second) say(Notice::Kind::warning, words);
+        if (others_.told.insert(words).second) say(Notice::Kind::warning, words);
     }
     return !others.empty();
 }
 
 // Whoever has the session has its cloud, too.
 void LiveWork::look_for_others() {
-    since_look_ = Stopwatch();
-    if (session_file_.empty() || !look_for_others(session_file_)) look_for_others(recording_->cloud());
+    others_.since_look = Stopwatch();
+    if (files_.session.empty() || !look_for_others(files_.session)) look_for_others(recording_->cloud());
 }
 
 void LiveWork::rest_if_idle() {
     const std::string warning = upsampler_->take_warning();
     if (!warning.empty()) say(Notice::Kind::warning, warning);
     shared_.with([&](LiveShared& s) {
-        s.status.solving = (drag_ && !drag_->rests) || converge_;
+        s.status.solving = (drag_ && !drag_->rests) || settling_.wanted;
         s.status.busy = play_ ? plays_on(s) : something_to_do();
         s.status.playing = what_plays(s);
         s.status.doing.clear();
@@ -292,8 +292,9 @@ void LiveWork::publish_drag() {
 
 void LiveWork::publish_view() {
     publisher_.view(*document_, *recording_,
-                    {drag_.has_value() || converge_, last_step_, upsampler_->device(), session_file_, saved_,
-                     choosing_, choose_samples_again(sample_needs(), document_->settings().samples)});
+                    {drag_.has_value() || settling_.wanted, last_step_, upsampler_->device(), files_.session,
+                     files_.saved, choice_.by_itself,
+                     choose_samples_again(sample_needs(), document_->settings().samples)});
 }
 
 void LiveWork::refuse(StepNumber step, bool ends_redo) {

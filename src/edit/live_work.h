@@ -132,31 +132,45 @@ private:
     std::unique_ptr<Document> document_;
     std::unique_ptr<LiveRecording> recording_;
     std::optional<LiveDrag> drag_;
+    std::list<LiveTask> after_drag_; // what came while a drag went on
     std::optional<LivePlay> play_;
-    bool converge_ = false; // a released pose
-    bool settling_ = false; // begun in the document
-    unsigned settled_ = 0;
-    bool ahead_ = true;       // stages could be prepared before they are needed
-    bool choosing_ = false;   // the number of samples, by itself
-    bool may_choose_ = false; // since the last act
-    HandleSpread spread_;     // of the handles as they were prepared last
-    std::optional<FrameCost> cost_;
-    unsigned cost_iterations_ = 0; // that the frames had
-    Stopwatch since_frame_;
-    double solve_seconds_ = 0;
     StepNumber last_step_ = 0;
     std::set<StepNumber> refused_;
-    std::list<LiveTask> after_drag_; // what came while a drag went on
+    bool ahead_ = true; // stages could be prepared before they are needed
     bool told_of_journal_ = false;
-    LiveDocument::Saved saved_;
-    std::filesystem::path session_file_;
-    std::optional<FileStamp> cloud_stamp_; // before it was read
-    std::optional<CloudDigest> digest_;    // begun when it was opened, unless its session knew it
-    KnownFiles known_files_;
+    Stopwatch since_frame_;
+    double solve_seconds_ = 0;
 
-    std::optional<OpenFiles> open_files_;
-    std::set<std::string> told_of_others_; // in these words
-    Stopwatch since_look_;
+    // A released pose that comes to rest.
+    struct {
+        bool wanted = false;
+        bool begun = false; // in the document
+        unsigned iterations = 0;
+    } settling_;
+
+    // The number of samples.
+    struct {
+        bool by_itself = false;
+        bool is_due = false; // since the last act
+        HandleSpread spread; // of the handles as they were prepared last
+        std::optional<FrameCost> cost;
+        unsigned cost_iterations = 0; // that the frames had
+    } choice_;
+
+    struct {
+        LiveDocument::Saved saved;
+        std::filesystem::path session;
+        std::optional<FileStamp> cloud_stamp; // before it was read
+        std::optional<CloudDigest> digest;    // begun when it was opened, unless its session knew it
+        KnownFiles known;
+    } files_;
+
+    // Who else has these files open.
+    struct {
+        std::optional<OpenFiles> open_files;
+        std::set<std::string> told; // in these words
+        Stopwatch since_look;
+    } others_;
 };
 
 // The act is done; that its line cannot be written is said, once, and changes nothing.

@@ -101,10 +101,20 @@ void keep_pocl_threads_apart() {
     setenv("POCL_AFFINITY", "1", 0); // NOLINT(concurrency-mt-unsafe)
 }
 
+// Has Mesa's llvmpipe, where OpenGL runs on the processor, draw in the thread that calls it, unless the user
+// said otherwise. Its threads signal a fence and then unlock it; the caller sees the signal without the lock,
+// and may have freed the fence by then (lp_fence_signalled() of Mesa 22.3.6): four zero bytes are written
+// into whatever that memory has become. The points are drawn by knead itself there, so that what is left for
+// llvmpipe, a copy and the panels, takes hardly longer. Before there is any other thread.
+void keep_llvmpipe_to_the_caller() {
+    setenv("LP_NUM_THREADS", "0", 0); // NOLINT(concurrency-mt-unsafe)
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     keep_pocl_threads_apart();
+    keep_llvmpipe_to_the_caller();
     CLI::App app{"knead bends, twists and stretches raw point clouds with handles.", "knead"};
     app.require_subcommand(1);
     app.set_version_flag("--version", "knead " KNEAD_VERSION);

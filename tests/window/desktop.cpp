@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <string_view>
 #include <thread>
 
@@ -53,22 +54,35 @@ Process::~Process() {
     kill_hard();
 }
 
-bool Process::runs() const {
-    return id_ > 0 && ::waitpid(id_, nullptr, WNOHANG) == 0;
+bool Process::runs() {
+    int status = 0;
+    if (id_ > 0 && ::waitpid(id_, &status, WNOHANG) == id_) {
+        code_ = code_of(status);
+        id_ = -1;
+    }
+    return id_ > 0;
+}
+
+std::vector<std::string> Process::threads() const {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& thread :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(id_) + "/task", none)) {
+        std::ifstream file(thread.path() / "comm");
+        std::getline(file, names.emplace_back());
+    }
+    return names;
 }
 
 void Process::kill_hard() {
-    if (id_ <= 0) return;
+    if (!runs()) return;
     ::kill(id_, SIGKILL);
     ::waitpid(id_, nullptr, 0);
     id_ = -1;
 }
 
 std::optional<int> Process::exit_code(double seconds) {
-    int status = 0;
-    if (!wait_until([&] { return ::waitpid(id_, &status, WNOHANG) == id_; }, seconds)) return std::nullopt;
-    id_ = -1;
-    return code_of(status);
+    return wait_until([&] { return !runs(); }, seconds) ? code_ : std::nullopt;
 }
 
 bool wait_until(const std::function<bool()>& condition, double seconds) {

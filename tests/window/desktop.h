@@ -21,18 +21,22 @@ public:
     Process(const std::vector<std::string>& command, const std::vector<std::string>& environment,
             const std::filesystem::path& log);
     ~Process();
-    Process(Process&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+    Process(Process&& other) noexcept
+        : id_(std::exchange(other.id_, -1)), code_(std::exchange(other.code_, std::nullopt)) {}
     Process& operator=(Process&& other) noexcept {
         std::swap(id_, other.id_);
+        std::swap(code_, other.code_);
         return *this;
     }
 
-    bool runs() const;
+    bool runs();
+    std::vector<std::string> threads() const;     // their names, by /proc
     void kill_hard();                             // SIGKILL, and waits
     std::optional<int> exit_code(double seconds); // waits so long for its end; 128 + n after signal n
 
 private:
-    pid_t id_ = -1;
+    pid_t id_ = -1;           // -1: there is none, or it was waited for
+    std::optional<int> code_; // of one that ended by itself
 };
 
 // Waits for a condition, so many seconds at most.

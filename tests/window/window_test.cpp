@@ -226,6 +226,14 @@ TEST_F(WindowTest, AsksBeforeItOverwritesWhatSomebodyElseSaved) {
 }
 
 // All at once: the document has not answered the first key when the others come.
+// They write into what the window's thread has freed (src/cli/main.cpp).
+TEST_F(WindowTest, LlvmpipeDrawsWithNoThreadsOfItsOwn) {
+    open_cat();
+    const std::vector<std::string> threads = editor_.threads();
+    EXPECT_GE(threads.size(), 2U) << "the window's and the document's";
+    for (const std::string& name : threads) EXPECT_FALSE(name.starts_with("llvmpipe")) << name;
+}
+
 TEST_F(WindowTest, KeysThatComeAheadOfTheDocumentActInTheirOrder) {
     open_cat();
     make_handles();

@@ -3,7 +3,7 @@
 #
 #   tests/sanitize.sh memory      all rooms, without an OpenCL device: addresses, leaks, undefined behaviour
 #   tests/sanitize.sh device      the rooms that use one, with it: addresses, undefined behaviour (the same build)
-#   tests/sanitize.sh threads     the rooms that use threads: data races
+#   tests/sanitize.sh threads     the rooms of the core that use threads: data races
 #   tests/sanitize.sh threads -R edit        what follows goes to ctest
 #
 # The last line is "sanitizers, WHAT: N passed, N failed, N skipped; built in S s, tested in S s"; the exit code is 0

@@ -32,7 +32,8 @@ struct Scene::State {
     bool parts_known = false;
     std::shared_ptr<const std::vector<float>> spacings;
     SceneLinesOf lines;
-    std::uint64_t version = 0; // of the frame
+    std::uint64_t version = 0;               // of the frame
+    std::shared_ptr<const RestShape> handed; // whose points the renderer has a view of
     std::vector<PointRange> moved;
     // Moves points where they are drawn, for frames that come so.
     std::unique_ptr<DrawnPoints> drawn = std::make_unique<DrawnPoints>();
@@ -124,6 +125,7 @@ void Scene::State::take_positions(const Editor& editor, UiState& state) {
 void Scene::State::upload(const PosedFrame& frame) {
     changed_since(version, frame, moved);
     renderer.set_positions(frame.positions(), moved);
+    handed = frame.shape;
     if (!frame.normals().empty()) renderer.set_normals(frame.normals(), moved);
     drawn_is_newest = false;
 }

@@ -11,7 +11,7 @@ namespace knead {
 
 // Nearest first; of equal distances the lower vertex.
 struct Nearest {
-    static constexpr std::size_t most = 6;
+    static constexpr std::size_t most = 5;
     std::array<std::pair<float, Index>, most> near; // distance and vertex
     std::size_t count = 0;
 };

@@ -50,7 +50,10 @@ struct Pen {
     void draw(int first, int end, const Pixels& pixels, std::uint32_t* picture) const {
         const float low = std::min(line.from.y, line.to.y) - reach;
         const float high = std::max(line.from.y, line.to.y) + reach;
-        const auto whole = [](float v) { return static_cast<int>(std::clamp(v, -1e6f, 1e6f)); };
+        // What is no number is far to the left.
+        const auto whole = [](float v) {
+            return v > -1e6f ? static_cast<int>(std::min(v, 1e6f)) : -1'000'000;
+        };
         const float steepness = along.x / (std::abs(along.y) > 1e-6f ? along.y : 1e-6f);
         for (int y = std::max(first, whole(low)); y < std::min(end, whole(high) + 1); ++y) {
             // Where the line is while it passes this row, and as far to either side as it is wide.

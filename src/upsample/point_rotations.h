@@ -11,8 +11,8 @@
 namespace knead {
 
 // The turn of each point: the weighted mean of the turns that its row of influences names, as a unit
-// quaternion, after the turn that the point had made before. A point with one influence takes exactly that
-// one, and turns are given the sign of the heaviest before they are added, so that a turn of more than 180°
+// quaternion, after the turn that the point had made before. A point with one influence takes that one, up
+// to rounding, and turns are given the sign of the heaviest before they are added, so that a turn of more than 180°
 // comes out as it is.
 //     input    who moves each point, and how much; normals are not looked at
 //     turns    of every motion: unit quaternions, from the rest shape to now

@@ -77,7 +77,6 @@ TEST_F(BarEditor, ResetsAndMirrorsAPoseThatTheDocumentHasNotAnswered) {
     make_handles();
     apply(editor_, ChooseHandle{"high"});
     calm();
-    const LineArray<float> rest = editor_.frame.positions();
     turn_by(editor_, 30);
     apply(editor_, ResetPose{"high"});
     calm();
@@ -89,6 +88,9 @@ TEST_F(BarEditor, ResetsAndMirrorsAPoseThatTheDocumentHasNotAnswered) {
     for (const Notice& notice : editor_.notices)
         EXPECT_EQ(notice.words.find("no pose to mirror"), std::string::npos) << notice.words;
     ASSERT_EQ(editor_.document->handles.size(), 3U);
+    EXPECT_NEAR(2 * std::acos(std::abs(editor_.document->motions[2].rotation.w())),
+                40 * std::numbers::pi / 180, 1e-9)
+        << "as far as the one across";
 }
 
 TEST_F(BarEditor, ADragThatEndsIsOfTheHandleThatItBeganWith) {

@@ -244,7 +244,6 @@ TEST_F(BarEditor, AChangedHandleLeavesLaterOnesTheirPoints) {
         calm();
     }
     const std::vector<std::uint8_t> marks = editor_.marks;
-    const LineArray<float> rest = editor_.frame.positions();
     apply(editor_, ChangeHold{"high", false, 0.25});
     calm();
     std::vector<std::string> order;

@@ -288,7 +288,7 @@ TEST_F(BarEditor, KnowsWhatIsUnsaved) {
     editor_.live->save_session(folder_ / "a.knead");
     calm();
     EXPECT_FALSE(has_unsaved_session(editor_));
-    apply(editor_, UndoStep{}); // looking back, as the timeline does
+    apply(editor_, UndoStep{});
     calm();
     EXPECT_TRUE(has_unsaved_session(editor_));
     apply(editor_, RedoStep{});

@@ -73,6 +73,7 @@ TEST(HandleKinds, AFalloffCarriesWhatIsAroundAndEndsThere) {
 }
 
 TEST(HandleKinds, FreeRotationFollowsThePositionsOnly) {
+    std::vector<std::vector<float>> shapes;
     for (const char* rotation : {"held", "free"}) {
         Desk desk(bar());
         desk.play(foot + R"({"op":"handle","name":"top","role":"moving","rotation":")" + rotation +
@@ -82,7 +83,13 @@ TEST(HandleKinds, FreeRotationFollowsThePositionsOnly) {
         // The points of the handle take its pose in both cases.
         EXPECT_LT(desk.handle_error(), 1e-6);
         EXPECT_TRUE(all_finite(desk.shape()));
+        shapes.push_back(desk.shape());
     }
+    // And what is between them goes another way where the handle does not turn it.
+    double apart = 0;
+    for (std::size_t i = 0; i < shapes[0].size() / 3; ++i)
+        apart = std::max(apart, (at(shapes[0], i) - at(shapes[1], i)).norm());
+    EXPECT_GT(apart, 0.01);
 }
 
 // A sheet that hangs on four pegs of a point each, all of which go round one axis: nothing but the pegs'

@@ -275,7 +275,7 @@ TEST(LiveDocument, SaysWhyAFileCannotBeOpened) {
     EXPECT_NE(notices[0].words.find("/nowhere/at/all.ply"), std::string::npos);
 }
 
-TEST(LiveDocument, ClosesAtOnceWhileItOpens) {
+TEST(LiveDocument, SaysNothingOfAnOpeningThatWasCancelled) {
     const ScratchFolder folder;
     std::promise<void> cancelled; // opening does not go on before it is
     OpenRequest request = request_for(bar_file(folder));

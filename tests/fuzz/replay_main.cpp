@@ -28,7 +28,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
     return files;
 }
 
-// Whether the target accepts the input; nothing, and a word, where it is a find.
+// What the target does with the input; of a find it says a word.
 enum class Outcome { accepted, refused, find };
 Outcome outcome_of(const std::string& name, std::string_view bytes) {
     try {

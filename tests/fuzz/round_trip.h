@@ -25,7 +25,8 @@ struct Looseness {
 //   rounded to the column's type or step, with the turned normals, the column, and all else as it was; a
 //   format that cannot hold the column says so;
 // - without its image, so as a new file, reads back with as many points, and from PLY to PLY with the same
-// columns. A file whose types cannot hold what is asked for may refuse to be saved by an Error of output.
+//   columns.
+// A file whose types cannot hold what is asked for may refuse to be saved by an Error of output.
 // Throws BrokenInvariant where one of these does not hold.
 bool check_round_trip(std::string_view format, std::span<const std::byte> bytes,
                       const Looseness& looseness = {});

@@ -23,7 +23,8 @@ Neighbor by_looking_at_all(const Cloud& cloud, std::span<const Index> group, std
 std::vector<Index> lumps(const Cloud& cloud) {
     std::vector<Index> group(cloud.size());
     for (std::size_t v = 0; v < group.size(); ++v) {
-        group[v] = static_cast<Index>(std::floor(3 * cloud.at(v).x())) % 4;
+        const int slice = static_cast<int>(std::floor(3 * cloud.at(v).x())); // below 0 on one side
+        group[v] = static_cast<Index>((slice % 4 + 4) % 4);
         if (v % 29 == 0) group[v] = no_index;
     }
     return group;

@@ -1,6 +1,6 @@
 #pragma once
 // SuperLU behind the steps of solve/sparse_cholesky.h: in symmetric mode (diagonal pivots, no equilibration,
-// no refinement), called directly, after the same ordering..
+// no refinement), called directly, after the same ordering.
 
 #include "solve/sparse_cholesky.h"
 

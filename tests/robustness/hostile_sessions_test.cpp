@@ -98,7 +98,7 @@ TEST_F(HostileSession, HugeNumbersAreRefusedByName) {
     for (const char* key : {"neighbors", "samples", "iterations"})
         for (const char* number : {"1e18", "18446744073709551616", "-1", "1e999999999"})
             EXPECT_SAYS(refused_with(std::string(R"({"op":"set",")") + key + "\":" + number + "}\n"),
-                        "s.knead:2: ");
+                        number == std::string("1e999999999") ? number : key); // no double holds that one
     EXPECT_SAYS(refused_with("{\"op\":\"settle\",\"iterations\":1000001}\n"), "iterations");
     EXPECT_SAYS(refused_with(ends + drag(R"({"translate":[1e308,1e308,0]})")), "out of all range");
     EXPECT_SAYS(refused_with(ends + drag(R"({"scale":1e300})")), "out of all range");

@@ -141,7 +141,7 @@ TEST_F(WindowTest, PosesSavesAndRecordsWhatReplaysToTheSameShape) {
     desktop_->keys({"ctrl+shift+z"});
     ASSERT_TRUE(wait_for_act("redo", 2));
 
-    // And a second drag, by the gizmo's middle of the mouse's own way: G with the cursor, a click to confirm.
+    // And a second drag, along the cursor's own way: G, motions of the mouse, and a click to confirm.
     desktop_->move(500, 300);
     desktop_->keys({"g"});
     for (int step = 1; step <= 10; ++step) desktop_->move(500 + 6 * step, 300 - 3 * step);

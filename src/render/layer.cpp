@@ -20,7 +20,9 @@ void make_texture(std::optional<GlTexture>& texture, Viewport size, GLint intern
 void bind_layer(Layer& layer, Viewport size, bool with_depth) {
     if (layer.size.width != size.width || layer.size.height != size.height) {
         layer.size = size;
-        make_texture(layer.color, size, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+        // In a window's order of bytes, so that copying into one is a copy and nothing else. Mesa keeps it so
+        // where the format has no size; GL_RGBA8 has the bytes the other way round, whatever is handed over.
+        make_texture(layer.color, size, GL_RGBA, GL_BGRA, GL_UNSIGNED_BYTE);
         layer.framebuffer.emplace();
         glBindFramebuffer(GL_FRAMEBUFFER, *layer.framebuffer);
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *layer.color, 0);

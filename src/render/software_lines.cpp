@@ -15,12 +15,12 @@ glm::vec4 before_eye(const glm::vec4& a, const glm::vec4& b) {
 
 std::uint32_t blended(std::uint32_t below, std::uint32_t rgba, float cover) {
     const float alpha = static_cast<float>(rgba >> 24) / 255 * cover;
-    const auto part = [&](unsigned bits) {
-        const float under = static_cast<float>(below >> bits & 0xff);
-        const float over = static_cast<float>(rgba >> bits & 0xff);
-        return static_cast<std::uint32_t>(under + alpha * (over - under) + 0.5f) << bits;
+    const auto part = [&](unsigned to, unsigned from) {
+        const float under = static_cast<float>(below >> to & 0xff);
+        const float over = static_cast<float>(rgba >> from & 0xff);
+        return static_cast<std::uint32_t>(under + alpha * (over - under) + 0.5f) << to;
     };
-    return part(0) | part(8) | part(16) | 0xff000000U;
+    return part(16, 0) | part(8, 8) | part(0, 16) | 0xff000000U;
 }
 
 // One line within some rows.

@@ -37,7 +37,7 @@ public:
     void compose(const ScreenPass& pass, const Pixels& pixels, std::span<const FlatLine> lines,
                  Workers& workers);
 
-    // Rows from the top, as long as those of the pixels; bytes r, g, b, a.
+    // Rows from the top, as long as those of the pixels; bytes b, g, r, a.
     const std::vector<std::uint32_t>& picture() const { return picture_; }
 
 private:

@@ -144,8 +144,8 @@ KNEAD_INLINE Words composed(const Eight& at, const ScreenPass& pass) {
     Colors colors{part(0), part(8), part(16)};
     Floats shade = shade_of(at, pass);
     if (pass.patterns) add_patterns(at, pass, colors, shade);
-    const Words drawn = as_bytes(colors.r * shade) | as_bytes(colors.g * shade) << 8 |
-                        as_bytes(colors.b * shade) << 16 | 0xff000000U;
+    const Words drawn = as_bytes(colors.b * shade) | as_bytes(colors.g * shade) << 8 |
+                        as_bytes(colors.r * shade) << 16 | 0xff000000U;
     return at.colors >> 24 != 0U ? drawn : at.background;
 }
 
@@ -229,8 +229,8 @@ void SoftwareScreen::draw_background(const ScreenPass& pass, const Pixels& pixel
             const float noise = dither(static_cast<float>(i) + 0.5f, y);
             const glm::vec3 c = glm::clamp(255.0f * (color + noise) + 0.5f, 0.0f, 255.0f);
             background_[row * pixels.row() + static_cast<std::size_t>(i)] =
-                static_cast<std::uint32_t>(c.r) | static_cast<std::uint32_t>(c.g) << 8U |
-                static_cast<std::uint32_t>(c.b) << 16U | 0xff000000U;
+                static_cast<std::uint32_t>(c.b) | static_cast<std::uint32_t>(c.g) << 8U |
+                static_cast<std::uint32_t>(c.r) << 16U | 0xff000000U;
         }
     });
 }

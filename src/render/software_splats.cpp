@@ -277,7 +277,7 @@ public:
         glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(pixels_.row()));
         glActiveTexture(GL_TEXTURE0);
         glBindTexture(GL_TEXTURE_2D, *finished.color);
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, pass.viewport.width, pass.viewport.height, GL_RGBA,
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, pass.viewport.width, pass.viewport.height, GL_BGRA,
                         GL_UNSIGNED_BYTE, screen_.picture().data());
         glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     }

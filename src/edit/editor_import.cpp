@@ -39,29 +39,51 @@ std::optional<std::vector<LabelColumn::Value>> values_of(const Attribute& attrib
     return values;
 }
 
-// Posts handles as one step. Those whose names the document has already get others: nobody's handle is lost.
-void post_handles(Editor& editor, std::vector<SessionAction> lines) {
-    const std::size_t count = lines.size();
+std::string& name_of(SessionAction& line) {
+    return std::get<HandleLine>(line).name;
+}
+
+// Of the document's handles, and of those that are on their way.
+std::set<std::string> taken_names(const Editor& editor) {
     std::set<std::string> taken;
     for (const Handle& handle : editor.document->handles) taken.insert(handle.name);
     for (const auto& [step, name] : editor.posted_names) taken.insert(name);
+    return taken;
+}
+
+// Posts handles as one step. `besides`: what else is to be said of them.
+void post_handles(Editor& editor, std::vector<SessionAction> lines, const std::string& besides) {
+    const std::size_t count = lines.size();
+    std::vector<std::string> names;
+    for (SessionAction& line : lines) names.push_back(name_of(line));
+    const StepNumber step = post_step(editor, std::move(lines));
+    for (std::string& name : names) editor.posted_names.emplace_back(step, std::move(name));
+    say(editor, Notice::Kind::information, "Made " + counted(count, "handle") + "." + besides);
+}
+
+// Another name for each whose own is taken; returns what to say of it.
+std::string take_free_names(const Editor& editor, std::vector<SessionAction>& lines) {
+    std::set<std::string> taken = taken_names(editor);
     std::string renamed;
     for (SessionAction& line : lines) {
-        std::string& name = std::get<HandleLine>(line).name;
+        std::string& name = name_of(line);
         const std::string wanted = name;
         for (unsigned number = 2; !taken.insert(name).second; ++number)
             name = wanted + " (" + std::to_string(number) + ")";
-        if (name != wanted)
-            renamed +=
-                (renamed.empty() ? " " : ", ") + knead::quoted(wanted) + " is called " + knead::quoted(name);
+        if (name == wanted) continue;
+        renamed += renamed.empty() ? " " : ", ";
+        renamed += knead::quoted(wanted) + " is called " + knead::quoted(name);
     }
-    std::vector<std::string> names;
-    for (const SessionAction& line : lines) names.push_back(std::get<HandleLine>(line).name);
-    const StepNumber step = post_step(editor, std::move(lines));
-    for (std::string& name : names) editor.posted_names.emplace_back(step, std::move(name));
-    say(editor, Notice::Kind::information,
-        "Made " + counted(count, "handle") + "." +
-            (renamed.empty() ? "" : renamed + ", as there was one of that name."));
+    return renamed.empty() ? "" : renamed + ", as there was one of that name.";
+}
+
+// What to say of those that take the places of others.
+std::string words_about_replaced(const Editor& editor, std::vector<SessionAction>& lines) {
+    const std::set<std::string> taken = taken_names(editor);
+    const auto replaced = static_cast<std::size_t>(
+        std::ranges::count_if(lines, [&](SessionAction& line) { return taken.contains(name_of(line)); }));
+    return replaced == 0 ? ""
+                         : " Of these, " + std::to_string(replaced) + " took the place of one of that name.";
 }
 
 // Handles of a session, in the order of their last lines, under the names that they have by now. Points are
@@ -165,7 +187,8 @@ void handles_from_labels(Editor& editor, const std::string& column, std::span<co
     }
     if (lines.empty())
         return say(editor, Notice::Kind::information, "No points have the chosen values of " + column + ".");
-    post_handles(editor, std::move(lines));
+    const std::string besides = words_about_replaced(editor, lines);
+    post_handles(editor, std::move(lines), besides);
 }
 
 void handles_from_session(Editor& editor, const std::filesystem::path& session) {
@@ -182,7 +205,9 @@ void handles_from_session(Editor& editor, const std::filesystem::path& session) 
                        "No handles were made. " + session.filename().string() + " is of a cloud of " +
                            counted(*read.points, "point") + ", and this one has " + grouped(points) +
                            ": its handles name points by number, which are others here.");
-        post_handles(editor, with_points(editor, read, handles));
+        std::vector<SessionAction> lines = with_points(editor, read, handles);
+        const std::string besides = take_free_names(editor, lines);
+        post_handles(editor, std::move(lines), besides);
     } catch (const Error& error) {
         say(editor, Notice::Kind::error, "No handles were made. " + words_in_window(error));
     }

@@ -35,13 +35,14 @@ struct LabelChoice {
 };
 
 // Makes a handle "COLUMN VALUE" of the points of each of these values, all in one step of undo. One that has
-// the name already is replaced. Values without points are passed over; points that are not finite are left
+// the name already is replaced, which is said. Values without points are passed over; points that are not finite are left
 // out.
 void handles_from_labels(Editor& editor, const std::string& column, std::span<const LabelChoice> choices);
 
-// Makes the handles that a session has at its end, on the shape as it is now, in one step of undo; those of
-// the same name are replaced. Its poses are not taken. A session that cannot be read, that has no handles, or
-// whose handles hold points that this cloud does not have, is refused with words, and nothing is made.
+// Makes the handles that a session has at its end, on the shape as it is now, in one step of undo; one whose
+// name is taken gets another, "arm (2)", which is said. Its poses are not taken. A session that cannot be
+// read, that has no handles, or whose handles name points by number and are of a cloud with other points, is
+// refused with words, and nothing is made.
 void handles_from_session(Editor& editor, const std::filesystem::path& session);
 
 } // namespace knead

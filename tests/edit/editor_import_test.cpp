@@ -115,6 +115,18 @@ TEST_F(Import, LabelsBecomeHandlesInOneStep) {
     EXPECT_TRUE(editor_.document->handles.empty());
 }
 
+TEST_F(Import, LabelsTakenAgainReplaceTheirHandlesAndSaySo) {
+    const std::vector<LabelChoice> moving{{7, HandleRole::moving}}, fixed{{7, HandleRole::fixed}};
+    handles_from_labels(editor_, "label", moving);
+    calm();
+    handles_from_labels(editor_, "label", fixed);
+    calm();
+    ASSERT_EQ(editor_.document->handles.size(), 1U);
+    EXPECT_EQ(editor_.document->handles[0].role, HandleRole::fixed);
+    EXPECT_NE(editor_.notices.back().words.find("took the place"), std::string::npos)
+        << editor_.notices.back().words;
+}
+
 TEST_F(Import, LabelsThatAreNotThereAreRefusedWithWords) {
     const std::vector<LabelChoice> none{{5, HandleRole::moving}};
     handles_from_labels(editor_, "label", none);

@@ -35,12 +35,6 @@ std::optional<std::size_t> number_of(const Editor& editor, const std::string& na
     return static_cast<std::size_t>(found - handles.begin());
 }
 
-bool is_free(const Editor& editor, const std::string& name) {
-    return !number_of(editor, name) && std::ranges::none_of(editor.posted_names, [&](const auto& posted) {
-        return posted.second == name;
-    });
-}
-
 void post_edit(Editor& editor, HandleEdit edit, std::shared_ptr<const KeptMarks> marks_before) {
     EditorStep step = coming_step(editor, ++editor.last_step, std::move(marks_before));
     editor.live->edit_handle(step.document, std::move(edit));
@@ -99,6 +93,12 @@ void tell_who_is_robbed(Editor& editor, HandleRole role, const std::string& name
 }
 
 } // namespace
+
+bool is_free(const Editor& editor, const std::string& name) {
+    return !number_of(editor, name) && std::ranges::none_of(editor.posted_names, [&](const auto& posted) {
+        return posted.second == name;
+    });
+}
 
 std::string free_name(const Editor& editor, HandleRole role) {
     for (unsigned number = 1;; ++number) {

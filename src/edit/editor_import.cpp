@@ -43,14 +43,6 @@ std::string& name_of(SessionAction& line) {
     return std::get<HandleLine>(line).name;
 }
 
-// Of the document's handles, and of those that are on their way.
-std::set<std::string> taken_names(const Editor& editor) {
-    std::set<std::string> taken;
-    for (const Handle& handle : editor.document->handles) taken.insert(handle.name);
-    for (const auto& [step, name] : editor.posted_names) taken.insert(name);
-    return taken;
-}
-
 // Posts handles as one step. `besides`: what else is to be said of them.
 void post_handles(Editor& editor, std::vector<SessionAction> lines, const std::string& besides) {
     const std::size_t count = lines.size();
@@ -63,13 +55,14 @@ void post_handles(Editor& editor, std::vector<SessionAction> lines, const std::s
 
 // Another name for each whose own is taken; returns what to say of it.
 std::string take_free_names(const Editor& editor, std::vector<SessionAction>& lines) {
-    std::set<std::string> taken = taken_names(editor);
+    std::set<std::string> given;
     std::string renamed;
     for (SessionAction& line : lines) {
         std::string& name = name_of(line);
         const std::string wanted = name;
-        for (unsigned number = 2; !taken.insert(name).second; ++number)
+        for (unsigned number = 2; !is_free(editor, name) || given.contains(name); ++number)
             name = wanted + " (" + std::to_string(number) + ")";
+        given.insert(name);
         if (name == wanted) continue;
         renamed += renamed.empty() ? " " : ", ";
         renamed += knead::quoted(wanted) + " is called " + knead::quoted(name);
@@ -79,9 +72,8 @@ std::string take_free_names(const Editor& editor, std::vector<SessionAction>& li
 
 // What to say of those that take the places of others.
 std::string words_about_replaced(const Editor& editor, std::vector<SessionAction>& lines) {
-    const std::set<std::string> taken = taken_names(editor);
-    const auto replaced = static_cast<std::size_t>(
-        std::ranges::count_if(lines, [&](SessionAction& line) { return taken.contains(name_of(line)); }));
+    const auto replaced =
+        std::ranges::count_if(lines, [&](SessionAction& line) { return !is_free(editor, name_of(line)); });
     return replaced == 0 ? ""
                          : " Of these, " + std::to_string(replaced) + " took the place of one of that name.";
 }

@@ -35,8 +35,8 @@ struct LabelChoice {
 };
 
 // Makes a handle "COLUMN VALUE" of the points of each of these values, all in one step of undo. One that has
-// the name already is replaced, which is said. Values without points are passed over; points that are not finite are left
-// out.
+// the name already is replaced, which is said. Values without points are passed over; points that are not
+// finite are left out.
 void handles_from_labels(Editor& editor, const std::string& column, std::span<const LabelChoice> choices);
 
 // Makes the handles that a session has at its end, on the shape as it is now, in one step of undo; one whose

@@ -195,26 +195,32 @@ bool is_pending(const Editor& editor, const EditorStep& step) {
     return std::max(step.document, step.joined) > done;
 }
 
+// Whether the document is yet to take something back, or to do a step of which matters(step).
+template<typename Matters>
+bool is_any_pending(const Editor& editor, Matters&& matters) {
+    return editor.live->status().undoing || std::ranges::any_of(editor.past, [&](const EditorStep& step) {
+               return matters(step) && is_pending(editor, step);
+           });
+}
+
 } // namespace
 
 bool has_pending_steps(const Editor& editor) {
-    return editor.live->status().undoing ||
-           std::ranges::any_of(editor.past, [&](const EditorStep& step) { return is_pending(editor, step); });
+    return is_any_pending(editor, [](const EditorStep& /*step*/) { return true; });
 }
 
 bool poses_may_change(const Editor& editor) {
     if (!editor.live) return false; // nothing is on its way
-    return editor.status.playing || editor.live->status().undoing ||
-           std::ranges::any_of(editor.past, [&](const EditorStep& step) {
-               return !step.is_drag && is_pending(editor, step);
-           });
+    return editor.status.playing ||
+           is_any_pending(editor, [](const EditorStep& step) { return !step.is_drag; });
 }
 
 bool handles_may_be_elsewhere(const Editor& editor) {
     if (!editor.live || !editor.document) return false;
-    return editor.live->status().undoing || editor.live->view()->state != editor.document->state ||
-           std::ranges::any_of(editor.past, [&](const EditorStep& step) {
-               return !step.is_drag && !step.settings_changed && is_pending(editor, step);
+    // Done by now, and yet to be taken in.
+    const bool is_other = editor.live->view()->state != editor.document->state;
+    return is_other || is_any_pending(editor, [](const EditorStep& step) {
+               return !step.is_drag && !step.settings_changed; // settings move nothing
            });
 }
 

@@ -28,6 +28,9 @@ void add_step(Editor& editor, EditorStep step) noexcept;
 StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
                      std::shared_ptr<const KeptMarks> marks_before = nullptr);
 
+// Whether no handle has this name, of the document's and of those that are on their way there.
+bool is_free(const Editor& editor, const std::string& name);
+
 // Another handle is chosen, or none; with the step done last, if that made it or is to bring it back.
 void choose(Editor& editor, const std::string& handle);
 void choose_with_step(Editor& editor, const std::string& handle);

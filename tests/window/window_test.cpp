@@ -225,7 +225,6 @@ TEST_F(WindowTest, AsksBeforeItOverwritesWhatSomebodyElseSaved) {
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
 }
 
-// All at once: the document has not answered the first key when the others come.
 // They write into what the window's thread has freed (src/cli/main.cpp).
 TEST_F(WindowTest, LlvmpipeDrawsWithNoThreadsOfItsOwn) {
     open_cat();
@@ -234,6 +233,7 @@ TEST_F(WindowTest, LlvmpipeDrawsWithNoThreadsOfItsOwn) {
     for (const std::string& name : threads) EXPECT_FALSE(name.starts_with("llvmpipe")) << name;
 }
 
+// All at once: the document has not answered the first key when the others come.
 TEST_F(WindowTest, KeysThatComeAheadOfTheDocumentActInTheirOrder) {
     open_cat();
     make_handles();

@@ -64,10 +64,7 @@ double megabytes_per_second(std::size_t bytes, const Summary& seconds) {
 }
 
 ReportJson json_of(std::size_t bytes, const Summary& seconds) {
-    return {{"seconds", seconds.median},
-            {"min", seconds.lowest},
-            {"max", seconds.highest},
-            {"megabytes_per_second", megabytes_per_second(bytes, seconds)}};
+    return {{"seconds", json_of(seconds)}, {"megabytes_per_second", megabytes_per_second(bytes, seconds)}};
 }
 
 } // namespace

@@ -50,11 +50,7 @@ ReportJson json_of(std::span<const RowFigures> rows, std::size_t RowFigures::*si
     ReportJson json{{"rows", ReportJson::array()}, {"exponents", ReportJson::object()}};
     for (const RowFigures& row : rows) {
         ReportJson seconds;
-        for (const Stage& stage : growth_stages()) {
-            const Summary& summary = row.*stage.seconds;
-            seconds[stage.name] = {
-                {"median", summary.median}, {"min", summary.lowest}, {"max", summary.highest}};
-        }
+        for (const Stage& stage : growth_stages()) seconds[stage.name] = json_of(row.*stage.seconds);
         json["rows"].push_back({{"points", row.points},
                                 {"samples", row.samples},
                                 {"seconds", seconds},

@@ -133,9 +133,6 @@ std::string handle_timing_text(const HandleTiming& timing) {
 }
 
 std::string handle_timing_json(const HandleTiming& timing) {
-    const auto summary = [](const Summary& seconds) {
-        return ReportJson{{"median", seconds.median}, {"min", seconds.lowest}, {"max", seconds.highest}};
-    };
     ReportJson json = machine_json(timing.machine);
     json["threads"] = timing.threads;
     json["device"] = timing.device;
@@ -143,9 +140,9 @@ std::string handle_timing_json(const HandleTiming& timing) {
     json["rows"] = ReportJson::array();
     for (const HandleTimingRow& row : timing.rows) {
         ReportJson seconds;
-        for (const TimedStage& stage : stages) seconds[stage.name] = summary(row.*stage.after);
-        seconds["frame"] = summary(row.frame);
-        seconds["live"] = summary(row.live);
+        for (const TimedStage& stage : stages) seconds[stage.name] = json_of(row.*stage.after);
+        seconds["frame"] = json_of(row.frame);
+        seconds["live"] = json_of(row.live);
         json["rows"].push_back({{"points", row.points},
                                 {"samples", row.samples},
                                 {"in_handle", row.in_handle},

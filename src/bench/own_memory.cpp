@@ -34,10 +34,6 @@ OwnMemoryFigures measure(const UpsamplerProbe& probe, const DeviceFrame& frame, 
     return figures;
 }
 
-ReportJson summary_json(const Summary& summary) {
-    return {{"median", summary.median}, {"min", summary.lowest}, {"max", summary.highest}};
-}
-
 } // namespace
 
 std::optional<OwnMemoryFigures> measure_in_own_memory(UpsamplerProbe& probe, std::size_t frames,
@@ -78,9 +74,9 @@ std::vector<std::string> own_memory_cells(const OwnMemoryFigures& figures) {
 
 nlohmann::ordered_json own_memory_json(const std::optional<OwnMemoryFigures>& figures) {
     if (!figures) return nullptr;
-    return {{"seconds", summary_json(figures->moving)},
+    return {{"seconds", json_of(figures->moving)},
             {"bytes", figures->bytes},
-            {"copy_seconds", summary_json(figures->copy)},
+            {"copy_seconds", json_of(figures->copy)},
             {"large_copy_gigabytes_per_second", 1e-9 * figures->copy_bytes_per_second},
             {"share_of_copy", share_of_same_copy(*figures)},
             {"share_of_large_copy", share_of_large_copy(*figures)}};

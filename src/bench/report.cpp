@@ -42,6 +42,13 @@ ReportJson machine_json(const Machine& machine) {
             {"commit", machine.commit}};
 }
 
+ReportJson json_of(const Summary& measured) {
+    return {{"median", measured.median},
+            {"min", measured.lowest},
+            {"max", measured.highest},
+            {"count", measured.count}};
+}
+
 ReportJson json_of(const Deviation& deviation) {
     return {{"rms", deviation.rms}, {"largest", deviation.largest}};
 }

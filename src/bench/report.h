@@ -3,6 +3,7 @@
 // own: each a table for people, at most 130 columns wide, and an array with every number.
 
 #include "bench/deviation.h"
+#include "bench/statistics.h"
 #include "bench/text_table.h"
 
 #include <nlohmann/json.hpp>
@@ -29,6 +30,7 @@ struct Machine;
 std::string machine_text(const Machine& machine); // in one line
 ReportJson machine_json(const Machine& machine);  // an object, to which more may be added
 
+ReportJson json_of(const Summary& measured);                        // {"median", "min", "max", "count"}
 ReportJson json_of(const Deviation& deviation);                     // {"rms", "largest"}
 ReportJson asked_json(const std::optional<std::uint64_t>& samples); // a number, or "all"
 

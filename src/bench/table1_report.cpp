@@ -85,13 +85,6 @@ void add_own_memory(const Table1Result& result, TextTable& table) {
     table.push_back(std::move(line));
 }
 
-Json json_of(const Summary& summary) {
-    return {{"median", summary.median},
-            {"min", summary.lowest},
-            {"max", summary.highest},
-            {"count", summary.count}};
-}
-
 Json json_of(const FourFigures& figures) {
     const auto value = [](const std::optional<double>& figure) { return figure ? Json(*figure) : Json(); };
     return {{"set_up", value(figures.set_up)},

@@ -1,5 +1,6 @@
 // The panel "Handles": making handles of the selection, and the list of those there are.
 
+#include "app/extents.h"
 #include "app/handle_list.h"
 #include "app/ui.h"
 #include "app/widgets.h"
@@ -13,10 +14,11 @@ namespace {
 
 void selection_words(const Ui& ui) {
     const std::size_t selected = ui.editor.selected;
-    if (selected > 0)
+    if (selected > 0) {
         faint_text(counted(selected, "point") +
                    (selected == 1 ? " selected. Make it a" : " selected. Make them a"));
-    else if (ui.editor.document->handles.empty())
+        explain(selection_extent_text(ui));
+    } else if (ui.editor.document->handles.empty())
         faint_text("Nothing selected. Draw around a part of the cloud with the left button.");
     else
         faint_text("Nothing selected");

@@ -1,5 +1,6 @@
 // The panel "Transform": the pose of the chosen handle as numbers, to be read, slid and typed.
 
+#include "app/extents.h"
 #include "app/number_fields.h"
 #include "app/ui.h"
 #include "app/widgets.h"
@@ -33,16 +34,10 @@ constexpr RowLook row_looks[] = {
     {PoseRow::scaled, "Scaled", "", "How many times as long as at rest it is along each of its own axes"},
 };
 
-// Of lengths a ten-thousandth of the cloud is told apart, as far as there is room for digits before it.
 std::string format_of(const Ui& ui, PoseRow row, double value) {
     if (row == PoseRow::turned) return "%.1f°";
     if (row == PoseRow::scaled) return "%.3f";
-    constexpr int room = 7; // for digits
-    const double unit = std::max(ui.editor.opened.bounds.diagonal(), DBL_MIN) / 1e4;
-    const int wanted = std::max(0, static_cast<int>(std::ceil(-std::log10(unit))));
-    const int before = std::max(1, static_cast<int>(std::floor(std::log10(std::abs(value) + 1e-9))) + 1);
-    if (wanted >= room || before > room + 1) return "%.3g";
-    return "%." + std::to_string(std::clamp(room - before, 0, wanted)) + "f";
+    return length_format(ui, value);
 }
 
 // For each pixel that the hand goes.
@@ -188,20 +183,16 @@ void pose_rows(const Ui& ui, const ChosenPose& pose) {
     ImGui::PopID();
 }
 
-// What is open, where no handle is chosen.
-void cloud_words(const Ui& ui) {
-    const Bounds& bounds = ui.editor.opened.bounds;
-    const Vec3d size = bounds.highest - bounds.lowest, middle = (bounds.lowest + bounds.highest) / 2;
-    std::string words = "Size: ";
-    const auto add = [&](double length, const char* behind) {
-        char number[48];
-        std::snprintf(number, sizeof number, format_of(ui, PoseRow::place, length).c_str(), length);
-        words.append(number).append(behind);
-    };
-    for (int axis = 0; axis < 3; ++axis) add(size[axis], axis < 2 ? " × " : "\nMiddle: ");
-    for (int axis = 0; axis < 3; ++axis) add(middle[axis], axis < 2 ? ", " : "");
-    faint_text(words);
-    explain("As it was opened, in the file's units");
+// Where no handle is chosen: how large what is selected is, or else what is open.
+void extent_words(const Ui& ui) {
+    const std::string selection = selection_extent_text(ui);
+    if (selection.empty()) {
+        faint_text(extent_text(ui, ui.editor.opened.bounds));
+        explain("Of the cloud as it was opened, in the file's units");
+    } else {
+        faint_text(selection);
+        explain("Of the selected points as they are now, in the file's units");
+    }
 }
 
 } // namespace
@@ -220,7 +211,7 @@ void transform_panel(const Ui& ui) {
     }
     if (pose) return pose_rows(ui, *pose);
     faint_text("Choose a moving handle to read and type its pose.");
-    cloud_words(ui);
+    extent_words(ui);
 }
 
 } // namespace knead

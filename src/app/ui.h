@@ -130,6 +130,12 @@ struct PoseFields {
     Transform slid = {};                 // since then
 };
 
+// How large the selection is, and of which marks and points that was measured.
+struct SelectionExtent {
+    std::uint64_t marks_version = 0, frame_version = 0; // of the editor
+    std::optional<Box3> box = {};                       // relative to the cloud's origin; nothing: none
+};
+
 // What the status line tells; measured by the main loop.
 struct Measured {
     double frame = 0;    // seconds, smoothed, of frames that were drawn
@@ -171,6 +177,7 @@ struct UiOfDocument {
     std::string listed_chosen; // the handle that the list was scrolled to last
     SlidingSettings sliding;
     PoseFields pose_fields;
+    SelectionExtent selection_extent;
     NumberEditing range_fields; // of the colours
     LabelDialog labels;
 };

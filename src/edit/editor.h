@@ -94,6 +94,7 @@ struct Editor {
 
     // --- Choosing ---
     std::vector<std::uint8_t> marks; // of each point
+    std::uint64_t marks_version = 0; // counts their changes
     std::size_t selected = 0;        // points
     std::size_t hidden = 0;
     std::vector<std::size_t>

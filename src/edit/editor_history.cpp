@@ -75,6 +75,7 @@ void marks_changed(Editor& editor) {
     editor.selected = counts.selected;
     editor.hidden = counts.hidden;
     editor.changes.marks = true;
+    ++editor.marks_version;
 }
 
 namespace {

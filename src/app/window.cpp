@@ -1,5 +1,6 @@
 #include "app/window.h"
 
+#include "app/window_icon.h"
 #include "base/error.h"
 
 #include <epoxy/gl.h> // before GLFW, which would bring another loader
@@ -176,6 +177,8 @@ GLFWwindow* create_window(int width, int height) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "knead"); // the StartupWMClass of data/desktop/knead.desktop
+    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "knead");
     GLFWwindow* window = glfwCreateWindow(width, height, "knead", nullptr, nullptr);
     if (window) return window;
     const std::string trouble = last_trouble();
@@ -201,6 +204,12 @@ void fit_into_display(GLFWwindow* window, float scale) {
                             GLFW_DONT_CARE);
 }
 
+void show_icon(GLFWwindow* window) {
+    WindowIcon icon = window_icon();
+    const GLFWimage image{icon.size, icon.size, icon.rgba.data()};
+    glfwSetWindowIcon(window, 1, &image);
+}
+
 } // namespace
 
 Window::Window(int width, int height) : window_(create_window(width, height)) {
@@ -208,6 +217,7 @@ Window::Window(int width, int height) : window_(create_window(width, height)) {
     glfwSwapInterval(1);
     glfwSetWindowUserPointer(window_, this);
     fit_into_display(window_, content_scale());
+    show_icon(window_);
     glfwGetCursorPos(window_, &cursor_.x, &cursor_.y);
     // Before ImGui's own, which pass everything on to these.
     glfwSetCursorPosCallback(window_, Callbacks::cursor);

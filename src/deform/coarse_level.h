@@ -41,8 +41,9 @@ FactorOutcome build_coarse_level(const SampleSystem& fine, CoarseLevel& coarse, 
 // One iteration as iterate() does it, and what the coarse samples make of it. An iteration that goes farther
 // than the one before shows that they do not know better here (a bar that is about to buckle, a very elastic
 // one): then what they made of the one before is taken back, and until `memory` forgets, iterations are
-// accelerated without them. `memory` goes with a sequence of iterations at unchanging poses. Allocates in its
-// first two iterations only. Returns the longest way that a sample went in the plain iteration.
+// accelerated without them. So they are when four went more than .8 as far as those before them. `memory`
+// goes with a sequence of iterations at unchanging poses. Allocates in the first two iterations, and the
+// first two without the coarse samples. Returns the longest way that a sample went in the plain iteration.
 double iterate(SampleSystem& fine, CoarseLevel& coarse, std::span<const HandleMotion> handles,
                SampleState& state, Acceleration& memory, Workers& workers);
 

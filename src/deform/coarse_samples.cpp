@@ -75,9 +75,9 @@ std::map<HeldPart, std::vector<Index>> border_samples(const Graph& graph, std::s
     return border;
 }
 
-// The places of the coarse samples: evenly spread among the free samples, and along the borders of the
-// handles as densely as that. Each part that a handle reaches into has one of its: a part without would be
-// held by nobody and stay behind.
+// The places of the coarse samples: as many as there are to be among the free samples, spread evenly (from
+// where some may come to lie in a handle), and along the borders of the handles as densely as that. Each part
+// that a handle reaches into has one of its: a part without would be held by nobody and stay behind.
 std::vector<Index> choose(const Graph& graph, std::span<const Index> handle, const OrderedSamples& ordered,
                           std::span<const std::uint8_t> lengths, Workers& workers) {
     const std::size_t count = std::max(fewest_coarse, handle.size() / samples_a_coarse);

@@ -54,6 +54,7 @@ constexpr std::size_t soon = 3;
 }
 
 // Adds to the right-hand side of a row what `given(sample)` of the handles around it says, times `smoothing`.
+// `coefficient`: of the matrix that it is for; null: that is of links alone.
 template<typename Given>
 [[gnu::always_inline]] inline void add_given(SampleSystem& system, std::size_t row, double smoothing,
                                              double BodyPair::*coefficient, Given&& given) {
@@ -65,7 +66,7 @@ template<typename Given>
         if (system.unknown[j] == no_index) side += smoothing * rest.weight[link] * beyond_one(given(j));
     }
     const PointEnergy& energy = rest.energy;
-    if (energy.first.empty()) return;
+    if (!coefficient || energy.first.empty()) return;
     for (Index at = energy.first[i]; at < energy.first[i + 1]; ++at) {
         const Index s = energy.body[at];
         if (!system.body[s].turned) continue;
@@ -75,8 +76,7 @@ template<typename Given>
 }
 
 // The right-hand side, four numbers a row: what own(begin, end) writes for these rows of the samples
-// themselves, and what `given(sample)` of the handles around them says, times `smoothing`. `coefficient`: of
-// the matrix that it is for.
+// themselves, and what add_given() does.
 template<typename Own, typename Given>
 void assemble_rotations(SampleSystem& system, double smoothing, double BodyPair::*coefficient, Own&& own,
                         Given&& given, Workers& workers) {
@@ -112,7 +112,7 @@ void turn_with_handles(SampleSystem& system, std::span<const HandleMotion> handl
         return handles[handle].rotation * state.rotation[s].conjugate();
     };
     assemble_rotations(
-        system, 1.0, &BodyPair::way,
+        system, 1.0, hinges(system) ? nullptr : &BodyPair::way,
         [&](std::size_t begin, std::size_t end) {
             std::fill(system.sides.data() + 4 * begin, system.sides.data() + 4 * end, 0.0);
         },
@@ -195,9 +195,14 @@ Mat3d gradient_at(const SampleSystem& system, const SampleState& state, std::siz
                        turn_of(state.rotation[system.free_sample[row]]));
 }
 
-// S and U of every row, as far as they are asked for, of the shape as it is, by its links.
-void find_stretches(SampleSystem& system, const SampleState& state, Workers& workers) {
-    const bool targets = !system.target.empty(), stretches = !system.stretch.empty();
+// Whether S is by what pulls, links and points together; else by links.
+bool has_targets_of_points(const SampleSystem& system) {
+    return !system.with_points.empty() && system.rest.poisson > 0;
+}
+
+// S, if they are wanted, and U of every row, of the shape as it is, by its links.
+void find_stretches(SampleSystem& system, const SampleState& state, bool targets, Workers& workers) {
+    const bool stretches = !system.stretch.empty();
     if (!targets && !stretches) return;
     const std::size_t rows = system.free_sample.size();
     workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
@@ -281,8 +286,9 @@ void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, co
 // How the material answers the shape as it is, and what all bodies do.
 void find_answers(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state,
                   Workers& workers) {
-    find_stretches(system, state, workers);
-    if (!system.with_points.empty() && system.rest.poisson > 0) {
+    const bool of_points = has_targets_of_points(system);
+    find_stretches(system, state, !of_points && !system.target.empty(), workers);
+    if (of_points) {
         find_bodies(system, handles, state, workers); // whose maps and ways alone count for this
         find_targets_of_points(system, state, workers);
     }
@@ -353,7 +359,8 @@ void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, 
 
 void follow_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
                     Workers& workers) {
-    find_stretches(system, state, workers); // before the handles leave the others behind
+    find_stretches(system, state, !system.target.empty(),
+                   workers); // before the handles leave the others behind
     turn_with_handles(system, handles, state, workers);
     place_handles(system, handles, state);
     solve_positions(system, handles, state, workers);

@@ -9,7 +9,7 @@ namespace knead {
 namespace {
 
 constexpr double of_pushes = 2.5;     // where targets follow as strains do
-constexpr double most_yielding = 1.6; // of what gives way to volume alone, from -0.8 down, less is seen
+constexpr double most_yielding = 1.6; // of what gives way to volume alone, from -0.73 down, less is seen
 constexpr double most_given = 0.6;
 constexpr int steps = 20;
 constexpr double damping = 0.6; // of Jacobi's steps

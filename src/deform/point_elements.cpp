@@ -3,6 +3,7 @@
 #include "base/new_processors.h"
 #include "deform/stretch.h"
 #include "graph/balanced_weights.h"
+#include "graph/bridges.h"
 #include "graph/star_weights.h"
 
 #include <Eigen/Eigenvalues>
@@ -13,10 +14,6 @@
 #include <numeric>
 
 namespace knead {
-
-bool hangs(const PointsBetween& between, Index vertex) {
-    return !between.hanging.empty() && between.hanging[vertex] != 0;
-}
 
 namespace {
 
@@ -43,11 +40,9 @@ std::array<float, influences_per_row> shares_without(std::span<const bool> left_
     auto share = weights_of(row, between.nearest.first_handle, between.weights);
     for (std::size_t k = 0; k < left_out.size(); ++k)
         if (left_out[k]) share[k] = 0;
-    const auto sum = [&] { return std::accumulate(share.begin(), share.end(), 0.0F); };
-    if (sum() == 0) // all others are as far as the farthest
-        std::ranges::transform(left_out, share.begin(), [](bool out) { return out ? 0.0F : 1.0F; });
     if (between.weights == InfluenceWeights::smooth) balance(offsets_from(p, row, between.sample), share);
-    for (const float of_all = sum(); float& each : share) each /= of_all;
+    const float of_all = std::accumulate(share.begin(), share.end(), 0.0F);
+    for (float& each : share) each /= of_all;
     return share;
 }
 
@@ -276,7 +271,7 @@ const Contribution& ContributionFinder::find(Index vertex) {
     found_.element.clear();
     row_.clear();
     for (const Index other : between_.graph.row(vertex))
-        if (!hangs(between_, other)) row_.push_back(other);
+        if (!hangs(between_.hanging, other)) row_.push_back(other);
     if (row_.size() < 2) return found_;
     const Vec3d position = position_of(between_, vertex);
     const Links links = links_of(between_, position, row_);

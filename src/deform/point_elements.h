@@ -28,9 +28,6 @@ struct Contribution {
     std::vector<Element> element; // of each body
 };
 
-// Whether a vertex is an outlier, which says nothing of the surface.
-bool hangs(const PointsBetween& between, Index vertex);
-
 // Finds one after another, in the same memory.
 class ContributionFinder {
 public:

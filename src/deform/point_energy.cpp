@@ -3,6 +3,7 @@
 #include "base/new_processors.h"
 #include "base/require.h"
 #include "deform/point_elements.h"
+#include "graph/bridges.h"
 
 #include <algorithm>
 #include <bit>
@@ -41,7 +42,7 @@ double ramp(double at, double from, double to) {
 
 // Whether a vertex can add anything: not where one handle moves and turns it and all its neighbours.
 bool is_between(const PointsBetween& between, Index vertex) {
-    if (hangs(between, vertex)) return false;
+    if (hangs(between.hanging, vertex)) return false; // an outlier says nothing of the surface
     const Index handle = between.label[vertex];
     if (handle == no_index || says(between.turns_freely, handle)) return true;
     return std::ranges::any_of(between.graph.row(vertex),

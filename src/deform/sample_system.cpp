@@ -99,7 +99,7 @@ void merge(std::vector<std::pair<int, double>>& column) {
     column.resize(kept);
 }
 
-// L of the first rows, so many: for ways or for turns.
+// L of the first rows, so many: for ways or for turns; null: of links alone.
 SparseMatrix laplacian(const SampleSystem& system, std::size_t rows, double BodyPair::*of) {
     const SampleRest& rest = system.rest;
     SparseMatrix matrix;
@@ -119,7 +119,7 @@ SparseMatrix laplacian(const SampleSystem& system, std::size_t rows, double Body
         }
         column.emplace_back(static_cast<int>(row), diagonal);
         const PointEnergy& energy = rest.energy;
-        if (!energy.first.empty())
+        if (of && !energy.first.empty())
             for (Index at = energy.first[i]; at < energy.first[i + 1]; ++at)
                 if (const Index s = energy.body[at]; s < energy.samples && system.unknown[s] < rows)
                     column.emplace_back(static_cast<int>(system.unknown[s]), energy.pair[at].*of);
@@ -314,22 +314,23 @@ OrderedLaplacian order_and_find_surroundings(SampleSystem& system, Workers& work
 // All matrices that are needed; none of them knows of the others.
 FactorOutcome factorize(SampleSystem& system, const OrderedLaplacian& of_moving, Workers& workers) {
     const std::size_t rows = system.free_sample.size();
-    const bool more = rows > system.moving_rows;
+    const bool more = hinges(system);
     system.has_increments = more || !system.pull.empty();
-    const SparseMatrix of_all = more ? laplacian(system, rows, &BodyPair::way) : of_moving.matrix;
+    const SparseMatrix of_links = more ? laplacian(system, rows, nullptr) : SparseMatrix{};
+    const SparseMatrix& of_ways = more ? of_links : of_moving.matrix;
     const bool other_turns = !system.rest.energy.first.empty();
-    const SparseMatrix of_turns = other_turns ? laplacian(system, rows, &BodyPair::turn) : SparseMatrix{};
-    const std::vector<int> order = more ? minimum_degree_order(of_all) : of_moving.order;
+    const SparseMatrix of_turns = other_turns ? laplacian(system, rows, &BodyPair::turn) : of_ways;
+    const std::vector<int> order = more ? minimum_degree_order(of_turns) : of_moving.order;
     std::array<FactorOutcome, 3> outcomes;
     workers.for_each(system.has_increments ? 3 : 2, 1, [&](std::size_t which) {
         if (which == 0)
             outcomes[0] =
                 system.positions.factorize(position_matrix(system, of_moving.matrix), of_moving.order);
         else if (which == 1)
-            outcomes[1] =
-                system.rotations.factorize(rotation_matrix(system, other_turns ? of_turns : of_all), order);
+            outcomes[1] = system.rotations.factorize(rotation_matrix(system, of_turns), order);
         else
-            outcomes[2] = system.increments.factorize(increment_matrix(of_all), order);
+            outcomes[2] = system.increments.factorize(
+                increment_matrix(of_ways), more && other_turns ? minimum_degree_order(of_links) : order);
     });
     for (std::size_t which = 0; which < (system.has_increments ? 3U : 2U); ++which)
         if (!outcomes[which].solved) return outcomes[which];
@@ -357,8 +358,8 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     system.mean_length = std::sqrt(square_length);
     system.smoothing =
         system.rest.stiffness * system.rest.cloud_size * system.rest.cloud_size / square_length;
-    const double square_stiffness = system.rest.stiffness * system.rest.stiffness;
-    system.midway = square_stiffness / (square_stiffness + next_to_nothing * next_to_nothing);
+    const double softness = next_to_nothing / system.rest.stiffness; // whose square may be infinite
+    system.midway = 1 / (1 + softness * softness);
     find_confidence(system, square_length);
     weigh_energy(system, square_length);
     number_bodies(system);

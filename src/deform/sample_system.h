@@ -33,10 +33,13 @@
 // of x_j - x_i - M_ij e:
 //
 //     1. r*_t is the rotation nearest to Σ 2ω v_t (R_t P + D - A̅ P), A̅ = (1 - γ) M_t + γ Σ_s v_s M_s,
-//     2. L_ts = Σ ω ĝ_t·ĝ_s and C_t = Σ 2 dim ω v_t,
-//     3. L_ts = Σ ω g_t·g_s and b_t = -Σ_s (A_s Σ ω H_s g_t - M_s Σ ω v_s P g_t).
+//     2. L_ts = Σ ω ĝ_t·ĝ_s and C_t = Σ 2 dim ω v_t/ℓ²,
+//     3. L_ts = Σ ω g_t·g_s and b_t = -Σ_s (A_s Σ ω H_s g_t - M_s Σ ω v_s P g_t),
 //
-// The A_s of a sample is R (I + θ (U - I)), with U what its links say of the stretch around it before the
+// A and M standing for A - I and M - I in these three, as D is of displacements: exactly nothing where
+// nothing moves.
+//
+// The A of a sample is R (I + θ (U - I)), with U what its links say of the stretch around it before the
 // iteration turns anything, and no strain beyond a factor of e². That feeds back: where the points that a
 // sample moves lie much farther off than its links reach, errors of U would grow with every iteration. So
 // θ = min(1, 2.2/(ϱ_s Σ_j |Σ⁺ w e|))³, with ϱ_s the distance of these points, rms; Σ⁺ is that of
@@ -46,7 +49,8 @@
 // and would drive those that links see and points hardly make: with 200 samples, tubes of points that lie
 // anywhere swell into lumps (tests/edit/rubber_test.cpp). There S is by what pulls, links and points
 // together, F = (A + Σ 2ω v_t D) (Σ w e eᵀ + Σ 2ω v_t P)⁺ in the place of A Σ⁺: a mean of what points do,
-// weighted as they answer to it, can drive nothing by more than ν < 1.
+// weighted as they answer to it, can drive nothing by more than ν < 1. (At a frame's start, before the first
+// iteration, S is by links.)
 //
 // With more samples both count, points by their share and links by the rest, all sums and matrices being
 // sums of both. So they do where turns spread over half a link, β from ℓ²/4 to 0.3 ℓ²: the blends are too
@@ -129,7 +133,8 @@ struct SampleSystem {
     std::vector<double> confidence; // C, of each row
     SparseFactor rotations;         // β/ℓ² L + C
     SparseFactor positions;         // L + μ, of the moving rows
-    SparseFactor increments;        // L of all rows, where that is not what `positions` holds
+    SparseFactor increments; // L of all rows, where that is not what `positions` holds; by links alone where
+                             // it hinges()
     bool has_increments = false;
     std::vector<double> pull; // Σ μ of each moving row; empty where nothing is pulled
     std::vector<Vec3d> shift; // τ of coarse_level.h, of each moving row: added to what step 3 finds; or empty
@@ -148,6 +153,13 @@ struct SampleSystem {
     std::vector<double> trust;    // θ of each of these
     std::vector<double> sides;    // right-hand sides and solutions, 4 or 3 numbers a row
 };
+
+// Whether a handle leaves rotation free: there are rows whose positions are given. Turns pass through it
+// then, and at a frame's start by links alone: in the energy of the points its samples are one body, which is
+// no row.
+inline bool hinges(const SampleSystem& system) {
+    return system.free_sample.size() > system.moving_rows;
+}
 
 // Whether a free sample has one link alone, to a sample that has more.
 bool is_leaf(const SampleRest& rest, Index sample);
@@ -170,7 +182,7 @@ void set_poisson(SampleSystem& system, double poisson, Workers& workers);
 SampleState rest_state(const SampleSystem& system);
 
 // Equations (3): the samples of handles go where the handles are, and turn as they do where that is given.
-// The first thing that follow_handles() and iterate() do; by itself for who moves the others otherwise.
+// A part of follow_handles() and iterate(); by itself for who moves the others otherwise.
 void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state);
 
 // Starts a frame from where the last one ended: Equation (1) alone for how far the handles turned since then,

@@ -1,5 +1,6 @@
 #include "graph/bridges.h"
 
+#include "graph/disjoint_sets.h"
 #include "graph/dust.h"
 #include "graph/group_tree.h"
 #include "graph/outliers.h"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -17,14 +19,6 @@ namespace {
 constexpr std::size_t grain = 256;
 
 using Links = std::vector<std::pair<Index, Index>>;
-
-// Every vertex's component, and no_index where it hangs, as the groups of a search.
-std::vector<Index> standing(const Components& components, std::span<const std::uint8_t> hanging) {
-    std::vector<Index> group = components.component.of_all();
-    for (std::size_t v = 0; v < group.size(); ++v)
-        if (hanging[v]) group[v] = no_index;
-    return group;
-}
 
 // Of each link, 1 if neither end hangs.
 std::vector<std::uint8_t> between_standing(const Graph& graph, std::span<const std::uint8_t> hanging,
@@ -48,17 +42,18 @@ Links links_to(std::size_t vertices, OtherEnd&& other_end, Workers& workers) {
     return links;
 }
 
-Links find_bridges(const GroupTree& tree, std::span<const float> spacing, const Components& components,
-                   Workers& workers) {
-    // The largest component need not ask: the others do.
-    const auto largest =
-        static_cast<Index>(std::ranges::max_element(components.size) - components.size.begin());
+// Every vertex that stands to the nearest one of another body, within the reach of both. Bodies have numbers
+// below `bodies`.
+Links find_bridges_once(const GroupTree& tree, std::size_t bodies, std::span<const float> reach,
+                        Workers& workers) {
+    // The largest body need not ask: the others do.
+    std::vector<std::size_t> size(bodies, 0);
+    for (const Index body : tree.group)
+        if (body != no_index) ++size[body];
+    const auto largest = static_cast<Index>(std::ranges::max_element(size) - size.begin());
     const auto across = [&](std::size_t v) {
         if (tree.group[v] == no_index || tree.group[v] == largest) return no_index;
-        const Neighbor other = nearest_of_others(tree, v, widest_gap * static_cast<double>(spacing[v]));
-        if (other.vertex == no_index) return no_index;
-        return other.distance <= widest_gap * static_cast<double>(spacing[other.vertex]) ? other.vertex
-                                                                                         : no_index;
+        return nearest_within_both(tree, v, reach).vertex;
     };
     return links_to(tree.group.size(), across, workers);
 }
@@ -109,25 +104,51 @@ std::size_t count_different(Links links) {
     return static_cast<std::size_t>(std::unique(links.begin(), links.end()) - links.begin());
 }
 
+// Joins the bodies that the ends of these links stand in. `body`: of each vertex, below `bodies`; no_index
+// where it hangs.
+void join_bodies(const Links& links, std::size_t bodies, std::vector<Index>& body) {
+    std::vector<Index> parent(bodies);
+    std::iota(parent.begin(), parent.end(), Index{0});
+    for (const auto& [one, other] : links) join(parent, body[one], body[other]);
+    for (Index& each : body)
+        if (each != no_index) each = find_root(parent, each);
+}
+
+// Until no body finds another: what lies between two that reach each other may have been nearer to both.
+// `body`: the component of each vertex, and then what that became.
+Links find_bridges(std::span<const float> positions, std::span<const float> reach, std::size_t bodies,
+                   std::vector<Index>& body, Workers& workers) {
+    Links links;
+    for (;;) {
+        const Links more = find_bridges_once(group_tree(positions, body, workers), bodies, reach, workers);
+        if (more.empty()) return links;
+        links.insert(links.end(), more.begin(), more.end());
+        join_bodies(more, bodies, body);
+    }
+}
+
 } // namespace
 
 JoinedGraph bridged(const Graph& graph, std::span<const float> positions, Workers& workers,
                     Progress& progress) {
     progress.step("joining parts", 0);
     if (graph.size() == 0) return {graph, {}};
-    const Spacings spacings = find_spacings(graph, positions, workers);
+    Spacings spacings = find_spacings(graph, positions, workers);
     progress.step("joining parts", 0.2);
     JoinedGraph result;
     result.hanging = find_outliers(graph, positions, spacings, workers);
     progress.step("joining parts", 0.5);
     const std::vector<std::uint8_t> stays = between_standing(graph, result.hanging, workers);
     const Components components = find_components(graph, stays, workers);
-    const std::vector<Index> group = standing(components, result.hanging);
-    const GroupTree tree = group_tree(positions, group, workers);
-    Links links = find_bridges(tree, spacings.around, components, workers);
+    std::vector<Index> body = components.component.of_all();
+    for (std::size_t v = 0; v < body.size(); ++v)
+        if (result.hanging[v]) body[v] = no_index;
+    std::vector<float> reach = std::move(spacings.around);
+    for (float& each : reach) each *= static_cast<float>(widest_gap);
+    Links links = find_bridges(positions, reach, components.size.size(), body, workers);
     result.joints = count_different(links);
     progress.step("joining parts", 0.7);
-    const Links hooks = find_hooks(tree, workers);
+    const Links hooks = find_hooks(group_tree(positions, body, workers), workers);
     result.outliers = hooks.size();
     links.insert(links.end(), hooks.begin(), hooks.end());
     result.graph = rewired(graph, stays, links, workers);

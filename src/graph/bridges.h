@@ -7,10 +7,11 @@
 // distance of rows: nearer ones may be nearly the same point, seen twice. The spacing *around* it is the
 // third lowest of its neighbours' own, so that a few that are out of the ordinary do not count.
 //
-//   - **Bridges.** Wherever a vertex of one component has vertices of others within `widest_gap` of the
-//     spacings around both ends, the nearest of them is linked to it. Of both: points that are rare reach
-//     nowhere, and sparse parts not into dense ones. Two sheets that run along each other are so sewn
-//     together all along, and not hinged at one place. Components that are too far stay apart. Nothing is
+//   - **Bridges.** Wherever a vertex of any component but the largest has vertices of others within
+//     `widest_gap` of the spacings around both ends, the nearest of them is linked to it. Of both: points
+//     that are rare reach nowhere, and sparse parts not into dense ones. Two sheets that run along each other
+//     are so sewn together all along, and not hinged at one place. The bodies that components have become
+//     then look for others in the same way, until none finds any. What is too far stays apart. Nothing is
 //     ever linked within a component: limbs that nearly touch stay as separate as they were.
 //   - **Outliers** keep no links but one, to the nearest vertex that is none, of whatever component. There
 //     they hang like dust, go where it goes, and neither pull at the surface nor tie surfaces together that
@@ -46,6 +47,11 @@ struct JoinedGraph {
     std::size_t joints = 0;            // links that join what would be components without them
     std::size_t outliers = 0;          // vertices that hang
 };
+
+// Whether a vertex does, by JoinedGraph::hanging; where that is empty none does.
+inline bool hangs(std::span<const std::uint8_t> hanging, std::size_t vertex) {
+    return !hanging.empty() && hanging[vertex] != 0;
+}
 
 // `graph`: of the nearest neighbours (neighbor_graph()); `positions`: 3 floats a vertex, in Morton order.
 // The result is the same whatever the number of workers.

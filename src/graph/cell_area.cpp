@@ -1,5 +1,7 @@
 #include "graph/cell_area.h"
 
+#include "graph/bridges.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -51,11 +53,11 @@ void CellFinder::gather(Index vertex) {
     };
     const std::span<const Index> row = points_.row(vertex);
     for (const Index near : row) {
-        if (hangs(near)) continue;
+        if (hangs(hanging_, near)) continue;
         add(near);
         if (row.size() > enough_around) continue;
         for (const Index far : points_.row(near))
-            if (far != vertex && !hangs(far)) add(far);
+            if (far != vertex && !hangs(hanging_, far)) add(far);
     }
     std::ranges::sort(around_);
     around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
@@ -90,7 +92,7 @@ void CellFinder::cut_by_farther(Index vertex) {
     const Vec3d own = point_at(positions_, point_[vertex]);
     for (const auto& [square, near] : around_)
         for (const Index far : points_.row(near)) {
-            if (far == vertex || hangs(far)) continue;
+            if (far == vertex || hangs(hanging_, far)) continue;
             const Vec3d way = point_at(positions_, point_[far]) - own;
             const Vector2d flat = axes_ * way;
             if (flat.squaredNorm() > along_plane * way.squaredNorm()) cut(flat);

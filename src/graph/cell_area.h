@@ -47,7 +47,6 @@ public:
     double mirrored();
 
 private:
-    bool hangs(Index vertex) const { return !hanging_.empty() && hanging_[vertex] != 0; }
     void gather(Index vertex);
     void flatten(Cell& cell);
     void cut_by_farther(Index vertex);

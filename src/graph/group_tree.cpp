@@ -49,12 +49,17 @@ GroupTree::Box box_around(const GroupTree::Box& a, const GroupTree::Box& b) {
     return box;
 }
 
+double square(double number) {
+    return number * number;
+}
+
 // Of someone who asks: where, of which group, and the best found so far.
 struct Search {
     const GroupTree& tree;
     std::array<double, 3> place;
     Index own;
-    double nearest; // squared
+    double nearest;                    // squared
+    std::span<const float> reach = {}; // of each vertex; empty: it does not count
     Index found = no_index;
 
     bool is_worth(const GroupTree::Box& box) const {
@@ -83,6 +88,7 @@ struct Search {
                 const double away = place[axis] - static_cast<double>(tree.positions[3 * v + axis]);
                 sum += away * away;
             }
+            if (!reach.empty() && sum > square(reach[v])) continue;
             const auto vertex = static_cast<Index>(v);
             if (sum > nearest || (sum == nearest && vertex > found)) continue;
             nearest = sum;
@@ -115,13 +121,25 @@ GroupTree group_tree(std::span<const float> positions, std::span<const Index> gr
     return tree;
 }
 
-Neighbor nearest_of_others(const GroupTree& tree, std::size_t v, double reach) {
-    Search search{tree, {}, tree.group[v], reach * reach};
+namespace {
+
+Neighbor nearest(const GroupTree& tree, std::size_t v, double farthest, std::span<const float> reach) {
+    Search search{tree, {}, tree.group[v], square(farthest), reach};
     for (std::size_t axis = 0; axis < 3; ++axis)
         search.place[axis] = static_cast<double>(tree.positions[3 * v + axis]);
     if (search.is_worth(tree.boxes.front())) search.look_into(0);
     if (search.found == no_index) return {};
     return {search.found, std::sqrt(search.nearest)};
+}
+
+} // namespace
+
+Neighbor nearest_of_others(const GroupTree& tree, std::size_t v, double reach) {
+    return nearest(tree, v, reach, {});
+}
+
+Neighbor nearest_within_both(const GroupTree& tree, std::size_t v, std::span<const float> reach) {
+    return nearest(tree, v, static_cast<double>(reach[v]), reach);
 }
 
 } // namespace knead

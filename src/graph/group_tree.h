@@ -39,4 +39,8 @@ struct Neighbor {
 // one of the lowest number. Where v has no group, that is any vertex that has one.
 Neighbor nearest_of_others(const GroupTree& tree, std::size_t v, double reach);
 
+// The nearest of those that are no farther than v reaches, and reach as far as v themselves. `reach`: of each
+// vertex.
+Neighbor nearest_within_both(const GroupTree& tree, std::size_t v, std::span<const float> reach);
+
 } // namespace knead

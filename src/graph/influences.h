@@ -110,9 +110,9 @@ enum class InfluenceWeights {
     paper,  // 1/d²
 };
 
-// So far from its border, as a share of d_max, a handle weighs what a sample there would; nearer by it more,
-// and without bound. Less leaves a seam of stretched links along the border, more is stiff beside it and
-// bends farther out (knead evaluate, the unevenness of links with 50 to 200 samples).
+// So far from its border, as a share of the farthest, a handle weighs what a sample there would; nearer by it
+// more, and without bound. Less leaves a seam of stretched links along the border, more is stiff beside it
+// and bends farther out (knead evaluate, the unevenness of links with 50 to 200 samples).
 inline constexpr float handle_reach = 0.15F;
 
 // By how much a handle weighs more than a sample as far away.
@@ -141,11 +141,9 @@ std::array<float, influences_per_row> weights_of(const SampleRow<Number>& row, I
     std::array<float, influences_per_row> weight{};
     const std::size_t count = row.count();
     if (count == 0) return weight;
-    const Number nearest = row.distance[0], farthest = row.distance[count - 1];
+    const Number farthest = row.distance[count - 1];
     if (const std::size_t all = place_of_all(row, first_handle, weights); all < influences_per_row) {
         weight[all] = 1;
-    } else if (nearest == farthest && (count == influences_per_row || farthest == 0)) {
-        std::fill_n(weight.begin(), count, 1.0F);
     } else if (weights == InfluenceWeights::paper) {
         for (std::size_t k = 0; k < count; ++k) {
             const auto distance = static_cast<float>(row.distance[k]);
@@ -158,6 +156,8 @@ std::array<float, influences_per_row> weights_of(const SampleRow<Number>& row, I
             weight[k] = nearness * nearness;
             if (row.sample[k] >= first_handle) weight[k] *= growth_of_handle(row.distance[k], farthest);
         }
+        if (std::ranges::all_of(weight, [](float each) { return each == 0; }))
+            std::fill_n(weight.begin(), count, 1.0F); // all are as far
     }
     return weight;
 }

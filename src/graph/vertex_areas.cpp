@@ -1,5 +1,6 @@
 #include "graph/vertex_areas.h"
 
+#include "graph/bridges.h"
 #include "graph/cell_area.h"
 #include "graph/star_weights.h"
 
@@ -53,11 +54,12 @@ public:
     Told tell(Index vertex, bool with_cell) {
         Told told;
         told.asked = with_cell;
-        if (hangs(vertex)) return told;
+        if (hangs(hanging_, vertex)) return told;
         star_.clear();
         const Vec3d own = point_at(positions_, point_[vertex]);
         for (const Index other : points_.row(vertex))
-            if (!hangs(other)) star_.push_back(spoke_along(point_at(positions_, point_[other]) - own, 1));
+            if (!hangs(hanging_, other))
+                star_.push_back(spoke_along(point_at(positions_, point_[other]) - own, 1));
         if (star_.empty()) return told;
         weight_.assign(star_.size(), 1.0);
         const double square = area_of(star_, weight_) / static_cast<double>(star_.size());
@@ -78,8 +80,6 @@ public:
     }
 
 private:
-    bool hangs(Index vertex) const { return !hanging_.empty() && hanging_[vertex] != 0; }
-
     const Graph& points_;
     std::span<const float> positions_;
     const Numbering& point_;

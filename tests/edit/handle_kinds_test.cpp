@@ -216,6 +216,31 @@ TEST(HandleKinds, AFreeLineIsAHingeWithoutASeam) {
     }
 }
 
+// The start of a frame alone: behind a hinge the bar turns along, by however many samples.
+TEST(HandleKinds, ATurnPassesAFreeHandleAtAFramesStart) {
+    std::vector<float> shapes[2];
+    double diagonal = 0;
+    for (const bool every : {false, true}) {
+        Settings settings;
+        settings.iterations = 0;
+        settings.samples = every ? std::nullopt : std::optional<std::uint64_t>(200);
+        Desk desk(made(Shape::bar, 8000), settings);
+        desk.play(
+            R"({"op":"handle","name":"f","role":"fixed","region":{"box":{"min":[-1,-1,-9],"max":[1,1,-2.2]}}})"
+            "\n"
+            R"({"op":"handle","name":"h","role":"fixed","rotation":"free",)"
+            R"("region":{"box":{"min":[-1,-1,-0.4],"max":[1,1,0.4]}}})"
+            "\n"
+            R"({"op":"handle","name":"m","role":"moving","region":{"box":{"min":[-1,-1,2.2],"max":[1,1,9]}}})"
+            "\n"
+            R"({"op":"drag","handle":"m","pivot":[0,0,0],"frames":[)" +
+            turns('z', 10, 90) + "]}\n");
+        shapes[every] = desk.shape();
+        diagonal = desk.document().bounds().diagonal();
+    }
+    EXPECT_LT(rms_between(shapes[0], shapes[1]) / diagonal, 0.005); // with the hinge in the way 0.015
+}
+
 // A free handle holds a strip of a sheet and all of a crumb above it but the twin of one of its points, which
 // what the handle holds there takes along.
 TEST(HandleKinds, AFreeHandleTakesAlongWhatIsInsideOfItInEveryPart) {

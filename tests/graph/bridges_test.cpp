@@ -59,6 +59,27 @@ TEST(Bridges, JudgeTheGapByTheDenserSide) {
     EXPECT_EQ(parts(bridged_of(dense_above).graph), 2U);
 }
 
+TEST(Bridges, JoinWhatEachHasANearerPartBeside) {
+    std::vector<float> positions;
+    for (const double height : {0.0, 3.0, 8.0, 11.0}) // the gap of 5 is nobody's nearest
+        for (int x = 0; x < 20; ++x)
+            for (int y = 0; y < 20; ++y) append(positions, Vec3d(x, y, height));
+    const Cloud cloud = cloud_of(positions);
+    ASSERT_EQ(cloud.components.size.size(), 4U);
+    EXPECT_EQ(parts(bridged_of(cloud).graph), 1U);
+}
+
+TEST(Bridges, ReachPastAPartThatReachesNobody) {
+    std::vector<float> positions = plates(7);
+    for (int x = 0; x < 380; ++x) // dense, in the middle of the gap
+        for (int y = 0; y < 20; ++y) append(positions, Vec3d(x * 0.05, 9 + y * 0.05, 3.5));
+    const Cloud cloud = cloud_of(positions);
+    ASSERT_EQ(cloud.components.size.size(), 3U);
+    const JoinedGraph joined = bridged_of(cloud);
+    EXPECT_EQ(parts(joined.graph), 2U);
+    EXPECT_GE(joined.joints, 400U) << "all along";
+}
+
 TEST(Bridges, LinkNothingWithinAComponent) {
     std::vector<NamedCloud> clouds = several_clouds();
     clouds.push_back({"plates", cloud_of(plates(2.5))});

@@ -9,6 +9,18 @@ namespace {
 
 using namespace test;
 
+// `reach`: of each vertex; the nearest is within that of both.
+Neighbor by_looking_at_all(const Cloud& cloud, std::span<const Index> group, std::size_t v,
+                           std::span<const float> reach) {
+    Neighbor best;
+    for (Index u = 0; u < cloud.size(); ++u) {
+        if (group[u] == no_index || group[u] == group[v]) continue;
+        const double distance = (cloud.at(v) - cloud.at(u)).norm();
+        if (distance <= reach[v] && distance <= reach[u] && distance < best.distance) best = {u, distance};
+    }
+    return best;
+}
+
 Neighbor by_looking_at_all(const Cloud& cloud, std::span<const Index> group, std::size_t v, double reach) {
     Neighbor best;
     for (Index u = 0; u < cloud.size(); ++u) {
@@ -42,6 +54,22 @@ TEST(GroupTree, FindsWhatLookingAtAllFinds) {
                 ASSERT_EQ(found.vertex, expected.vertex) << name << ", vertex " << v << ", reach " << reach;
                 ASSERT_DOUBLE_EQ(found.distance, expected.distance);
             }
+        }
+    }
+}
+
+TEST(GroupTree, FindsWhatReachesBack) {
+    Machine machine;
+    for (const auto& [name, cloud] : several_clouds()) {
+        const std::vector<Index> group = lumps(cloud);
+        const GroupTree tree = group_tree(cloud.positions, group, machine.workers);
+        std::vector<float> reach(cloud.size());
+        for (std::size_t v = 0; v < reach.size(); ++v) reach[v] = 0.05F * static_cast<float>(v % 11);
+        for (std::size_t v = 0; v < cloud.size(); v += 7) {
+            const Neighbor found = nearest_within_both(tree, v, reach);
+            const Neighbor expected = by_looking_at_all(cloud, group, v, reach);
+            ASSERT_EQ(found.vertex, expected.vertex) << name << ", vertex " << v;
+            ASSERT_DOUBLE_EQ(found.distance, expected.distance);
         }
     }
 }

@@ -31,16 +31,17 @@ std::string extent_text(const Ui& ui, const Bounds& bounds) {
     return words;
 }
 
-std::string selection_extent_text(const Ui& ui) {
+std::string shown_extent_text(const Ui& ui) {
     const Editor& editor = ui.editor;
-    SelectionExtent& known = ui.state.selection_extent;
+    ShownExtent& known = ui.state.shown_extent;
     // Very many points take a while to be looked at, and in a drag they come anew with every picture.
     const bool is_other = known.marks_version != editor.marks_version ||
                           (known.frame_version != editor.frame.version && !editor.drag);
-    if (is_other) known = {editor.marks_version, editor.frame.version, box_of_selection(editor)};
-    if (!known.box) return {};
+    if (is_other)
+        known = {editor.marks_version, editor.frame.version,
+                 box_of_selection(editor).value_or(box_of(editor))};
     const Vec3d& origin = editor.opened.cloud->origin;
-    return extent_text(ui, {origin + to_eigen(known.box->lowest), origin + to_eigen(known.box->highest)});
+    return extent_text(ui, {origin + to_eigen(known.box.lowest), origin + to_eigen(known.box.highest)});
 }
 
 } // namespace knead

@@ -183,16 +183,11 @@ void pose_rows(const Ui& ui, const ChosenPose& pose) {
     ImGui::PopID();
 }
 
-// Where no handle is chosen: how large what is selected is, or else what is open.
+// Where no handle is chosen: how large what is selected is, or else the cloud.
 void extent_words(const Ui& ui) {
-    const std::string selection = selection_extent_text(ui);
-    if (selection.empty()) {
-        faint_text(extent_text(ui, ui.editor.opened.bounds));
-        explain("Of the cloud as it was opened, in the file's units");
-    } else {
-        faint_text(selection);
-        explain("Of the selected points as they are now, in the file's units");
-    }
+    faint_text(shown_extent_text(ui));
+    explain(ui.editor.selected > 0 ? "Of the selected points as they are now, in the file's units"
+                                   : "Of the cloud as it is now, in the file's units");
 }
 
 } // namespace

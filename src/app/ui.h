@@ -130,10 +130,10 @@ struct PoseFields {
     Transform slid = {};                 // since then
 };
 
-// How large the selection is, and of which marks and points that was measured.
-struct SelectionExtent {
+// How large is what is selected, or all, and of which marks and points that was measured.
+struct ShownExtent {
     std::uint64_t marks_version = 0, frame_version = 0; // of the editor
-    std::optional<Box3> box = {};                       // relative to the cloud's origin; nothing: none
+    Box3 box = {};                                      // relative to the cloud's origin
 };
 
 // What the status line tells; measured by the main loop.
@@ -177,7 +177,7 @@ struct UiOfDocument {
     std::string listed_chosen; // the handle that the list was scrolled to last
     SlidingSettings sliding;
     PoseFields pose_fields;
-    SelectionExtent selection_extent;
+    ShownExtent shown_extent;
     NumberEditing range_fields; // of the colours
     LabelDialog labels;
 };

@@ -110,10 +110,17 @@ void keep_llvmpipe_to_the_caller() {
     setenv("LP_NUM_THREADS", "0", 0); // NOLINT(concurrency-mt-unsafe)
 }
 
+// PoCL calls the linker by its name, and ends the whole program where that is not found: as for a service
+// that is started with no environment at all. Before there is any other thread.
+void let_pocl_find_its_linker() {
+    setenv("PATH", "/usr/local/bin:/usr/bin:/bin", 0); // NOLINT(concurrency-mt-unsafe)
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     keep_pocl_threads_apart();
+    let_pocl_find_its_linker();
     keep_llvmpipe_to_the_caller();
     CLI::App app{"knead bends, twists and stretches raw point clouds with handles.", "knead"};
     app.require_subcommand(1);

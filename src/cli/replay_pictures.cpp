@@ -28,6 +28,10 @@ PictureShape seen(const Document& document, const RestShape& shape) {
 
 } // namespace
 
+bool is_name_of_frame(const fs::path& name) {
+    return name.extension() == ".png" && name.string().starts_with("frame-");
+}
+
 struct ReplayPictures::State {
     State(const ReplayPictureOptions& given, Progress& of_replay) : progress(of_replay), options(given) {}
 

@@ -12,6 +12,9 @@
 
 namespace knead {
 
+// Whether a frame of a replay may have this name.
+bool is_name_of_frame(const std::filesystem::path& name);
+
 struct ReplayPictureOptions {
     std::string picture; // a PNG file, or empty
     std::string frames;  // a folder, or empty

@@ -82,7 +82,7 @@ void Terminal::flush_data() {
     clear_bar();
     const std::string text = shown(out.str()); // JSON is ASCII with no other control characters: unchanged
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-    if (!written || std::fflush(stdout) != 0)
+    if (!written || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) // of what CLI11 wrote, too
         throw Error(Trouble::output, "standard output", "cannot be written");
 }
 

@@ -4,6 +4,7 @@
 #include "base/quoted.h"
 #include "base/stopwatch.h"
 #include "cloud/splats.h"
+#include "edit/document_pivots.h"
 #include "edit/handle_motion.h"
 
 #include <algorithm>
@@ -36,17 +37,17 @@ bool Document::needs_commit(const SessionAction& act) const {
     if (!is_posed()) return false;
     if (const auto* set = std::get_if<SetLine>(&act))
         return set->change.neighbors || set->change.samples || set->change.strays;
-    if (const auto* line = std::get_if<HandleLine>(&act)) return !recolored_by(*line, "");
+    if (const auto* line = std::get_if<HandleLine>(&act)) return !retouched_by(*line, "");
     const auto* gone = std::get_if<DeleteLine>(&act);
     return gone && std::ranges::find(handles_, gone->handle, &Handle::name) != handles_.end();
 }
 
 void Document::declare(const HandleLine& line, const std::string& place) {
-    if (const auto handle = recolored_by(line, place)) { // which is no other handle
+    if (const auto handle = retouched_by(line, place)) { // which is no other handle
         const HandleChange::Place old{*handle, handles_[*handle]};
         HandleChange change{.gone = old, .come = old};
         change.come->handle.color = line.color;
-        return change_handles(std::move(change));
+        return change_handles(std::move(change), with_pivot(now().pivots, line.name, line.pivot));
     }
     refuse_while_posed("handles", place);
     auto points = std::make_shared<const std::vector<Index>>(resolve(line, place));
@@ -58,7 +59,7 @@ void Document::declare(const HandleLine& line, const std::string& place) {
     change.come = {static_cast<Index>(handles_.size() - (change.gone ? 1 : 0)),
                    {line.name, line.role, std::move(points), line.free_rotation, line.falloff, line.color,
                     change.gone ? change.gone->handle.came : came}};
-    change_handles(std::move(change));
+    change_handles(std::move(change), with_pivot(now().pivots, line.name, line.pivot));
 }
 
 void Document::commit(Progress& progress) {
@@ -67,6 +68,7 @@ void Document::commit(Progress& progress) {
         next.rest = std::make_shared<Committed>();
         next.rest->shape = mode_ == Mode::real ? posed_now(progress) : std::make_shared<const RestShape>();
         next.rest->made_from = at_;
+        next.pivots = carried(next.pivots, handles_, motions_, cloud_.origin);
     }
     const auto committed = is_posed() ? next.rest : nullptr;
     next.posed = nullptr;
@@ -86,7 +88,8 @@ void Document::change_settings(const SettingsChange& change, const std::string& 
 void Document::remove(const DeleteLine& line, const std::string& place) {
     const Index handle = find_handle(line.handle, place);
     refuse_while_posed("handles", place);
-    change_handles({.gone = HandleChange::Place{handle, handles_[handle]}, .come = {}});
+    change_handles({.gone = HandleChange::Place{handle, handles_[handle]}, .come = {}},
+                   with_pivot(now().pivots, line.handle, std::nullopt));
 }
 
 void Document::rename(const RenameLine& line, const std::string& place) {
@@ -99,7 +102,8 @@ void Document::rename(const RenameLine& line, const std::string& place) {
     const HandleChange::Place old{handle, handles_[handle]};
     HandleChange change{.gone = old, .come = old};
     change.come->handle.name = line.to;
-    change_handles(std::move(change));
+    const auto without = with_pivot(now().pivots, line.handle, std::nullopt);
+    change_handles(std::move(change), with_pivot(without, line.to, old.handle.pivot));
 }
 
 std::vector<float> Document::positions(Progress& progress) {
@@ -172,10 +176,10 @@ Index Document::find_handle(const std::string& name, const std::string& place) c
 }
 
 // Only points that are named: those of a region depend on the shape.
-std::optional<Index> Document::recolored_by(const HandleLine& line, const std::string& place) const {
+std::optional<Index> Document::retouched_by(const HandleLine& line, const std::string& place) const {
     const auto old = std::ranges::find(handles_, line.name, &Handle::name);
-    if (old == handles_.end() || old->color == line.color || std::holds_alternative<Region>(line.points))
-        return std::nullopt;
+    if (old == handles_.end() || std::holds_alternative<Region>(line.points)) return std::nullopt;
+    if (old->color == line.color && old->pivot == line.pivot) return std::nullopt;
     const bool holds_alike =
         old->role == line.role && old->free_rotation == line.free_rotation && old->falloff == line.falloff;
     if (!holds_alike) return std::nullopt;

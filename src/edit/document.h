@@ -16,6 +16,9 @@
 
 namespace knead {
 
+// Where handles have their joints, by their names.
+using Pivots = std::map<std::string, Vec3d>;
+
 // What the frames of a document cost, for whoever wants to know; times in seconds.
 struct FrameLog {
     std::vector<double> iteration; // one entry an iteration of all samples
@@ -115,9 +118,19 @@ public:
     const std::vector<HandleMotion>& motions() const { return motions_; }
     // Every pose that a handle was given in this edit, the first one first.
     std::vector<HandleMotion> way_of(const std::string& handle) const;
-    // Of all handles that were ever dragged, by the names that they had then: where the pivot of the last
-    // drag is by now, which that took along; relative to the cloud's origin.
-    std::map<std::string, Vec3d> last_pivots() const;
+
+    // --- Where handles have their joints, relative to the cloud's origin (document_pivots.cpp) ---
+
+    // What an act did to where the joints are that lines told of (HandleLine::pivot).
+    struct PivotMove {
+        std::string handle;
+        std::optional<Vec3d> before, after; // nothing: its middle
+    };
+    // Of every act, those that can be redone included.
+    std::vector<std::vector<PivotMove>> pivot_moves() const;
+    // Of all handles that were ever dragged and of whose joints no line tells, by the names that they had
+    // then: where the pivot of the last drag is by now, which that took along.
+    Pivots last_pivots() const;
 
     // --- What history costs ---
     //
@@ -174,6 +187,7 @@ private:
         std::shared_ptr<const HandleChange> change; // of the handles; null: none
         std::shared_ptr<Committed> rest;            // null: as opened
         std::shared_ptr<Posed> posed;               // null: nothing was dragged in this edit
+        std::shared_ptr<const Pivots> pivots;       // as Handle::pivot; null: no line told of any
     };
 
     // What a frame of a drag needs to know of those before it, or an iteration of settling.
@@ -198,13 +212,15 @@ private:
 
     bool is_as_opened() const;
     Index find_handle(const std::string& name, const std::string& place) const;
-    // The handle that this line gives another colour and changes in nothing else; nothing: it does more.
-    std::optional<Index> recolored_by(const HandleLine& line, const std::string& place) const;
+    // The handle that this line gives another colour or pivot and changes in nothing else; nothing: it does
+    // more.
+    std::optional<Index> retouched_by(const HandleLine& line, const std::string& place) const;
     void refuse_while_posed(const std::string& what, const std::string& place) const;
     State next_state() const; // for an act to change
     void take(State next);    // makes it the present one, and the present one the last in history
     void arrive_at(const State& next);
-    void change_handles(HandleChange change);
+    void change_handles(HandleChange change, std::shared_ptr<const Pivots> pivots);
+    void show_pivots(const State& before, const State& now) noexcept;
     // As they were in a state of the past, or are in the present one.
     std::vector<Handle> handles_of(std::size_t at) const;
     std::vector<HandleMotion> motions_of(std::size_t at) const;

@@ -33,6 +33,7 @@ void Document::undo(const std::string& place) {
     if (now().change) take_back(*now().change, handles_);
     motions_ = std::move(motions);
     --at_;
+    show_pivots(history_[at_ + 1], now());
     posed_is_now_ = false;
 }
 
@@ -68,13 +69,15 @@ void Document::arrive_at(const State& next) {
         motions_.assign(handles_.size(), HandleMotion{});
     else if (next.posed->handle != no_index)
         motions_[next.posed->handle] = next.posed->motion;
+    show_pivots(now(), next);
     ++at_;
     posed_is_now_ = false;
 }
 
-void Document::change_handles(HandleChange change) {
+void Document::change_handles(HandleChange change, std::shared_ptr<const Pivots> pivots) {
     State next = next_state();
     next.change = std::make_shared<const HandleChange>(std::move(change));
+    next.pivots = std::move(pivots);
     take(std::move(next));
 }
 
@@ -128,20 +131,6 @@ std::vector<HandleMotion> Document::way_of(const std::string& handle) const {
             way.push_back(motion);
         }
     return way;
-}
-
-std::map<std::string, Vec3d> Document::last_pivots() const {
-    std::map<std::string, Vec3d> pivots;
-    for (std::size_t at = at_; at > 0; --at) {
-        const std::shared_ptr<Posed>& posed = history_[at].posed;
-        if (!posed || posed == history_[at - 1].posed) continue;
-        const auto* drag = std::get_if<DragLine>(&posed->act);
-        if (!drag || pivots.contains(drag->handle)) continue;
-        const HandleMotion before = motions_of(posed->made_from)[posed->handle];
-        const Vec3d at_rest = point_at_rest(before, drag->pivot - cloud_.origin);
-        pivots[drag->handle] = posed->motion.linear * at_rest + posed->motion.offset;
-    }
-    return pivots;
 }
 
 std::shared_ptr<const RestShape> Document::kept_rest() const {

@@ -258,16 +258,20 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
                        " would be mirrored to.");
     if (!plane.is_middle)
         say(editor, Notice::Kind::information, "Mirrored across " + words_about(plane, place) + ".");
+    const HandleMotion motion = motion_now(editor, *number);
     HandleLine line = line_of(handle);
     line.name = name_of_mirrored(editor, handle, points);
     const auto there = number_of(editor, line.name); // its colour is its own
     line.color = there ? editor.document->handles[*there].color : std::nullopt;
     line.points = ranges_of(points);
+    const auto pivot = pivot_of(editor, command.handle);
+    const auto over_there = [&](const Vec3d& p) { return mirrored(p, plane, across.shift); };
+    line.pivot = std::nullopt;
+    if (pivot) line.pivot = over_there(point_at_rest(motion, to_eigen(*pivot))) + editor.opened.cloud->origin;
     const std::string name = line.name;
-    const bool is_posed = leaves_rest(motion_now(editor, *number));
-    if (handle.role == HandleRole::moving && is_posed) {
+    if (handle.role == HandleRole::moving && leaves_rest(motion)) {
         PoseOfAnother pose{handle.name,
-                           [=](const HandleMotion& motion) { return mirrored(motion, plane, across.shift); }};
+                           [=](const HandleMotion& seen) { return mirrored(seen, plane, across.shift); }};
         EditorStep step = coming_step(editor, ++editor.last_step);
         editor.live->make_posed(step.document, std::move(line), std::move(pose));
         add_step(editor, std::move(step));
@@ -278,9 +282,8 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
                 "Only the handle was mirrored: " + quoted(handle.name) +
                     " is where it was at rest, so there is no pose to mirror.");
     }
-    if (const auto pivot = pivot_of(editor, command.handle))
-        put_pivot_with(editor.past.back(), editor, name,
-                       to_glm(mirrored(to_eigen(*pivot), plane, across.shift)));
+    put_pivot_with(editor.past.back(), editor, name,
+                   pivot ? std::optional(to_glm(over_there(to_eigen(*pivot)))) : std::nullopt);
     editor.posted_names.emplace_back(editor.last_step, name);
     choose_with_step(editor, name);
 }
@@ -342,9 +345,23 @@ void carry_out(Editor& editor, const CancelDrag& /*command*/) {
     editor.live->cancel_drag();
 }
 
+namespace {
+
+std::string words_about_nothing_chosen(const Editor& editor) {
+    if (looks_back(editor))
+        return "An earlier step is shown: Esc leads back to where you were, and Space plays on from here.";
+    if (!editor.document) return {};
+    const auto is_moving = [](const Handle& handle) { return handle.role == HandleRole::moving; };
+    if (std::ranges::any_of(editor.document->handles, is_moving))
+        return "No handle is chosen: click a moving one, in the view or in the list.";
+    return next_step(editor);
+}
+
+} // namespace
+
 void carry_out(Editor& editor, const RefuseTransform& command) {
     const Handle* chosen = chosen_handle(editor);
-    if (!chosen) return say(editor, Notice::Kind::information, next_step(editor));
+    if (!chosen) return say(editor, Notice::Kind::information, words_about_nothing_chosen(editor));
     if (chosen->role != HandleRole::moving)
         return say(editor, Notice::Kind::information,
                    quoted(chosen->name) +

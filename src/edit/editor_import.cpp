@@ -130,6 +130,7 @@ std::vector<SessionAction> with_points(const Editor& editor, const Session& sess
             append_point(ranges, i);
         line.points = std::move(ranges);
         line.name = name;
+        line.pivot = std::nullopt; // that was told of another shape
         lines.emplace_back(std::move(line));
     }
     return lines;

@@ -11,6 +11,14 @@ std::optional<glm::dvec3> pivot_of(const Editor& editor, const std::string& hand
     return found->second;
 }
 
+namespace {
+
+Vec3d file_place(const Editor& editor, const glm::dvec3& place) {
+    return to_eigen(place) + editor.opened.cloud->origin;
+}
+
+} // namespace
+
 void put_pivot(Editor& editor, const std::string& handle, const std::optional<glm::dvec3>& pivot) {
     if (pivot)
         editor.pivots[handle] = *pivot;
@@ -39,9 +47,10 @@ void carry_out(Editor& editor, const SetPivot& command) {
     put_pivot(editor, move.handle, move.after);
     if (command.stage == SetPivot::Stage::moving) return;
     if (move.after != move.before) {
-        EditorStep step = coming_step(editor, 0);
-        step.chosen_before = step.chosen_after = move.handle;
+        EditorStep step = coming_step(editor, ++editor.last_step);
         step.pivots.push_back(move);
+        editor.live->put_pivot(step.document, move.handle,
+                               move.after ? std::optional(file_place(editor, *move.after)) : std::nullopt);
         add_step(editor, std::move(step));
     }
     editor.moved_pivot.reset();

@@ -19,14 +19,30 @@ void cancel_opening(Editor& editor) {
 
 namespace {
 
-// Handles are dragged about their middles unless the hand put their pivots elsewhere. Where these were before
-// the last step nobody knows, so they go with it when it is undone.
-void take_pivots(Editor& editor) {
+// Of the steps of a session that was opened, as if they had been done here.
+void take_told_pivots(Editor& editor) {
+    const auto glm_of = [](const std::optional<Vec3d>& place) {
+        return place ? std::optional(to_glm(*place)) : std::nullopt;
+    };
+    const auto& moves = editor.opened.pivot_moves;
+    for (std::size_t step = 0; step < moves.size(); ++step) {
+        const bool is_past = step < editor.past.size(); // the next one to be redone is the last of the future
+        EditorStep& taken = is_past ? editor.past[step] : editor.future[moves.size() - 1 - step];
+        for (const Document::PivotMove& move : moves[step]) {
+            taken.pivots.push_back({move.handle, glm_of(move.before), glm_of(move.after)});
+            if (is_past) put_pivot(editor, move.handle, glm_of(move.after));
+        }
+    }
+}
+
+// Where no line tells of a pivot: handles are dragged about their middles unless the hand put their pivots
+// elsewhere. Where these were before the last step nobody knows, so they go with it when it is undone.
+void take_last_pivots(Editor& editor) {
     if (editor.past.empty()) return; // nothing was dragged
     const double least = 1e-4 * editor.opened.bounds.diagonal();
     for (const Handle& handle : editor.document->handles) {
-        const auto last = editor.opened.pivots.find(handle.name);
-        if (last == editor.opened.pivots.end()) continue;
+        const auto last = editor.opened.last_pivots.find(handle.name);
+        if (last == editor.opened.last_pivots.end()) continue;
         const glm::dvec3 place = to_glm(last->second);
         const std::optional<glm::dvec3> middle = middle_of(editor, handle);
         if (middle && glm::distance(place, *middle) > least)
@@ -61,7 +77,8 @@ void take_over(Editor& editor) {
     editor.future.assign(editor.document->redoable_steps, EditorStep{step_of_opened_session});
     editor.looks_from.reset();
     mark_handles(editor);
-    take_pivots(editor);
+    take_told_pivots(editor);
+    take_last_pivots(editor);
     editor.camera = first_view(bulk_box(editor.frame.positions()), editor.viewport);
     editor.changes = {};
 }

@@ -72,6 +72,7 @@ Handle edited(const Handle& before, std::span<const Handle> later, const HandleE
         handle.falloff = 0;
     }
     if (edit.color) handle.color = edit.color->rgb;
+    if (edit.pivot) handle.pivot = edit.pivot->at_rest;
     return handle;
 }
 
@@ -91,6 +92,7 @@ HandleLine line_of(const Handle& handle) {
     line.free_rotation = handle.free_rotation;
     line.falloff = handle.falloff;
     line.color = handle.color;
+    line.pivot = handle.pivot;
     return line;
 }
 
@@ -98,7 +100,7 @@ bool changes(std::span<const Handle> handles, const HandleEdit& edit) {
     const auto found = std::ranges::find(handles, edit.handle, &Handle::name);
     if (found == handles.end()) return false;
     const Handle after = edited(*found, {found + 1, handles.end()}, edit);
-    return !holds_the_same(*found, after) || after.color != found->color;
+    return !holds_the_same(*found, after) || after.color != found->color || after.pivot != found->pivot;
 }
 
 std::vector<SessionAction> lines_for(std::span<const Handle> handles, const HandleEdit& edit) {

@@ -24,6 +24,10 @@ struct HandleEdit {
         std::optional<std::uint32_t> rgb; // none: the usual one
     };
     std::optional<Color> color = {};
+    struct Pivot {
+        std::optional<Vec3d> at_rest; // in the file's coordinates; none: the middle
+    };
+    std::optional<Pivot> pivot = {};
     struct Points {
         SelectMode mode = SelectMode::replace;
         std::vector<IndexRange> chosen; // ascending
@@ -43,7 +47,7 @@ bool changes(std::span<const Handle> handles, const HandleEdit& edit);
 // declared anew is the last one, and the last one has what several hold: so those that came later and share
 // points with it come again after it, and with them all that came later. But points that a handle is given it
 // takes from any: then it stays the last one, without what it had declared and others hold. Another colour
-// alone leaves a handle the one that it is.
+// or pivot alone leaves a handle the one that it is.
 std::vector<SessionAction> lines_for(std::span<const Handle> handles, const HandleEdit& edit);
 
 } // namespace knead

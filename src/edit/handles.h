@@ -21,6 +21,7 @@ struct Handle {
     std::optional<std::uint32_t> color = {}; // 0xrrggbb, where the user chose one
     Index came = 0; // numbers handles as they came; one that is declared anew keeps its own, for lists that
                     // keep their order
+    std::optional<Vec3d> pivot = {}; // HandleLine::pivot, as it is on the rest shape of this edit
 };
 
 // Whether two handles, or lists of them, hold the same points in the same way, whatever their names. (The

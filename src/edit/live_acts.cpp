@@ -3,6 +3,7 @@
 #include "edit/live_work.h"
 
 #include "base/error.h"
+#include "edit/handle_motion.h"
 #include "edit/live_opening.h"
 #include "edit/measures.h"
 #include "edit/way_back.h"
@@ -36,6 +37,15 @@ Vec3d middle_at_rest(const Document& document, std::span<const IndexRange> point
 
 } // namespace
 
+namespace {
+
+// What of a document a line would change that stays as it is while a pose stands.
+std::string kept_of(const SessionAction& line) {
+    return std::holds_alternative<SetLine>(line) ? "samples, neighbours and strays" : "handles";
+}
+
+} // namespace
+
 // One line of a step, and a commit before it where it may not stand while handles are posed.
 void LiveWork::carry_out_line(const SessionAction& line, bool joins, bool pose_is_seen, StepSoFar& step) {
     if (document_->needs_commit(line)) {
@@ -44,9 +54,8 @@ void LiveWork::carry_out_line(const SessionAction& line, bool joins, bool pose_i
         step.told_of_commit |= pose_is_seen;
         if (pose_is_seen)
             publisher_.say(Notice::Kind::information,
-                           "The pose became the new rest shape first: this cannot change while handles are "
-                           "moved. Ctrl+Z "
-                           "takes both back.",
+                           "The pose became the new rest shape first: while it stands, " + kept_of(line) +
+                               " cannot change. Ctrl+Z takes both back.",
                            Notice::About::committed);
     }
     carry_out_and_record(line, step.done > 0 || joins);
@@ -79,6 +88,19 @@ void LiveWork::carry_out(task::EditHandle& task) {
     task::Lines lines{task.step, lines_for(document_->handles(), task.edit), false};
     if (lines.lines.empty()) return refuse(task.step);
     carry_out(lines);
+}
+
+void LiveWork::carry_out(task::PutPivot& task) {
+    task::EditHandle edit{task.step, {.handle = task.handle}};
+    std::optional<Vec3d>& at_rest = edit.edit.pivot.emplace().at_rest;
+    const std::vector<Handle>& handles = document_->handles();
+    const auto handle = std::ranges::find(handles, task.handle, &Handle::name);
+    if (task.place && handle != handles.end()) {
+        const HandleMotion& motion = document_->motions()[static_cast<std::size_t>(handle - handles.begin())];
+        const Vec3d& origin = document_->cloud().origin;
+        at_rest = point_at_rest(motion, *task.place - origin) + origin;
+    }
+    carry_out(edit);
 }
 
 void LiveWork::carry_out(task::MakePosed& task) {

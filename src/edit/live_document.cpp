@@ -74,6 +74,10 @@ void LiveDocument::edit_handle(StepNumber step, HandleEdit edit) {
     put(*shared_, task::EditHandle{step, std::move(edit)});
 }
 
+void LiveDocument::put_pivot(StepNumber step, std::string handle, std::optional<Vec3d> place) {
+    put(*shared_, task::PutPivot{step, std::move(handle), place});
+}
+
 void LiveDocument::make_posed(StepNumber step, HandleLine line, PoseOfAnother pose) {
     put(*shared_, task::MakePosed{step, std::move(line), std::move(pose)});
 }

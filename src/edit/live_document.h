@@ -104,9 +104,12 @@ struct OpenedCloud {
     const PointCloud* cloud = nullptr;
     const PointOrder* order = nullptr;
     const RestShape* opened = nullptr;
-    Bounds bounds;                            // in the file's coordinates
-    double spacing = 0;                       // the usual distance between neighbouring points
-    std::map<std::string, Vec3d> pivots = {}; // Document::last_pivots(), as it was opened
+    Bounds bounds;           // in the file's coordinates
+    double spacing = 0;      // the usual distance between neighbouring points
+    Pivots last_pivots = {}; // of Document, as it was opened
+    // Document::pivot_moves() of every step, those that can be undone first, in the order in which they were
+    // done.
+    std::vector<std::vector<Document::PivotMove>> pivot_moves = {};
 };
 
 // What is saved with a cloud beside its own attributes.
@@ -199,6 +202,10 @@ public:
     // Changes a handle as it is when its turn comes, after all that was posted before. Where it is gone by
     // then, or is so already, the step counts as refused without words.
     void edit_handle(StepNumber step, HandleEdit edit);
+
+    // Puts a handle's joint where it is to be when its turn comes, in the file's coordinates; nothing: the
+    // handle has none of its own. Else as edit_handle().
+    void put_pivot(StepNumber step, std::string handle, std::optional<Vec3d> place);
 
     // Makes a handle, whose line has points, and poses it like another one.
     void make_posed(StepNumber step, HandleLine line, PoseOfAnother pose);

@@ -207,6 +207,13 @@ std::size_t LiveRecording::last_frames() const {
     return first == past_.rend() ? 0 : first->frames;
 }
 
+std::vector<bool> LiveRecording::which_join() const {
+    std::vector<bool> joins;
+    for (const Act& act : past_) joins.push_back(act.joins);
+    for (auto act = future_.rbegin(); act != future_.rend(); ++act) joins.push_back(act->joins);
+    return joins;
+}
+
 std::size_t LiveRecording::undoable_steps() const {
     return count_steps(past_);
 }

@@ -79,6 +79,8 @@ public:
     bool next_joins() const {
         return !future_.empty() && future_.back().joins;
     } // of those that can be redone
+    // Of every act, those that can be redone included, in the order in which they were done.
+    std::vector<bool> which_join() const;
     std::size_t undoable_steps() const;
     std::size_t redoable_steps() const;
 

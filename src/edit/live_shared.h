@@ -27,6 +27,11 @@ struct EditHandle {
     StepNumber step = 0;
     HandleEdit edit;
 };
+struct PutPivot {
+    StepNumber step = 0;
+    std::string handle;
+    std::optional<Vec3d> place;
+};
 struct MakePosed {
     StepNumber step = 0;
     HandleLine line;
@@ -66,9 +71,10 @@ struct SaveSession {
     bool anyway = false;
 };
 } // namespace task
-using LiveTask = std::variant<task::ChooseSamples, task::Lines, task::EditHandle, task::MakePosed,
-                              task::BeginDrag, task::EndDrag, task::CancelDrag, task::ResetPose, task::Undo,
-                              task::Redo, task::Play, task::SaveCloud, task::SaveSession>;
+using LiveTask =
+    std::variant<task::ChooseSamples, task::Lines, task::EditHandle, task::PutPivot, task::MakePosed,
+                 task::BeginDrag, task::EndDrag, task::CancelDrag, task::ResetPose, task::Undo, task::Redo,
+                 task::Play, task::SaveCloud, task::SaveSession>;
 
 // How a step is played.
 struct PlayPace {

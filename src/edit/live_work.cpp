@@ -103,6 +103,19 @@ void LiveWork::belong_to_session_of(const JournalFacts& facts) {
     choice_.by_itself = facts.chooses_samples;
 }
 
+// What the acts of a step did, one after the other.
+std::vector<std::vector<Document::PivotMove>> LiveWork::pivot_moves_of_steps() const {
+    const std::vector<std::vector<Document::PivotMove>> of_acts = document_->pivot_moves();
+    const std::vector<bool> joins = recording_->which_join();
+    require(joins.size() == of_acts.size(), "the recording has the document's acts");
+    std::vector<std::vector<Document::PivotMove>> of_steps;
+    for (std::size_t act = 0; act < of_acts.size(); ++act) {
+        if (!joins[act]) of_steps.emplace_back();
+        of_steps.back().insert(of_steps.back().end(), of_acts[act].begin(), of_acts[act].end());
+    }
+    return of_steps;
+}
+
 void LiveWork::publish_opened() {
     OpenedCloud opened;
     opened.file = recording_->cloud();
@@ -111,7 +124,8 @@ void LiveWork::publish_opened() {
     opened.opened = &document_->pipeline().opened();
     opened.bounds = document_->bounds();
     opened.spacing = usual_spacing(opened.opened->positions);
-    opened.pivots = document_->last_pivots();
+    opened.last_pivots = document_->last_pivots();
+    opened.pivot_moves = pivot_moves_of_steps();
     publish_shape(false);
     publish_view();
     shared_.with([&](LiveShared& s) {

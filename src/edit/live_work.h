@@ -33,6 +33,7 @@ private:
     PointCloud read_cloud_of(Session& session);
     void belong_to_session_of(const JournalFacts& facts);
     void take_settings();
+    std::vector<std::vector<Document::PivotMove>> pivot_moves_of_steps() const;
     void publish_opened();
     void wait_for_next_frame();
     bool something_to_do() const;
@@ -54,6 +55,7 @@ private:
     };
     void carry_out_line(const SessionAction& line, bool joins, bool pose_is_seen, StepSoFar& step);
     void carry_out(task::EditHandle& task);
+    void carry_out(task::PutPivot& task);
     void carry_out(task::MakePosed& task);
     void carry_out(task::ResetPose& task);
     void carry_out(task::Undo& task);

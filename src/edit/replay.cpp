@@ -137,6 +137,23 @@ private:
                         "has a name that recorded checks take; give the shape another one");
     }
 
+    // Nor may it be written over a file that is none of this session's: another session of the same name may
+    // have recorded it. Only at the end is it known how many there are.
+    void refuse_to_replace_others() const {
+        for (const RecordedCheck& recorded : recorded_) {
+            const bool is_own = std::ranges::any_of(session_.lines, [&](const SessionLine& line) {
+                const auto* check = std::get_if<CheckLine>(&line.action);
+                return check && check->positions == recorded.file;
+            });
+            const std::filesystem::path target = session_.resolve(recorded.file);
+            std::error_code ignored;
+            if (!is_own && std::filesystem::exists(target, ignored))
+                throw Error(Trouble::output, target.string(),
+                            "is there already and no check of this session has it; to record one there, "
+                            "move the file away first");
+        }
+    }
+
     // So is a missing file.
     void find_check_files() const {
         for (const SessionLine& line : session_.lines) {
@@ -272,6 +289,7 @@ private:
     // Everything is put in its place when all of it is written.
     void write_results(Document& document) {
         const bool replaces_cloud = options_.out && is_cloud(*options_.out);
+        refuse_to_replace_others();
         Outputs outputs;
         if (options_.add_outputs) options_.add_outputs(outputs);
         if (options_.out) {

@@ -113,6 +113,9 @@ struct HandleLine {
     bool free_rotation = false; // "rotation":"free"
     double falloff = 0;
     std::optional<std::uint32_t> color = {}; // 0xrrggbb, where the user chose one
+    // Where the user put its joint, which the window turns it about: on the rest shape, as a region is told,
+    // in the file's coordinates. Nothing: its middle.
+    std::optional<Vec3d> pivot = {};
 };
 struct DragLine {
     std::string handle;

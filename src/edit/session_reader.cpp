@@ -90,7 +90,7 @@ std::uint32_t read_color(const Value& value) {
 }
 
 HandleLine read_handle(const Value& line) {
-    allow_keys(line, {"op", "name", "role", "points", "region", "rotation", "falloff", "color"});
+    allow_keys(line, {"op", "name", "role", "points", "region", "rotation", "falloff", "color", "pivot"});
     constexpr std::array<std::pair<std::string_view, HandleRole>, 3> roles{
         {{"fixed", HandleRole::fixed},
          {"moving", HandleRole::moving},
@@ -118,6 +118,7 @@ HandleLine read_handle(const Value& line) {
             refuse(*falloff, "is for fixed and moving handles, not for \"roi\"");
     }
     if (const auto color = optional_member(line, "color")) handle.color = read_color(*color);
+    if (const auto pivot = optional_member(line, "pivot")) handle.pivot = vector(*pivot);
     return handle;
 }
 

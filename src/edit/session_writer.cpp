@@ -194,6 +194,7 @@ void append_line(std::string& text, const HandleLine& line) {
     if (line.free_rotation) key(text, "rotation") += "\"free\"";
     if (line.falloff != 0) append_number(key(text, "falloff"), line.falloff);
     if (line.color) append_color(key(text, "color"), *line.color);
+    if (line.pivot) append_vector(key(text, "pivot"), *line.pivot);
 }
 
 void append_line(std::string& text, const DragLine& line) {

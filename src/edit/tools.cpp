@@ -100,7 +100,7 @@ void press_left(const Hand& hand, const MousePress& press) {
     tools.button = press.button;
     tools.clicks = press.clicks;
     tools.moved = false;
-    if (tools.hovered)
+    if (tools.hovered && !press.held.shift)
         begin_drag(hand, GizmoPart(*tools.hovered), false);
     else
         begin_band(hand, press.held);

@@ -17,7 +17,8 @@
 //   polygon, K brush, [ ] (as Characters) its size, T through.
 // Handles. H makes a moving one, Shift+H a fixed one, Ctrl+H the region of interest. Where the pivot is moved
 //   (move_pivot), Esc ends that first.
-// Moving. A press on the gizmo drags its part until the release; G, R, S follow the hand until a click
+// Moving. A press on the gizmo drags its part until the release, but with Shift, by which a selection that
+//   begins there is added: a slow drag instead would hardly be seen. G, R, S follow the hand until a click
 //   or Enter. X, Y, Z constrain (press_axis() in view/transform_drag.h), Ctrl snaps, Shift slows, digits and
 //   . - arrive as Characters, Tab goes to the next length. Esc, Ctrl+Z or right click cancels; another of G,
 //   R, S goes on as that. R and S of what they would not change are refused, and all three without a gizmo;

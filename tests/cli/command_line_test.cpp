@@ -35,7 +35,7 @@ TEST(CommandLine, AnOptionWithNothingBehindItsEqualsSignTakesNoOther) {
 
 TEST(CommandLine, SaysThatNobodyCouldReadWhatItSaid) {
     const ScratchFolder folder;
-    for (const std::string asked : {"devices", "--help"}) {
+    for (const std::string asked : {"devices", "--help", "--version"}) {
         const std::string command =
             knead_binary().string() + ' ' + asked + " > /dev/full 2> " + (folder / "err").string();
         const int status = std::system(command.c_str()); // NOLINT(concurrency-mt-unsafe)

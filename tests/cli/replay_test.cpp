@@ -306,7 +306,19 @@ TEST_F(Replay, RecordsOverNoCloudAndNoShapeThatHasACheckSName) {
     EXPECT_EQ(read_text(folder / "s-check-1.ply"), cloud);
     EXPECT_EQ(replay({"--record-checks", "--out", "s-check-7.ply"}).code, 5);
     EXPECT_EQ(files(), (std::set<std::string>{"bar.ply", "s-check-1.ply", "s.knead"}));
+    std::filesystem::remove(folder / "s-check-1.ply");
     EXPECT_EQ(replay({"--record-checks", "--out", "s-check.ply"}).code, 0);
+}
+
+TEST_F(Replay, RecordsOverNoFileThatIsNoCheckOfTheSession) {
+    session(edit);
+    write_text(folder / "s-check-1.ply", "of another session of that name");
+    const std::string before = read_text(folder / "s.knead");
+    const Outcome refused = replay({"--record-checks"});
+    EXPECT_EQ(refused.code, 5);
+    EXPECT_NE(refused.err.find("s-check-1.ply: is there already"), std::string::npos) << refused.err;
+    EXPECT_EQ(read_text(folder / "s-check-1.ply"), "of another session of that name");
+    EXPECT_EQ(read_text(folder / "s.knead"), before);
 }
 
 TEST_F(Replay, RecordingWithOtherSettingsThanTheSessionHasSaysSo) {

@@ -86,6 +86,41 @@ TEST(Document, AnotherColorAloneKeepsThePlaceOfAHandleAndItsPose) {
     EXPECT_TRUE(desk.document().is_posed());
 }
 
+TEST(Document, APivotIsToldWhileAPoseStandsAndGoesAlongThroughACommit) {
+    const std::string lid = R"({"op":"handle","name":"top","role":"moving","points":[[90,99]])";
+    Desk desk(bar());
+    desk.play(R"({"op":"handle","name":"bottom","role":"fixed","points":[[0,9]]})"
+              "\n" +
+              lid + "}\n" + drag(R"({"translate":[0,0,0.5]})"));
+    const auto pivot = [&] { return desk.document().handles()[1].pivot; };
+    desk.play(lid + R"(,"pivot":[0.25,0,1]})" + "\n");
+    EXPECT_TRUE(desk.document().is_posed());
+    EXPECT_EQ(pivot(), Vec3d(0.25, 0, 1)) << "on the rest shape";
+    desk.play(R"({"op":"rename","handle":"top","to":"lid"})"
+              "\n"
+              R"({"op":"commit"})"
+              "\n");
+    ASSERT_TRUE(pivot());
+    EXPECT_LT((*pivot() - Vec3d(0.25, 0, 1.5)).norm(), 1e-12) << "that became another";
+    // Of every act, with places as they were: handles, a drag, the pivot, a name, a commit.
+    const auto moves = desk.document().pivot_moves();
+    ASSERT_EQ(moves.size(), 6U);
+    ASSERT_EQ(moves[3].size(), 1U);
+    EXPECT_EQ(moves[3][0].handle, "top");
+    EXPECT_FALSE(moves[3][0].before);
+    const Vec3d there = Vec3d(0.25, 0, 1.5) - desk.document().cloud().origin;
+    EXPECT_LT((*moves[3][0].after - there).norm(), 1e-12) << "where the pose had taken it";
+    EXPECT_EQ(moves[4].size(), 2U) << "from one name to the other";
+    EXPECT_TRUE(moves[5].empty()) << "a commit moves nothing";
+    desk.play("{\"op\":\"undo\"}\n");
+    EXPECT_EQ(pivot(), Vec3d(0.25, 0, 1));
+    desk.play("{\"op\":\"undo\"}\n{\"op\":\"undo\"}\n");
+    EXPECT_FALSE(pivot());
+    EXPECT_TRUE(desk.document().is_posed());
+    desk.play("{\"op\":\"redo\"}\n");
+    EXPECT_EQ(pivot(), Vec3d(0.25, 0, 1));
+}
+
 std::string region_of_interest(const std::string& name, double from, double to) {
     return R"({"op":"handle","name":")" + name + R"(","role":"roi","region":{"box":{"min":[-9,-9,)" +
            std::to_string(from) + R"(],"max":[9,9,)" + std::to_string(to) + "]}}}\n";

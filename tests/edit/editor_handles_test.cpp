@@ -218,7 +218,7 @@ TEST_F(BarEditor, AnAmountThatIsTypedForNoMovingHandleIsNotTakenForOtherKeys) {
     EXPECT_FALSE(handle_input(editor_, KeyPress{Key::tab, {}})) << "it goes to a handle that moves";
     editor_.notices.clear();
     apply(editor_, DropChoice{});
-    refused("Click a moving handle");
+    refused("No handle is chosen");
     press('G');
     move({401, 100});
     press('3');

@@ -83,6 +83,43 @@ TEST_F(BarEditor, PivotsAreThereWhenTheSessionIsOpenedAgain) {
     }
 }
 
+TEST_F(BarEditor, APivotIsSavedWithOrWithoutADragAndGoesBackAndForthWhenOpenedAgain) {
+    make_handles();
+    const glm::dvec3 joint(0.5, 0, 1.5), other(0.25, 0, 1);
+    apply(editor_, SetPivot{joint});
+    calm();
+    EXPECT_TRUE(has_unsaved_session(editor_));
+    turn_chosen("30"); // about it
+    apply(editor_, CommitPose{});
+    calm();
+    apply(editor_, SetPivot{other});
+    calm();
+    const std::filesystem::path kept = folder_ / "kept.knead";
+    save_session(editor_, kept, true);
+    calm();
+    Editor again{1};
+    again.viewport = {800, 800};
+    OpenRequest request;
+    request.file = kept;
+    request.device = "reference";
+    open(again, request);
+    ASSERT_TRUE(wait_until([&] { return refresh(again) && again.document; }));
+    const auto is_at = [&](const std::optional<glm::dvec3>& place) {
+        const auto now = pivot_of(again, "high");
+        return now.has_value() == place.has_value() && (!now || glm::distance(*now, *place) < 1e-6);
+    };
+    EXPECT_TRUE(is_at(other));
+    apply(again, UndoStep{});
+    EXPECT_TRUE(is_at(joint)) << "of the commit";
+    for (int step = 0; step < 2; ++step) apply(again, UndoStep{}); // that, and the turn
+    EXPECT_TRUE(is_at(joint)) << "at rest";
+    apply(again, UndoStep{});
+    EXPECT_TRUE(is_at({}));
+    for (int step = 0; step < 4; ++step) apply(again, RedoStep{});
+    EXPECT_TRUE(is_at(other));
+    wait_until_idle(*again.live);
+}
+
 TEST_F(BarEditor, AMirroredHandleHasItsPivotAcross) {
     make_handles();
     apply(editor_, ChooseHandle{"high"});
@@ -93,6 +130,7 @@ TEST_F(BarEditor, AMirroredHandleHasItsPivotAcross) {
     calm();
     const std::string made = editor_.document->handles.back().name;
     ASSERT_NE(made, "high");
+    ASSERT_TRUE(editor_.document->handles.back().pivot) << "and the session has it";
     const glm::dvec3 there = *pivot_of(editor_, "high"), across = pivot_of(editor_, made).value_or(there);
     EXPECT_NEAR(across.x, there.x, 0.05);
     EXPECT_NEAR(across.y, there.y, 0.05);

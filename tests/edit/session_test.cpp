@@ -122,6 +122,8 @@ TEST(Session, ReadsTheColorOfAHandle) {
     const std::string handle = R"({"op":"handle","name":"a","role":"roi","points":[1])";
     EXPECT_FALSE(line_of<HandleLine>(handle + "}").color.has_value());
     EXPECT_EQ(line_of<HandleLine>(handle + R"(,"color":"#0Faab1"})").color, 0x0faab1U);
+    EXPECT_FALSE(line_of<HandleLine>(handle + "}").pivot.has_value());
+    EXPECT_EQ(line_of<HandleLine>(handle + R"(,"pivot":[1,-2,0.5]})").pivot, Vec3d(1, -2, 0.5));
 }
 
 TEST(Session, ReadsEveryRegion) {

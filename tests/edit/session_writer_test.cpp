@@ -104,6 +104,7 @@ public:
         line.role =
             std::array{HandleRole::fixed, HandleRole::moving, HandleRole::region_of_interest}.at(below(3));
         if (coin()) line.color = static_cast<std::uint32_t>(below(0x1000000));
+        if (coin()) line.pivot = vector();
         if (line.role != HandleRole::region_of_interest) {
             line.free_rotation = coin();
             if (coin()) line.falloff = std::abs(number());
@@ -229,6 +230,10 @@ TEST(SessionWriter, IsCompact) {
     handle.color = 0x0faab1;
     EXPECT_EQ(to_text(handle), R"({"op":"handle","name":"feet","role":"fixed","points":[[0,411],987],)"
                                R"("color":"#0faab1"})");
+    handle.color.reset();
+    handle.pivot = Vec3d(1, 0, -0.5);
+    EXPECT_EQ(to_text(handle), R"({"op":"handle","name":"feet","role":"fixed","points":[[0,411],987],)"
+                               R"("pivot":[1,0,-0.5]})");
     EXPECT_EQ(to_text(CommitLine{}), R"({"op":"commit"})");
     EXPECT_EQ(
         header_text(session_of_a_cloud()),

@@ -114,6 +114,18 @@ TEST(MoveTools, NoOtherKeyIsTaken) {
     EXPECT_EQ(bench.all<CancelDrag>().size(), 1U);
 }
 
+TEST(MoveTools, AShiftThatIsHeldWhenItBeginsSelectsThroughTheGizmo) {
+    for (const bool adds : {false, true}) {
+        Bench bench;
+        bench.add_gizmo();
+        bench.move(middle);
+        ASSERT_TRUE(bench.tools.hovered);
+        bench.press(middle, adds ? shift : plain);
+        EXPECT_EQ(bench.all<BeginDrag>().size(), adds ? 0U : 1U);
+        EXPECT_EQ(bench.tools.doing == Doing::selecting, adds);
+    }
+}
+
 TEST(MoveTools, CtrlSnapsAndShiftSlows) {
     Bench bench;
     bench.add_gizmo();

@@ -36,7 +36,7 @@ TEST(Version1, StoredSessionsReplayToTheStoredShapes) {
             EXPECT_LT(report.handle_error, 1e-5);
             checks += report.checks.size();
         }
-    EXPECT_EQ(checks, 2U * 22);
+    EXPECT_EQ(checks, 2U * 24);
 }
 
 // What a set of sessions has in it, in words.
@@ -75,6 +75,7 @@ private:
         if (line.free_rotation) add("rotation free");
         if (line.falloff > 0) add("falloff");
         if (line.color) add("color");
+        if (line.pivot) add("pivot");
     }
     void note(const DragLine& line) {
         add("drag");
@@ -122,6 +123,7 @@ TEST(Version1, StoredSessionsHaveEverythingThatTheFormatHas) {
                                 "rotation free",
                                 "falloff",
                                 "color",
+                                "pivot",
                                 "drag",
                                 "translate",
                                 "rotate",

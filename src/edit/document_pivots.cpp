@@ -1,0 +1,103 @@
+#include "edit/document_pivots.h"
+
+#include "edit/handle_motion.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace knead {
+
+std::shared_ptr<const Pivots> with_pivot(const std::shared_ptr<const Pivots>& pivots,
+                                         const std::string& handle, const std::optional<Vec3d>& place) {
+    if (!place && (!pivots || !pivots->contains(handle))) return pivots;
+    Pivots others = pivots ? *pivots : Pivots();
+    if (place)
+        others[handle] = *place;
+    else
+        others.erase(handle);
+    return others.empty() ? nullptr : std::make_shared<const Pivots>(std::move(others));
+}
+
+namespace {
+
+// Calls take(name, place) with where they are now, relative to the cloud's origin.
+template<typename Take>
+void for_places(const Pivots& pivots, std::span<const Handle> handles, std::span<const HandleMotion> motions,
+                const Vec3d& origin, Take&& take) {
+    for (std::size_t h = 0; h < handles.size(); ++h)
+        if (const auto found = pivots.find(handles[h].name); found != pivots.end())
+            take(found->first, motions[h].linear * (found->second - origin) + motions[h].offset);
+}
+
+} // namespace
+
+std::shared_ptr<const Pivots> carried(const std::shared_ptr<const Pivots>& pivots,
+                                      std::span<const Handle> handles, std::span<const HandleMotion> motions,
+                                      const Vec3d& origin) {
+    if (!pivots) return nullptr;
+    Pivots moved;
+    for_places(*pivots, handles, motions, origin,
+               [&](const std::string& name, const Vec3d& place) { moved[name] = place + origin; });
+    return std::make_shared<const Pivots>(std::move(moved));
+}
+
+// The handles of the present list have theirs as a state has them.
+void Document::show_pivots(const State& before, const State& now) noexcept {
+    if (!before.pivots && !now.pivots) return; // of handles, of which there may be thousands, none has one
+    for (Handle& handle : handles_) {
+        handle.pivot.reset();
+        if (!now.pivots) continue;
+        const auto found = now.pivots->find(handle.name);
+        if (found != now.pivots->end()) handle.pivot = found->second;
+    }
+}
+
+std::vector<std::vector<Document::PivotMove>> Document::pivot_moves() const {
+    std::vector<std::vector<PivotMove>> moves(history_.size() - 1);
+    std::vector<Handle> handles = handles_of(0);
+    std::vector<HandleMotion> motions(handles.size());
+    Pivots before;
+    for (std::size_t at = 1; at < history_.size(); ++at) {
+        const State& state = history_[at];
+        if (state.change) apply(*state.change, handles);
+        if (!state.posed)
+            motions.assign(handles.size(), HandleMotion{});
+        else if (state.posed->handle != no_index)
+            motions[state.posed->handle] = state.posed->motion;
+        Pivots after;
+        if (state.pivots)
+            for_places(*state.pivots, handles, motions, cloud_.origin,
+                       [&](const std::string& name, const Vec3d& place) { after[name] = place; });
+        for (const auto& [name, place] : before)
+            if (!after.contains(name)) moves[at - 1].push_back({name, place, std::nullopt});
+        for (const auto& [name, place] : after) {
+            const auto old = before.find(name);
+            if (old == before.end())
+                moves[at - 1].push_back({name, std::nullopt, place});
+            else if (old->second != place)
+                moves[at - 1].push_back({name, old->second, place});
+        }
+        before = std::move(after);
+    }
+    return moves;
+}
+
+Pivots Document::last_pivots() const {
+    const auto is_told = [&](const std::string& handle) {
+        return std::ranges::any_of(
+            history_, [&](const State& state) { return state.pivots && state.pivots->contains(handle); });
+    };
+    Pivots pivots;
+    for (std::size_t at = at_; at > 0; --at) {
+        const std::shared_ptr<Posed>& posed = history_[at].posed;
+        if (!posed || posed == history_[at - 1].posed) continue;
+        const auto* drag = std::get_if<DragLine>(&posed->act);
+        if (!drag || pivots.contains(drag->handle) || is_told(drag->handle)) continue;
+        const HandleMotion before = motions_of(posed->made_from)[posed->handle];
+        const Vec3d at_rest = point_at_rest(before, drag->pivot - cloud_.origin);
+        pivots[drag->handle] = posed->motion.linear * at_rest + posed->motion.offset;
+    }
+    return pivots;
+}
+
+} // namespace knead

@@ -9,6 +9,7 @@
 #include "base/quoted.h"
 #include "base/whole_file.h"
 #include "io/cloud_file.h"
+#include "io/format.h"
 
 #include <imgui_stdlib.h>
 
@@ -70,15 +71,17 @@ bool has_line_of_columns(const Ui& ui) {
     return ui.state.browser.purpose == BrowseFor::save_cloud && is_narrow(ui);
 }
 
-// Of what is below the list: a caption, or what is wrong in as many lines as it takes, the name, and the
-// buttons.
+// Of what is below the list: a caption, or what is wrong in as many lines as it takes, the name, the format
+// of a cloud, and the buttons.
 float bottom_height(const Ui& ui) {
     const std::string& trouble = ui.state.browser.trouble;
     const float width = ImGui::GetWindowWidth() - 2 * ImGui::GetStyle().WindowPadding.x;
     const float lines = trouble.empty() ? 0
                                         : ImGui::CalcTextSize(trouble.c_str(), nullptr, false, width).y -
                                               ImGui::GetTextLineHeight();
-    return ui.scaled(92) + lines + (has_line_of_columns(ui) ? ImGui::GetFrameHeightWithSpacing() : 0);
+    const float row = ImGui::GetFrameHeightWithSpacing();
+    const float format = ui.state.browser.purpose == BrowseFor::save_cloud ? row : 0;
+    return ui.scaled(92) + lines + format + (has_line_of_columns(ui) ? row : 0);
 }
 
 // Whether a file can be saved there; if not, `trouble` says why, and the name stays to be mended.
@@ -324,6 +327,34 @@ void keys(FileBrowser& browser) {
         go_to(browser, browser.folder.parent_path());
 }
 
+// ".txt, .asc: numbers in columns"
+std::string words_of(const Format& format) {
+    std::string words;
+    for (const std::string_view extension : format.extensions)
+        words.append(words.empty() ? "" : ", ").append(extension);
+    return words.append(": ").append(format.words);
+}
+
+// The formats that a cloud can be exported in; the name's extension says which, and becomes what is chosen.
+void format_choice(const Ui& ui) {
+    FileBrowser& browser = ui.state.browser;
+    const Format* const meant = meant_format(browser);
+    inline_caption("Format", ImGui::GetStyle().WindowPadding.x + ui.scaled(62));
+    ImGui::SetNextItemWidth(ui.scaled(340));
+    const std::string shown = meant ? words_of(*meant) : "None that knead writes: choose one";
+    if (ImGui::BeginCombo("##format", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
+        for (const Format& format : known_formats())
+            if (ImGui::Selectable(words_of(format).c_str(), &format == meant) && &format != meant)
+                take_format(browser, format);
+        // Nothing else closes it over a dialog.
+        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
+        ImGui::EndCombo();
+    }
+    explain(
+        "What the name ends in says which it is. A cloud keeps everything of its file in the format that it "
+        "was opened in; in another one what that has a place for, and what is lost is told");
+}
+
 // What an exported cloud gets beside its own attributes.
 void column_choice(FileBrowser& browser) {
     ImGui::SameLine();
@@ -336,15 +367,8 @@ void column_choice(FileBrowser& browser) {
             "the cloud was opened; 1 is unstretched");
 }
 
-void bottom_row(const Ui& ui) {
-    FileBrowser& browser = ui.state.browser;
-    if (browser.trouble.empty())
-        caption(reads_file(browser.purpose) ? "A name in this folder, or a path" : "File name, or a path");
-    else {
-        ImGui::PushStyleColor(ImGuiCol_Text, palette::error);
-        wrapped_text(browser.trouble);
-        ImGui::PopStyleColor();
-    }
+// Whether Enter was pressed in it.
+bool name_field(FileBrowser& browser) {
     // The field keeps its own copy while it is active; typing another name from outside needs it to let go.
     ImGui::PushID(browser.name_version);
     if (browser.name_changed_outside) {
@@ -360,6 +384,20 @@ void bottom_row(const Ui& ui) {
     const bool entered = ImGui::InputText("##path", &browser.typed, ImGuiInputTextFlags_EnterReturnsTrue);
     if (ImGui::IsItemEdited()) name_typed(browser);
     ImGui::PopID();
+    return entered;
+}
+
+void bottom_row(const Ui& ui, bool hears_keys) {
+    FileBrowser& browser = ui.state.browser;
+    if (browser.trouble.empty())
+        caption(reads_file(browser.purpose) ? "A name in this folder, or a path" : "File name, or a path");
+    else {
+        ImGui::PushStyleColor(ImGuiCol_Text, palette::error);
+        wrapped_text(browser.trouble);
+        ImGui::PopStyleColor();
+    }
+    const bool entered = name_field(browser);
+    if (browser.purpose == BrowseFor::save_cloud) format_choice(ui);
     if (ImGui::Checkbox(has_line_of_columns(ui) ? "All" : "All files", &browser.every_file))
         read_folder(browser);
     explain("Also shows files that are neither clouds (" + known_extensions() + ") nor sessions (.knead)");
@@ -376,12 +414,14 @@ void bottom_row(const Ui& ui) {
     const bool confirmed = main_button(verb_of(browser.purpose), {width, 0});
     ImGui::EndDisabled();
     // The lit button is Enter's, whatever was clicked before.
-    const bool pressed = !entered && !ImGui::IsAnyItemActive() &&
+    const bool pressed = hears_keys && !entered && !ImGui::IsAnyItemActive() &&
                          (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
                           ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false));
     if (confirmed || entered || pressed) choose(ui);
-    // Whatever was clicked, what is typed next is the name.
-    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive()) browser.focus_name = true;
+    // Whatever was clicked, what is typed next is the name; but taking the focus would close what dropped
+    // down.
+    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive() && popup_has_keys())
+        browser.focus_name = true;
 }
 
 } // namespace
@@ -409,15 +449,16 @@ void draw_file_browser(const Ui& ui) {
     ImGui::PushFont(ui.state.fonts.title);
     ImGui::TextUnformatted(title_of(browser.purpose));
     ImGui::PopFont();
+    const bool hears_keys = popup_has_keys(); // and nothing that has dropped down
     path_row(ui);
-    keys(browser);
+    if (hears_keys) keys(browser);
     if (!is_narrow(ui)) {
         places(ui);
         ImGui::SameLine();
     }
     entry_table(ui);
-    bottom_row(ui);
-    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
+    bottom_row(ui, hears_keys);
+    if (hears_keys && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }
 

@@ -11,6 +11,8 @@
 
 namespace knead {
 
+struct Format; // io/format.h
+
 enum class BrowseFor { open, save_session, save_cloud, take_handles, cloud_of_session };
 // Whether the file has to be there already.
 constexpr bool reads_file(BrowseFor purpose) {
@@ -30,13 +32,14 @@ struct FileBrowser {
     bool open_now = false; // is to come up in the next frame
     bool is_open = false;
     std::filesystem::path folder;
-    std::vector<FolderEntry> entries; // folders first, by name
-    std::string trouble;              // why the folder could not be read; empty: it was
-    std::string typed;                // the name, or a path
-    std::string filter;               // what was typed of a name that is looked for; empty: all is shown
-    SaveColumns columns;              // of an exported cloud
-    bool every_file = false;          // also those that are neither cloud nor session
-    int chosen = -1;                  // among the entries
+    std::vector<FolderEntry> entries;     // folders first, by name
+    std::string trouble;                  // why the folder could not be read; empty: it was
+    std::string typed;                    // the name, or a path
+    std::string filter;                   // what was typed of a name that is looked for; empty: all is shown
+    SaveColumns columns;                  // of an exported cloud
+    std::string usual_extension = ".ply"; // of an exported cloud whose name has none
+    bool every_file = false;              // also those that are neither cloud nor session
+    int chosen = -1;                      // among the entries
     bool scroll_to_chosen = false;
     bool focus_name = false;
     bool enter_chosen = false;         // a double click
@@ -65,5 +68,13 @@ std::filesystem::path typed_path(const FileBrowser& browser);
 
 // The same; and where there is no such file and the filter leaves one entry, that one.
 std::filesystem::path chosen_path(const FileBrowser& browser);
+
+// The format in which a cloud of the typed name is exported; while that is no name of a file, the one that a
+// name with no extension would mean. Null where the extension is of none that knead writes.
+const Format* meant_format(const FileBrowser& browser);
+
+// Gives the typed name the format's extension instead of its own, and so names with none that are typed
+// later.
+void take_format(FileBrowser& browser, const Format& format);
 
 } // namespace knead

@@ -4,6 +4,7 @@
 
 #include "base/lower_case.h"
 #include "io/cloud_file.h"
+#include "io/format.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -28,6 +29,18 @@ bool by_name(const FolderEntry& a, const FolderEntry& b) {
     if (a.is_folder != b.is_folder) return a.is_folder;
     const std::string first = lower_case(a.name), second = lower_case(b.name);
     return first != second ? first < second : a.name < b.name;
+}
+
+// What follows a dot is a number in "walk 1.2", and no extension.
+bool lacks_extension(const std::filesystem::path& file) {
+    return file.extension().string().find_first_not_of(".0123456789") == std::string::npos;
+}
+
+// Whether what is typed names a file, be it there or not.
+bool names_file(const FileBrowser& browser) {
+    std::error_code ignored;
+    return std::filesystem::path(browser.typed).has_filename() &&
+           !std::filesystem::is_directory(typed_path(browser), ignored);
 }
 
 } // namespace
@@ -111,10 +124,9 @@ std::filesystem::path typed_path(const FileBrowser& browser) {
     if (typed.is_relative()) typed = browser.folder / typed;
     std::error_code ignored;
     if (!std::filesystem::is_directory(typed, ignored)) {
-        const std::string extension = typed.extension().string();
-        const bool is_number = extension.find_first_not_of(".0123456789") == std::string::npos; // or none
-        if (browser.purpose == BrowseFor::save_session && extension != ".knead") typed += ".knead";
-        if (browser.purpose == BrowseFor::save_cloud && is_number) typed += ".ply";
+        if (browser.purpose == BrowseFor::save_session && typed.extension() != ".knead") typed += ".knead";
+        if (browser.purpose == BrowseFor::save_cloud && lacks_extension(typed))
+            typed += browser.usual_extension;
     }
     return typed.lexically_normal();
 }
@@ -126,6 +138,21 @@ std::filesystem::path chosen_path(const FileBrowser& browser) {
     const std::vector<int> shown = shown_entries(browser);
     if (shown.size() != 1) return typed;
     return browser.folder / browser.entries[static_cast<std::size_t>(shown.front())].name;
+}
+
+const Format* meant_format(const FileBrowser& browser) {
+    return format_with_extension(
+        names_file(browser) ? typed_path(browser) : std::filesystem::path("cloud" + browser.usual_extension));
+}
+
+void take_format(FileBrowser& browser, const Format& format) {
+    browser.usual_extension = format.extensions.front();
+    if (!names_file(browser)) return;
+    std::filesystem::path named(browser.typed);
+    if (!lacks_extension(named)) named.replace_extension();
+    named += browser.usual_extension;
+    browser.typed = named.string();
+    browser.name_changed_outside = true;
 }
 
 } // namespace knead

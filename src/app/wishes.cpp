@@ -170,8 +170,10 @@ void fulfil(Work& work, const WishBrowse& wish) {
         add_toast(work.state, {Notice::Kind::warning,
                                "This is an earlier step: the cloud is saved as it was then, without what was "
                                "done later."});
-    if (wish.purpose == BrowseFor::save_cloud)
+    if (wish.purpose == BrowseFor::save_cloud) {
         propose(browser, work.state.last_export, beside, name_of_export(opened));
+        browser.usual_extension = std::filesystem::path(browser.typed).extension().string();
+    }
 }
 
 void save(Work& work, const WishSaveTo& wish) {

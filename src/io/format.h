@@ -17,7 +17,8 @@ namespace knead {
 struct Format {
     std::string_view name; // as file_kind() tells it, "ply"
     std::span<const std::string_view>
-        extensions; // in lower case with the dot; the first one is the usual one
+        extensions;         // in lower case with the dot; the first one is the usual one
+    std::string_view words; // what it holds or who reads it, to be chosen by: "any attributes"
 
     // Whether a file that begins with these bytes (up to `first_bytes_size`, fewer only where the file is
     // shorter) is of this format, good or bad. A format that can only be told by its extension says no.

@@ -41,16 +41,20 @@ std::vector<std::string> write_table_as(FileInTheMaking& file, const PointCloud&
 }
 
 constexpr std::array<Format, 9> formats = {{
-    {"ply", ply_extensions, looks_like_ply, read_ply, write_ply},
-    {"las", las_extensions, looks_like_las, read_las, write_las},
-    {"pcd", pcd_extensions, looks_like_pcd, read_pcd, write_pcd},
-    {"obj", obj_extensions, looks_like_obj, read_obj, write_obj},
-    {"off", off_extensions, looks_like_off, read_off, write_off, looks_like_bare_off},
+    {"ply", ply_extensions, "any attributes", looks_like_ply, read_ply, write_ply},
+    {"las", las_extensions, "for surveying programs", looks_like_las, read_las, write_las},
+    {"pcd", pcd_extensions, "for the Point Cloud Library", looks_like_pcd, read_pcd, write_pcd},
+    {"obj", obj_extensions, "normals and colours", looks_like_obj, read_obj, write_obj},
+    {"off", off_extensions, "normals and colours", looks_like_off, read_off, write_off, looks_like_bare_off},
     // Behind all others, since any row of numbers is a table.
-    {"txt", txt_extensions, looks_like_table, read_table, write_table_as<TableKind::txt>},
-    {"xyz", xyz_extensions, looks_like_none, read_table, write_table_as<TableKind::xyz>},
-    {"csv", csv_extensions, looks_like_none, read_table, write_table_as<TableKind::csv>},
-    {"pts", pts_extensions, looks_like_none, read_table, write_table_as<TableKind::pts>},
+    {"txt", txt_extensions, "numbers in columns", looks_like_table, read_table,
+     write_table_as<TableKind::txt>},
+    {"xyz", xyz_extensions, "numbers in columns", looks_like_none, read_table,
+     write_table_as<TableKind::xyz>},
+    {"csv", csv_extensions, "numbers between commas, for spreadsheets", looks_like_none, read_table,
+     write_table_as<TableKind::csv>},
+    {"pts", pts_extensions, "intensity and colours alone", looks_like_none, read_table,
+     write_table_as<TableKind::pts>},
 }};
 
 } // namespace

@@ -1,6 +1,7 @@
 // What the file browser shows of a folder, and which file is meant.
 
 #include "app/file_browser.h"
+#include "io/format.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
@@ -84,6 +85,52 @@ TEST_F(Browsing, MeansTheOnlyOneThatIsLeft) {
     type("");
     browser_.typed = "drag"; // by other means
     EXPECT_EQ(chosen_path(browser_).filename(), "drag") << "nothing was looked for";
+}
+
+TEST_F(Browsing, KnowsTheFormatThatANameMeans) {
+    browser_.purpose = BrowseFor::save_cloud;
+    const auto meant = [&](const char* typed) {
+        type(typed);
+        const Format* format = meant_format(browser_);
+        return format ? format->name : "none";
+    };
+    EXPECT_EQ(meant("bunny.las"), "las");
+    EXPECT_EQ(meant("Bunny.LAS"), "las");
+    EXPECT_EQ(meant("bunny.asc"), "txt");
+    EXPECT_EQ(meant("bunny v1.2"), "ply");
+    EXPECT_EQ(meant("bunny.stl"), "none");
+    EXPECT_EQ(meant(""), "ply") << "what a name would mean";
+    EXPECT_EQ(meant("old bunnies"), "ply");
+}
+
+TEST_F(Browsing, GivesANameTheExtensionOfTheChosenFormat) {
+    browser_.purpose = BrowseFor::save_cloud;
+    const auto renamed = [&](const std::string& typed, const char* extension) {
+        browser_.name_changed_outside = false;
+        type(typed);
+        take_format(browser_, *format_with_extension(std::string("a") + extension));
+        return browser_.typed;
+    };
+    EXPECT_EQ(renamed("bunny.ply", ".las"), "bunny.las");
+    EXPECT_TRUE(browser_.name_changed_outside);
+    EXPECT_EQ(renamed("~/scans/bunny.PLY", ".xyz"), "~/scans/bunny.xyz");
+    EXPECT_EQ(renamed("bunny v1.2", ".pcd"), "bunny v1.2.pcd");
+    EXPECT_EQ(renamed("bunny", ".txt"), "bunny.txt");
+    EXPECT_EQ(renamed("bunny.stl", ".obj"), "bunny.obj");
+    type("dragon 2"); // with none, after a choice
+    EXPECT_EQ(chosen_path(browser_).filename(), "dragon 2.obj");
+}
+
+TEST_F(Browsing, LeavesAFolderItsNameWhateverTheFormat) {
+    browser_.purpose = BrowseFor::save_cloud;
+    browser_.name_changed_outside = false;
+    for (const char* typed : {"", "old bunnies", "somewhere/"}) {
+        type(typed);
+        take_format(browser_, *format_with_extension("a.las"));
+        EXPECT_EQ(browser_.typed, typed);
+        EXPECT_FALSE(browser_.name_changed_outside) << typed;
+    }
+    EXPECT_EQ(meant_format(browser_)->name, "las");
 }
 
 } // namespace

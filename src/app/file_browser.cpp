@@ -5,6 +5,7 @@
 
 #include "app/ui.h"
 #include "app/widgets.h"
+#include "base/counts.h"
 #include "base/error.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"
@@ -71,8 +72,13 @@ bool has_line_of_columns(const Ui& ui) {
     return ui.state.browser.purpose == BrowseFor::save_cloud && is_narrow(ui);
 }
 
+// Whether it is to be said of points that are not seen that they are written all the same.
+bool tells_of_hidden(const Ui& ui) {
+    return ui.state.browser.purpose == BrowseFor::save_cloud && ui.editor.hidden > 0;
+}
+
 // Of what is below the list: a caption, or what is wrong in as many lines as it takes, the name, the format
-// of a cloud, and the buttons.
+// of a cloud and what is hidden of it, and the buttons.
 float bottom_height(const Ui& ui) {
     const std::string& trouble = ui.state.browser.trouble;
     const float width = ImGui::GetWindowWidth() - 2 * ImGui::GetStyle().WindowPadding.x;
@@ -81,7 +87,8 @@ float bottom_height(const Ui& ui) {
                                               ImGui::GetTextLineHeight();
     const float row = ImGui::GetFrameHeightWithSpacing();
     const float format = ui.state.browser.purpose == BrowseFor::save_cloud ? row : 0;
-    return ui.scaled(92) + lines + format + (has_line_of_columns(ui) ? row : 0);
+    const float hidden = tells_of_hidden(ui) && is_narrow(ui) ? ImGui::GetTextLineHeightWithSpacing() : 0;
+    return ui.scaled(92) + lines + format + hidden + (has_line_of_columns(ui) ? row : 0);
 }
 
 // Whether a file can be saved there; if not, `trouble` says why, and the name stays to be mended.
@@ -340,7 +347,7 @@ void format_choice(const Ui& ui) {
     FileBrowser& browser = ui.state.browser;
     const Format* const meant = meant_format(browser);
     inline_caption("Format", ImGui::GetStyle().WindowPadding.x + ui.scaled(62));
-    ImGui::SetNextItemWidth(ui.scaled(340));
+    ImGui::SetNextItemWidth(ui.scaled(290));
     const std::string shown = meant ? words_of(*meant) : "None that knead writes: choose one";
     if (ImGui::BeginCombo("##format", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
         for (const Format& format : known_formats())
@@ -353,6 +360,20 @@ void format_choice(const Ui& ui) {
     explain(
         "What the name ends in says which it is. A cloud keeps everything of its file in the format that it "
         "was opened in; in another one what that has a place for, and what is lost is told");
+}
+
+// Beside the format, or below it where there is no room.
+void hidden_points(const Ui& ui) {
+    if (!tells_of_hidden(ui)) return;
+    if (!is_narrow(ui)) {
+        ImGui::SameLine(0, ui.scaled(16));
+        ImGui::AlignTextToFramePadding();
+    }
+    const std::size_t count = ui.editor.hidden;
+    ImGui::TextUnformatted(
+        (grouped(count) + (count == 1 ? " hidden point is written, too" : " hidden points are written, too"))
+            .c_str());
+    explain("Hiding is for looking and choosing: the file keeps all of its points, in their order");
 }
 
 // What an exported cloud gets beside its own attributes.
@@ -398,6 +419,7 @@ void bottom_row(const Ui& ui, bool hears_keys) {
     }
     const bool entered = name_field(browser);
     if (browser.purpose == BrowseFor::save_cloud) format_choice(ui);
+    hidden_points(ui);
     if (ImGui::Checkbox(has_line_of_columns(ui) ? "All" : "All files", &browser.every_file))
         read_folder(browser);
     explain("Also shows files that are neither clouds (" + known_extensions() + ") nor sessions (.knead)");

@@ -51,7 +51,7 @@ constexpr std::array<Format, 9> formats = {{
      write_table_as<TableKind::txt>},
     {"xyz", xyz_extensions, "numbers in columns", looks_like_none, read_table,
      write_table_as<TableKind::xyz>},
-    {"csv", csv_extensions, "numbers between commas, for spreadsheets", looks_like_none, read_table,
+    {"csv", csv_extensions, "numbers between commas", looks_like_none, read_table,
      write_table_as<TableKind::csv>},
     {"pts", pts_extensions, "intensity and colours alone", looks_like_none, read_table,
      write_table_as<TableKind::pts>},

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <utility>
 
 namespace knead {
 
@@ -77,8 +78,8 @@ bool tells_of_hidden(const Ui& ui) {
     return ui.state.browser.purpose == BrowseFor::save_cloud && ui.editor.hidden > 0;
 }
 
-// Of what is below the list: a caption, or what is wrong in as many lines as it takes, the name, the format
-// of a cloud and what is hidden of it, and the buttons.
+// Of what is below the list: a caption, or what is wrong in as many lines as it takes and what helps, the
+// name, the format of a cloud and what is hidden of it, and the buttons.
 float bottom_height(const Ui& ui) {
     const std::string& trouble = ui.state.browser.trouble;
     const float width = ImGui::GetWindowWidth() - 2 * ImGui::GetStyle().WindowPadding.x;
@@ -88,7 +89,8 @@ float bottom_height(const Ui& ui) {
     const float row = ImGui::GetFrameHeightWithSpacing();
     const float format = ui.state.browser.purpose == BrowseFor::save_cloud ? row : 0;
     const float hidden = tells_of_hidden(ui) && is_narrow(ui) ? ImGui::GetTextLineHeightWithSpacing() : 0;
-    return ui.scaled(92) + lines + format + hidden + (has_line_of_columns(ui) ? row : 0);
+    const float help = ui.state.browser.missing_folder.empty() ? 0 : row;
+    return ui.scaled(92) + lines + help + format + hidden + (has_line_of_columns(ui) ? row : 0);
 }
 
 // Whether a file can be saved there; if not, `trouble` says why, and the name stays to be mended.
@@ -107,7 +109,11 @@ bool can_save(FileBrowser& browser, const std::filesystem::path& file) {
             const FileInTheMaking probe(file);
         return true;
     } catch (const Error& error) {
+        std::error_code ignored;
         browser.trouble = error.what();
+        if (std::filesystem::status(file.parent_path(), ignored).type() ==
+            std::filesystem::file_type::not_found)
+            browser.missing_folder = file.parent_path();
         browser.focus_name = true;
         return false;
     }
@@ -116,6 +122,8 @@ bool can_save(FileBrowser& browser, const std::filesystem::path& file) {
 void choose(const Ui& ui) {
     FileBrowser& browser = ui.state.browser;
     if (browser.typed.empty()) return;
+    browser.trouble.clear();
+    browser.missing_folder.clear();
     const std::filesystem::path file = chosen_path(browser);
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) {
@@ -151,6 +159,44 @@ void choose_entry(const Ui& ui, const FolderEntry& entry) {
     }
 }
 
+// At the end of the path: a button, or the field for a name that it becomes.
+float width_of_new_folder(const Ui& ui) {
+    return ui.scaled(ui.state.browser.new_folder.asked_for ? 230 : 110);
+}
+
+void new_folder(const Ui& ui) {
+    const float width = width_of_new_folder(ui);
+    NewFolder& folder = ui.state.browser.new_folder;
+    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x - width);
+    if (!folder.asked_for) {
+        if (ImGui::Button("New folder", {width, 0})) folder = {.asked_for = true, .focus = true};
+        explain("Makes a folder in this one, and goes there");
+        return;
+    }
+    if (std::exchange(folder.focus, false)) ImGui::SetKeyboardFocusHere();
+    ImGui::SetNextItemWidth(width);
+    folder.entered = ImGui::InputTextWithHint("##new", "Name of the new folder", &folder.name,
+                                              ImGuiInputTextFlags_EnterReturnsTrue);
+    folder.left = ImGui::IsItemDeactivated();
+}
+
+// What becomes of a name that is asked for: Enter makes the folder, and a name that cannot be made stays to
+// be mended; Esc, or going elsewhere, gives it up. At the end of the frame, for the keys are nobody else's in
+// it.
+void end_naming(FileBrowser& browser) {
+    NewFolder& folder = browser.new_folder;
+    const bool escaped = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    if (folder.entered && !folder.name.empty()) {
+        if (make_folder(browser, folder.name))
+            folder = {};
+        else
+            folder.focus = true;
+    } else if (folder.entered || folder.left || escaped) {
+        if (folder.entered || escaped) browser.focus_name = true; // else the hand has it elsewhere already
+        folder = {};
+    }
+}
+
 // The folders on the way here, each a button.
 void path_row(const Ui& ui) {
     FileBrowser& browser = ui.state.browser;
@@ -167,7 +213,9 @@ void path_row(const Ui& ui) {
         return at.has_filename() ? at.filename().string() : std::string("/");
     };
     // Where they do not all fit, the ones nearest to the root are left out.
+    const bool makes_folders = !reads_file(browser.purpose);
     float room = ImGui::GetContentRegionAvail().x - side - ui.scaled(8);
+    if (makes_folders) room -= width_of_new_folder(ui) + ui.scaled(8);
     std::size_t first = way.size();
     while (first > 0) {
         room -= ImGui::CalcTextSize(name_of(way[first - 1]).c_str()).x + ui.scaled(26);
@@ -183,6 +231,7 @@ void path_row(const Ui& ui) {
         ImGui::PopID();
     }
     ImGui::PopStyleColor();
+    if (makes_folders) new_folder(ui);
     if (!go.empty()) go_to(browser, go);
 }
 
@@ -408,15 +457,23 @@ bool name_field(FileBrowser& browser) {
     return entered;
 }
 
+// What is wrong, and what helps; or what the name is for.
+void words_about_name(FileBrowser& browser) {
+    if (browser.trouble.empty())
+        return caption(reads_file(browser.purpose) ? "A name in this folder, or a path"
+                                                   : "File name, or a path");
+    ImGui::PushStyleColor(ImGuiCol_Text, palette::error);
+    wrapped_text(browser.trouble);
+    ImGui::PopStyleColor();
+    if (browser.missing_folder.empty()) return;
+    const std::string folder = browser.missing_folder.string();
+    if (ImGui::Button("Make that folder")) make_missing_folder(browser);
+    explain(folder);
+}
+
 void bottom_row(const Ui& ui, bool hears_keys) {
     FileBrowser& browser = ui.state.browser;
-    if (browser.trouble.empty())
-        caption(reads_file(browser.purpose) ? "A name in this folder, or a path" : "File name, or a path");
-    else {
-        ImGui::PushStyleColor(ImGuiCol_Text, palette::error);
-        wrapped_text(browser.trouble);
-        ImGui::PopStyleColor();
-    }
+    words_about_name(browser);
     const bool entered = name_field(browser);
     if (browser.purpose == BrowseFor::save_cloud) format_choice(ui);
     hidden_points(ui);
@@ -440,9 +497,10 @@ void bottom_row(const Ui& ui, bool hears_keys) {
                          (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
                           ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false));
     if (confirmed || entered || pressed) choose(ui);
-    // Whatever was clicked, what is typed next is the name; but taking the focus would close what dropped
-    // down.
-    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive() && popup_has_keys())
+    // Whatever was clicked, what is typed next is the name, unless another one is asked for; but taking the
+    // focus would close what dropped down.
+    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive() && popup_has_keys() &&
+        !browser.new_folder.asked_for)
         browser.focus_name = true;
 }
 
@@ -453,6 +511,7 @@ void draw_file_browser(const Ui& ui) {
     if (browser.open_now) {
         browser.open_now = false;
         browser.filter.clear();
+        browser.new_folder = {};
         browser.name_changed_outside = true; // selects it whole, so that typing replaces it
         ImGui::OpenPopup("browser");
         read_folder(browser);
@@ -471,7 +530,8 @@ void draw_file_browser(const Ui& ui) {
     ImGui::PushFont(ui.state.fonts.title);
     ImGui::TextUnformatted(title_of(browser.purpose));
     ImGui::PopFont();
-    const bool hears_keys = popup_has_keys(); // and nothing that has dropped down
+    const bool names_folder = browser.new_folder.asked_for;
+    const bool hears_keys = popup_has_keys() && !names_folder; // and nothing that has dropped down
     path_row(ui);
     if (hears_keys) keys(browser);
     if (!is_narrow(ui)) {
@@ -480,6 +540,7 @@ void draw_file_browser(const Ui& ui) {
     }
     entry_table(ui);
     bottom_row(ui, hears_keys);
+    if (names_folder) end_naming(browser);
     if (hears_keys && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
 }

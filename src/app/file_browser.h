@@ -27,6 +27,15 @@ struct FolderEntry {
     std::filesystem::file_time_type changed;
 };
 
+// A folder that the hand is about to make, and names where the button was.
+struct NewFolder {
+    bool asked_for = false;
+    bool focus = false;   // the field is to have it in the next frame
+    bool entered = false; // by Enter, in this frame
+    bool left = false;    // the field was, in this frame
+    std::string name = {};
+};
+
 struct FileBrowser {
     BrowseFor purpose = BrowseFor::open;
     bool open_now = false; // is to come up in the next frame
@@ -34,6 +43,8 @@ struct FileBrowser {
     std::filesystem::path folder;
     std::vector<FolderEntry> entries;     // folders first, by name
     std::string trouble;                  // why the folder could not be read; empty: it was
+    std::filesystem::path missing_folder; // that the trouble is about, and that can be made; empty: none
+    NewFolder new_folder;
     std::string typed;                    // the name, or a path
     std::string filter;                   // what was typed of a name that is looked for; empty: all is shown
     SaveColumns columns;                  // of an exported cloud
@@ -61,6 +72,14 @@ std::vector<int> shown_entries(const FileBrowser& browser);
 
 // Goes to a folder, or to the folder of a file.
 void go_to(FileBrowser& browser, const std::filesystem::path& place);
+
+// Makes a folder of this name in the one that is shown, and goes there. Returns whether it could; if not,
+// `trouble` says why.
+bool make_folder(FileBrowser& browser, const std::string& name);
+
+// Makes the missing folder, and those above it that are missing, too. `trouble` says why where that cannot
+// be.
+void make_missing_folder(FileBrowser& browser);
 
 // The path that `typed` means: absolute, under ~, or in the folder; with the purpose's extension where it has
 // none and is to be written.

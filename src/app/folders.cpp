@@ -3,6 +3,7 @@
 #include "app/file_browser.h"
 
 #include "base/lower_case.h"
+#include "base/quoted.h"
 #include "io/cloud_file.h"
 #include "io/format.h"
 
@@ -48,6 +49,7 @@ bool names_file(const FileBrowser& browser) {
 void read_folder(FileBrowser& browser) {
     browser.entries.clear();
     browser.trouble.clear();
+    browser.missing_folder.clear();
     browser.chosen = -1;
     std::error_code trouble;
     if (browser.folder.empty()) browser.folder = std::filesystem::current_path(trouble);
@@ -114,6 +116,29 @@ void go_to(FileBrowser& browser, const std::filesystem::path& place) {
     if (reads_file(browser.purpose)) browser.typed.clear();
     browser.name_changed_outside = true;
     read_folder(browser);
+}
+
+bool make_folder(FileBrowser& browser, const std::string& name) {
+    const std::filesystem::path folder = browser.folder / name;
+    std::error_code trouble;
+    browser.trouble.clear();
+    browser.missing_folder.clear();
+    if (std::filesystem::create_directory(folder, trouble)) {
+        go_to(browser, folder);
+        return true;
+    }
+    browser.trouble = trouble ? "The folder " + quoted(name) + " cannot be made: " + trouble.message()
+                              : "There is already a folder " + quoted(name);
+    return false;
+}
+
+void make_missing_folder(FileBrowser& browser) {
+    const std::filesystem::path folder = browser.missing_folder;
+    std::error_code trouble;
+    std::filesystem::create_directories(folder, trouble);
+    read_folder(browser); // which may list it now
+    if (trouble) browser.trouble = folder.string() + " cannot be made: " + trouble.message();
+    browser.focus_name = true;
 }
 
 std::filesystem::path typed_path(const FileBrowser& browser) {

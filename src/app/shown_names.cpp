@@ -10,6 +10,7 @@ void add_foreign_letters_of_names(const Editor& editor, const UiState& state, st
     const FileBrowser& browser = state.browser;
     add_path(browser.folder);
     add(browser.typed);
+    add(browser.new_folder.name);
     for (const FolderEntry& entry : browser.entries) add(entry.name);
     for (const std::filesystem::path& file : state.recent) add_path(file);
     for (const LostWork& work : state.lost) {

@@ -1,12 +1,13 @@
 // What the file browser shows of a folder, and which file is meant.
 
 #include "app/file_browser.h"
+#include "app/ui.h"
 #include "io/format.h"
 #include "support/scratch_folder.h"
-
-#include <gtest/gtest.h>
+#include "window/panel.h"
 
 #include <fstream>
+#include <string_view>
 
 namespace knead::test {
 
@@ -131,6 +132,130 @@ TEST_F(Browsing, LeavesAFolderItsNameWhateverTheFormat) {
         EXPECT_FALSE(browser_.name_changed_outside) << typed;
     }
     EXPECT_EQ(meant_format(browser_)->name, "las");
+}
+
+TEST_F(Browsing, MakesAFolderAndGoesThere) {
+    ASSERT_TRUE(make_folder(browser_, "bent"));
+    EXPECT_EQ(browser_.folder, folder_ / "bent");
+    EXPECT_TRUE(browser_.entries.empty());
+    EXPECT_TRUE(browser_.trouble.empty());
+}
+
+TEST_F(Browsing, SaysWhyAFolderCannotBeMade) {
+    for (const char* name : {"old bunnies", "dragon.ply", "nowhere/at all"}) {
+        EXPECT_FALSE(make_folder(browser_, name)) << name;
+        EXPECT_NE(browser_.trouble.find(name), std::string::npos) << browser_.trouble;
+        EXPECT_EQ(browser_.folder, folder_.path());
+    }
+    EXPECT_NE(browser_.trouble.find("No such file or directory"), std::string::npos) << browser_.trouble;
+}
+
+TEST_F(Browsing, MakesTheFoldersThatATypedPathLacks) {
+    browser_.missing_folder = folder_ / "one" / "other";
+    make_missing_folder(browser_);
+    EXPECT_TRUE(std::filesystem::is_directory(folder_ / "one" / "other"));
+    EXPECT_TRUE(browser_.trouble.empty());
+    EXPECT_TRUE(browser_.missing_folder.empty());
+    EXPECT_EQ(shown().front(), "old bunnies");
+    EXPECT_EQ(shown().at(1), "one");
+    browser_.missing_folder = folder_ / "dragon.ply" / "inside";
+    make_missing_folder(browser_);
+    EXPECT_FALSE(browser_.trouble.empty());
+}
+
+// The dialog that saves a session, in a window of 1000 by 700.
+class SavingDialog : public Panel {
+protected:
+    void SetUp() override {
+        Panel::SetUp();
+        ImGui::GetIO().DisplaySize = {1000, 700};
+        state_.fonts = fonts_;
+        browser_.purpose = BrowseFor::save_session;
+        browser_.folder = folder_.path();
+        browser_.typed = "walk.knead";
+        browser_.open_now = true;
+        frames(4);
+    }
+    void draw() override { draw_file_browser({editor_, state_, commands_, wishes_}); }
+
+    void click_new_folder() {
+        const ImGuiWindow& dialog = *ImGui::FindWindowByName("browser");
+        const ImGuiStyle& style = ImGui::GetStyle();
+        click({dialog.Pos.x + dialog.Size.x - style.WindowPadding.x - 20,
+               dialog.Pos.y + style.WindowPadding.y + fonts_.title->FontSize + style.ItemSpacing.y +
+                   ImGui::GetFrameHeight() / 2});
+        frames(3);
+    }
+    void type(std::string_view text) {
+        for (const char letter : text) {
+            ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(letter));
+            frame();
+        }
+    }
+
+    ScratchFolder folder_;
+    Editor editor_{1};
+    UiState state_;
+    FileBrowser& browser_ = state_.browser;
+    std::vector<Command> commands_;
+    std::vector<Wish> wishes_;
+};
+
+TEST_F(SavingDialog, MakesAFolderThatIsNamedInPlace) {
+    ASSERT_TRUE(browser_.is_open);
+    click_new_folder();
+    ASSERT_TRUE(browser_.new_folder.asked_for);
+    type("walks");
+    press(ImGuiKey_Enter);
+    EXPECT_TRUE(std::filesystem::is_directory(folder_ / "walks"));
+    EXPECT_EQ(browser_.folder, folder_ / "walks");
+    EXPECT_FALSE(browser_.new_folder.asked_for);
+    EXPECT_EQ(browser_.typed, "walk.knead") << "the file keeps its name";
+    EXPECT_TRUE(wishes_.empty()) << "nothing is saved by that Enter";
+    frames(3);
+    press(ImGuiKey_Enter); // but by the next one
+    ASSERT_EQ(wishes_.size(), 1U);
+    EXPECT_EQ(std::get<WishSaveTo>(wishes_.front()).file, folder_ / "walks" / "walk.knead");
+}
+
+TEST_F(SavingDialog, EscapeGivesUpTheNameOfAFolderAndNotTheDialog) {
+    click_new_folder();
+    type("walks");
+    press(ImGuiKey_Escape);
+    EXPECT_FALSE(browser_.new_folder.asked_for);
+    EXPECT_TRUE(browser_.is_open);
+    frames(3);
+    press(ImGuiKey_Escape);
+    EXPECT_FALSE(browser_.is_open);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "walks"));
+}
+
+TEST_F(SavingDialog, TheNameOfAFolderThatCannotBeMadeStaysToBeMended) {
+    std::filesystem::create_directory(folder_ / "walks");
+    click_new_folder();
+    type("walks");
+    press(ImGuiKey_Enter);
+    EXPECT_FALSE(browser_.trouble.empty());
+    EXPECT_TRUE(browser_.new_folder.asked_for);
+    EXPECT_EQ(browser_.folder, folder_.path());
+    frames(3);
+    type("runs"); // instead of it
+    press(ImGuiKey_Enter);
+    EXPECT_EQ(browser_.folder, folder_ / "runs");
+    EXPECT_TRUE(browser_.trouble.empty());
+}
+
+TEST_F(SavingDialog, ATypedPathWhoseFolderIsMissingOffersToMakeIt) {
+    browser_.typed = (folder_ / "missing" / "walk.knead").string();
+    browser_.name_changed_outside = true;
+    frames(3);
+    press(ImGuiKey_Enter);
+    EXPECT_EQ(browser_.missing_folder, folder_ / "missing");
+    EXPECT_TRUE(wishes_.empty());
+    make_missing_folder(browser_); // what the button does
+    frames(3);
+    press(ImGuiKey_Enter);
+    EXPECT_EQ(wishes_.size(), 1U);
 }
 
 } // namespace

@@ -28,6 +28,8 @@ const char* title_of(BrowseFor purpose) {
         return "Open a cloud or a session";
     case BrowseFor::save_session:
         return "Save the session";
+    case BrowseFor::save_picture:
+        return "Save a picture of the view";
     case BrowseFor::take_handles:
         return "Take the handles of a session";
     case BrowseFor::cloud_of_session:
@@ -42,6 +44,7 @@ const char* verb_of(BrowseFor purpose) {
     case BrowseFor::open:
         return "Open";
     case BrowseFor::save_session:
+    case BrowseFor::save_picture:
         return "Save";
     case BrowseFor::take_handles:
         return "Take";
@@ -301,7 +304,10 @@ void entry_row(const Ui& ui, const FolderEntry& entry, int number) {
         browser.scroll_to_chosen = false;
     }
     ImGui::PopID();
-    const Icon icon = entry.is_folder ? Icon::folder : entry.is_session ? Icon::session : Icon::cloud;
+    const Icon icon = entry.is_folder    ? Icon::folder
+                      : entry.is_session ? Icon::session
+                      : entry.is_picture ? Icon::picture
+                                         : Icon::cloud;
     const ImU32 color = entry.is_folder ? palette::faint : palette::accent;
     draw_icon(*ImGui::GetWindowDrawList(), icon, {at.x + ui.scaled(10), at.y + height / 2}, ui.scaled(14),
               color);
@@ -323,6 +329,8 @@ std::string nothing_words(BrowseFor purpose) {
     case BrowseFor::save_session:
     case BrowseFor::take_handles:
         return "No sessions here, nor folders";
+    case BrowseFor::save_picture:
+        return "No pictures here, nor folders";
     default:
         return "No clouds or sessions here, nor folders";
     }
@@ -479,7 +487,9 @@ void bottom_row(const Ui& ui, bool hears_keys) {
     hidden_points(ui);
     if (ImGui::Checkbox(has_line_of_columns(ui) ? "All" : "All files", &browser.every_file))
         read_folder(browser);
-    explain("Also shows files that are neither clouds (" + known_extensions() + ") nor sessions (.knead)");
+    explain(browser.purpose == BrowseFor::save_picture ? "Also shows files that are no pictures (.png)"
+                                                       : "Also shows files that are neither clouds (" +
+                                                             known_extensions() + ") nor sessions (.knead)");
     if (browser.purpose == BrowseFor::save_cloud) column_choice(browser);
     const float width = ui.scaled(110), gap = ImGui::GetStyle().ItemSpacing.x;
     const float left = ImGui::GetWindowWidth() - 2 * width - gap - ImGui::GetStyle().WindowPadding.x;

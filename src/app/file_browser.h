@@ -13,16 +13,18 @@ namespace knead {
 
 struct Format; // io/format.h
 
-enum class BrowseFor { open, save_session, save_cloud, take_handles, cloud_of_session };
+enum class BrowseFor { open, save_session, save_cloud, save_picture, take_handles, cloud_of_session };
 // Whether the file has to be there already.
 constexpr bool reads_file(BrowseFor purpose) {
-    return purpose != BrowseFor::save_session && purpose != BrowseFor::save_cloud;
+    return purpose != BrowseFor::save_session && purpose != BrowseFor::save_cloud &&
+           purpose != BrowseFor::save_picture;
 }
 
 struct FolderEntry {
     std::string name;
     bool is_folder = false;
     bool is_session = false;
+    bool is_picture = false;
     std::uintmax_t bytes = 0;
     std::filesystem::file_time_type changed;
 };
@@ -49,7 +51,7 @@ struct FileBrowser {
     std::string filter;                   // what was typed of a name that is looked for; empty: all is shown
     SaveColumns columns;                  // of an exported cloud
     std::string usual_extension = ".ply"; // of an exported cloud whose name has none
-    bool every_file = false;              // also those that are neither cloud nor session
+    bool every_file = false;              // also those of another kind than is looked for
     int chosen = -1;                      // among the entries
     bool scroll_to_chosen = false;
     bool focus_name = false;

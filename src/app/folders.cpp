@@ -25,6 +25,25 @@ bool is_cloud(const std::filesystem::path& file) {
 bool is_session(const std::filesystem::path& file) {
     return extension_of(file) == ".knead";
 }
+bool is_picture(const std::filesystem::path& file) {
+    return extension_of(file) == ".png";
+}
+
+// Whether a file is of the kind that is looked for, or that is saved.
+bool is_meant(BrowseFor purpose, const std::filesystem::path& file) {
+    switch (purpose) {
+    case BrowseFor::save_session:
+    case BrowseFor::take_handles:
+        return is_session(file);
+    case BrowseFor::save_cloud:
+    case BrowseFor::cloud_of_session:
+        return is_cloud(file);
+    case BrowseFor::save_picture:
+        return is_picture(file);
+    default:
+        return is_session(file) || is_cloud(file);
+    }
+}
 
 bool by_name(const FolderEntry& a, const FolderEntry& b) {
     if (a.is_folder != b.is_folder) return a.is_folder;
@@ -66,13 +85,9 @@ void read_folder(FileBrowser& browser) {
         if (found.name.starts_with('.')) continue;
         found.is_folder = entry->is_directory(ignored);
         found.is_session = is_session(entry->path());
+        found.is_picture = is_picture(entry->path());
         if (!found.is_folder) {
-            const bool shown =
-                browser.purpose == BrowseFor::save_session || browser.purpose == BrowseFor::take_handles
-                    ? found.is_session
-                : browser.purpose == BrowseFor::save_cloud || browser.purpose == BrowseFor::cloud_of_session
-                    ? is_cloud(entry->path())
-                    : found.is_session || is_cloud(entry->path());
+            const bool shown = is_meant(browser.purpose, entry->path());
             if (!entry->is_regular_file(ignored) || (!shown && !browser.every_file)) continue;
             found.bytes = entry->file_size(ignored);
         }
@@ -150,6 +165,7 @@ std::filesystem::path typed_path(const FileBrowser& browser) {
     std::error_code ignored;
     if (!std::filesystem::is_directory(typed, ignored)) {
         if (browser.purpose == BrowseFor::save_session && typed.extension() != ".knead") typed += ".knead";
+        if (browser.purpose == BrowseFor::save_picture && !is_picture(typed)) typed += ".png";
         if (browser.purpose == BrowseFor::save_cloud && lacks_extension(typed))
             typed += browser.usual_extension;
     }

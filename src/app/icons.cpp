@@ -206,6 +206,11 @@ void draw_file(const Pen& pen, Icon icon) {
         pen.line({-0.28f, -0.05f}, {0.33f, -0.05f});
         pen.line({-0.28f, 0.4f}, {0.33f, 0.4f});
         break;
+    case Icon::picture: // mountains under the sun, in a frame
+        pen.path({{-0.85f, -0.65f}, {0.85f, -0.65f}, {0.85f, 0.65f}, {-0.85f, 0.65f}}, true);
+        pen.path({{-0.85f, 0.45f}, {-0.3f, -0.1f}, {0.1f, 0.3f}, {0.35f, 0.05f}, {0.85f, 0.5f}});
+        pen.dot({0.4f, -0.28f}, 0.14f);
+        break;
     case Icon::up:
         pen.line({0, 0.75f}, {0, -0.5f});
         pen.path({{-0.5f, -0.2f}, {0, -0.72f}, {0.5f, -0.2f}});

@@ -26,6 +26,7 @@ enum class Icon : std::uint8_t {
     folder,
     cloud,
     session,
+    picture,
     up,
     home, // files
     information,

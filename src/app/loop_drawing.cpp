@@ -4,6 +4,8 @@
 #include "app/loop.h"
 #include "app/timeline.h"
 #include "app/widgets.h"
+#include "base/error.h"
+#include "render/png.h"
 
 #include <epoxy/gl.h>
 
@@ -122,11 +124,16 @@ DrawBudget& budget_of(Loop& loop) {
     return loop.editor.status.solving ? loop.dragging : loop.orbiting;
 }
 
+PointLook look_of(const UiState& state) {
+    PointLook look = state.display.look;
+    look.pixel_scale = state.scale * state.pixel_ratio;
+    return look;
+}
+
 DrawResult draw_scene(Loop& loop, int window_height) {
     if (!loop.editor.document) return {.complete = true};
     loop.scene.take_in(loop.editor, loop.state);
-    PointLook look = loop.state.display.look;
-    look.pixel_scale = loop.state.scale * loop.state.pixel_ratio;
+    const PointLook look = look_of(loop.state);
     const DrawBudget& budget = budget_of(loop);
     const bool moving = moves(loop);
     loop.is_coarse = moving && budget.coarse();
@@ -141,6 +148,22 @@ DrawResult draw_scene(Loop& loop, int window_height) {
     while (!moving && !result.complete && loop.scene.is_drawn_in_software() &&
            clock.seconds() < filling_seconds);
     return result;
+}
+
+// What the view shows, where somebody asked for a picture of it. The window's own comes next, anew.
+void save_picture(Loop& loop) {
+    const auto file = std::exchange(loop.work.picture, std::nullopt);
+    if (!file || !loop.editor.document) return;
+    try {
+        const Picture picture = loop.scene.picture(loop.editor, look_of(loop.state));
+        write_png(*file, picture);
+        add_toast(loop.state, {Notice::Kind::information, "Saved picture " + file->filename().string() +
+                                                              " (" + std::to_string(picture.width) + " × " +
+                                                              std::to_string(picture.height) + ")"});
+    } catch (const Error& error) {
+        add_toast(loop.state, {Notice::Kind::error, error.what()});
+    }
+    loop.frames_to_draw = 3;
 }
 
 void measure(Loop& loop, const DrawResult& result, double seconds) {
@@ -199,6 +222,7 @@ void draw(Loop& loop) {
     glFinish(); // so that what is measured is the drawing, and not the wait for the display
     if (!another_cloud) measure(loop, result, clock.seconds());
     loop.window.swap();
+    save_picture(loop); // when all that is measured has been
     show_title(loop);
 }
 

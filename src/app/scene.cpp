@@ -241,6 +241,18 @@ DrawResult Scene::draw(const Editor& editor, PointLook look, std::size_t budget,
     return state_->renderer.draw(editor.camera, viewport, look, budget, target);
 }
 
+Picture Scene::picture(const Editor& editor, PointLook look) {
+    // Four of them are averaged for each of the picture, where that is not too much to hold at once.
+    constexpr std::size_t most_drawn = 32'000'000; // pixels
+    Viewport size = editor.viewport;
+    if (2 * std::max(size.width, size.height) <= largest_picture) {
+        size = {2 * size.width, 2 * size.height};
+        look.pixel_scale *= 2;
+    }
+    const std::size_t pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+    return draw_picture(state_->renderer, editor.camera, size, look, 4 * pixels <= most_drawn ? 2 : 1);
+}
+
 bool Scene::is_drawn_in_software() const {
     return state_->renderer.is_software();
 }

@@ -3,7 +3,7 @@
 // window.
 
 #include "app/ui.h"
-#include "render/point_renderer.h"
+#include "render/headless.h"
 
 #include <memory>
 
@@ -31,6 +31,10 @@ public:
     // coarse.
     DrawResult draw(const Editor& editor, PointLook look, std::size_t budget, bool coarse, int left,
                     int bottom);
+
+    // The same as a picture of its own, as finely as a picture may be: with twice as many pixels each way, or
+    // as many as the view has. All points are drawn. The next draw() begins anew.
+    Picture picture(const Editor& editor, PointLook look);
 
 private:
     struct State;

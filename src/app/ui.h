@@ -166,6 +166,7 @@ struct MenuWalk {
 struct UiOfDocument {
     // Where it was to be exported last, and its session to be saved, whatever came of it; proposed again.
     std::filesystem::path last_export, last_session;
+    std::filesystem::path last_picture;    // beside which the next one is proposed, under a name of its own
     std::optional<WishSaveTo> overwriting; // the dialog asks whether to overwrite this
 
     std::string row_at_rest; // of the list of handles: the one that was clicked, until the cursor leaves it

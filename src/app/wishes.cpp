@@ -174,9 +174,19 @@ void fulfil(Work& work, const WishBrowse& wish) {
         propose(browser, work.state.last_export, beside, name_of_export(opened));
         browser.usual_extension = std::filesystem::path(browser.typed).extension().string();
     }
+    if (wish.purpose == BrowseFor::save_picture) {
+        const std::filesystem::path& last = work.state.last_picture;
+        browser.folder = folder_around(last.empty() ? beside : last);
+        browser.typed = free_name_in(browser.folder, opened.stem().string() + ".png");
+    }
 }
 
 void save(Work& work, const WishSaveTo& wish) {
+    if (wish.purpose == BrowseFor::save_picture) {
+        work.state.last_picture = wish.file;
+        work.picture = wish.file;
+        return; // nobody waits for it: it is there when the next picture is shown
+    }
     if (wish.purpose == BrowseFor::save_session) {
         save_session(work.editor, wish.file, wish.anyway);
         remember_file(work.state.recent, wish.file);

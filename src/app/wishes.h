@@ -5,6 +5,10 @@
 #include "app/ui.h"
 #include "upsample/drawing.h"
 
+#include <filesystem>
+#include <memory>
+#include <optional>
+
 namespace knead {
 
 // What lives as long as the window.
@@ -14,7 +18,8 @@ struct Work {
     UiState& state;
     bool closing = false;         // the window is to close now
     bool drawn_by_device = false; // whether a graphics card draws, whose memory OpenCL may share
-    std::shared_ptr<const GlSharing> sharing = {}; // once a document was opened; null: it does not
+    std::shared_ptr<const GlSharing> sharing = {};     // once a document was opened; null: it does not
+    std::optional<std::filesystem::path> picture = {}; // where the view is to be saved once it is drawn
 };
 
 void grant(Work& work, const Wish& wish);

@@ -63,6 +63,13 @@ TEST_F(Browsing, ShowsAllWhereSomethingIsSaved) {
     EXPECT_TRUE(browser_.filter.empty());
 }
 
+TEST_F(Browsing, ShowsThePicturesWhereOneIsSaved) {
+    std::ofstream(folder_ / "view.png") << "x";
+    browser_.purpose = BrowseFor::save_picture;
+    read_folder(browser_);
+    EXPECT_EQ(shown(), (std::vector<std::string>{"old bunnies", "view.png"}));
+}
+
 TEST_F(Browsing, AddsTheExtensionThatANameWithADotLacks) {
     const auto chosen = [&](BrowseFor purpose, const char* typed) {
         browser_.purpose = purpose;
@@ -74,6 +81,9 @@ TEST_F(Browsing, AddsTheExtensionThatANameWithADotLacks) {
     EXPECT_EQ(chosen(BrowseFor::save_cloud, "bunny v1.2"), "bunny v1.2.ply");
     EXPECT_EQ(chosen(BrowseFor::save_cloud, "bunny"), "bunny.ply");
     EXPECT_EQ(chosen(BrowseFor::save_cloud, "bunny.stl"), "bunny.stl") << "which is refused with words";
+    EXPECT_EQ(chosen(BrowseFor::save_picture, "view 1.2"), "view 1.2.png");
+    EXPECT_EQ(chosen(BrowseFor::save_picture, "view.PNG"), "view.PNG");
+    EXPECT_EQ(chosen(BrowseFor::save_picture, "bunny.ply"), "bunny.ply.png");
 }
 
 TEST_F(Browsing, MeansTheOnlyOneThatIsLeft) {

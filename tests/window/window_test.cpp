@@ -294,6 +294,55 @@ TEST_F(WindowTest, MenusAndQuestionsGoByTheKeyboard) {
     EXPECT_TRUE(recording().empty());
 }
 
+TEST_F(WindowTest, SavesAPictureOfTheViewAndGoesOn) {
+    open_cat();
+    desktop_->keys({"3", "Home"});
+    const auto save_picture = [&](const std::string& name) {
+        desktop_->move(640, 600); // off the menus
+        desktop_->keys({"F10", "Up", "Up", "Up", "Up", "Return"});
+        pause(1);
+        desktop_->type(name);
+        desktop_->keys({"Return"});
+    };
+    const std::filesystem::path file = folder_ / "view.png";
+    save_picture((folder_ / "view").string());
+    ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(file); }))
+        << read_text(folder_ / "editor.log");
+    const std::string png = read_text(file);
+    ASSERT_EQ(png.substr(1, 3), "PNG");
+    const auto number_at = [&](std::size_t place) {
+        int number = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            number = 256 * number + static_cast<unsigned char>(png[place + i]);
+        return number;
+    };
+    EXPECT_EQ(number_at(16), 2 * viewport.width);
+    EXPECT_NEAR(number_at(20), 2 * viewport.height, 20);
+
+    // What is there is asked about: another name is what Enter means.
+    pause(0.5);
+    save_picture((folder_ / "view.png").string());
+    pause(1);
+    desktop_->keys({"Return"});
+    pause(1);
+    desktop_->type((folder_ / "other.png").string());
+    desktop_->keys({"Return"});
+    ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(folder_ / "other.png"); }));
+    EXPECT_EQ(read_text(file), png);
+    EXPECT_EQ(read_text(folder_ / "other.png"), png) << "the same view";
+
+    pause(0.5);
+    desktop_->keys({"1"});
+    save_picture((folder_ / "side.png").string());
+    ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(folder_ / "side.png"); }));
+    EXPECT_NE(read_text(folder_ / "side.png"), png) << "another view";
+    pause(0.5);
+    save("ctrl+e", folder_ / "same.ply");
+    EXPECT_EQ(read_text(folder_ / "same.ply"), read_text(folder_ / "cat.ply"));
+    desktop_->keys({"ctrl+q"});
+    EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+}
+
 TEST_F(WindowTest, ANameThatCannotBeSavedStaysToBeMended) {
     open_cat();
     make_handles();

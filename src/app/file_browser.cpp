@@ -1,16 +1,12 @@
 // The file browser: folders, clouds and sessions with their sizes, places at the left, a name or a path to be
-// typed below. Arrows, Enter, Backspace and Esc work it without a mouse.
+// typed below (file_browser_bottom.cpp). Arrows, Enter, Backspace and Esc work it without a mouse.
 
 #include "app/file_browser.h"
 
-#include "app/ui.h"
+#include "app/file_browser_parts.h"
 #include "app/widgets.h"
 #include "base/counts.h"
-#include "base/error.h"
 #include "base/quoted.h"
-#include "base/whole_file.h"
-#include "io/cloud_file.h"
-#include "io/format.h"
 
 #include <imgui_stdlib.h>
 
@@ -39,22 +35,6 @@ const char* title_of(BrowseFor purpose) {
     }
 }
 
-const char* verb_of(BrowseFor purpose) {
-    switch (purpose) {
-    case BrowseFor::open:
-        return "Open";
-    case BrowseFor::save_session:
-    case BrowseFor::save_picture:
-        return "Save";
-    case BrowseFor::take_handles:
-        return "Take";
-    case BrowseFor::cloud_of_session:
-        return "Use";
-    default:
-        return "Export";
-    }
-}
-
 std::string date_words(std::filesystem::file_time_type when) {
     const auto system = std::chrono::file_clock::to_sys(when);
     const std::time_t seconds = std::chrono::system_clock::to_time_t(
@@ -64,92 +44,6 @@ std::string date_words(std::filesystem::file_time_type when) {
     char text[32];
     std::strftime(text, sizeof text, "%Y-%m-%d  %H:%M", &parts);
     return text;
-}
-
-// Whether there is room for names and the buttons alone.
-bool is_narrow(const Ui& ui) {
-    return ImGui::GetIO().DisplaySize.x < ui.scaled(720);
-}
-
-// What an exported cloud may get besides stands on a line of its own then.
-bool has_line_of_columns(const Ui& ui) {
-    return ui.state.browser.purpose == BrowseFor::save_cloud && is_narrow(ui);
-}
-
-// Whether it is to be said of points that are not seen that they are written all the same.
-bool tells_of_hidden(const Ui& ui) {
-    return ui.state.browser.purpose == BrowseFor::save_cloud && ui.editor.hidden > 0;
-}
-
-// Of what is below the list: a caption, or what is wrong in as many lines as it takes and what helps, the
-// name, the format of a cloud and what is hidden of it, and the buttons.
-float bottom_height(const Ui& ui) {
-    const std::string& trouble = ui.state.browser.trouble;
-    const float width = ImGui::GetWindowWidth() - 2 * ImGui::GetStyle().WindowPadding.x;
-    const float lines = trouble.empty() ? 0
-                                        : ImGui::CalcTextSize(trouble.c_str(), nullptr, false, width).y -
-                                              ImGui::GetTextLineHeight();
-    const float row = ImGui::GetFrameHeightWithSpacing();
-    const float format = ui.state.browser.purpose == BrowseFor::save_cloud ? row : 0;
-    const float hidden = tells_of_hidden(ui) && is_narrow(ui) ? ImGui::GetTextLineHeightWithSpacing() : 0;
-    const float help = ui.state.browser.missing_folder.empty() ? 0 : row;
-    return ui.scaled(92) + lines + help + format + hidden + (has_line_of_columns(ui) ? row : 0);
-}
-
-// Whether a file can be saved there; if not, `trouble` says why, and the name stays to be mended.
-bool can_save(FileBrowser& browser, const std::filesystem::path& file) {
-    if (browser.purpose == BrowseFor::save_session && has_cloud_extension(file)) {
-        browser.trouble = file.filename().string() +
-                          " is a name for a cloud. A session, the handles and poses, "
-                          "ends in .knead; the shape is exported with Ctrl+E.";
-        browser.focus_name = true;
-        return false;
-    }
-    try {
-        if (browser.purpose == BrowseFor::save_cloud)
-            refuse_bad_target(file);
-        else
-            const FileInTheMaking probe(file);
-        return true;
-    } catch (const Error& error) {
-        std::error_code ignored;
-        browser.trouble = error.what();
-        if (std::filesystem::status(file.parent_path(), ignored).type() ==
-            std::filesystem::file_type::not_found)
-            browser.missing_folder = file.parent_path();
-        browser.focus_name = true;
-        return false;
-    }
-}
-
-void choose(const Ui& ui) {
-    FileBrowser& browser = ui.state.browser;
-    if (browser.typed.empty()) return;
-    browser.trouble.clear();
-    browser.missing_folder.clear();
-    const std::filesystem::path file = chosen_path(browser);
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) {
-        go_to(browser, file);
-        return;
-    }
-    if (reads_file(browser.purpose)) {
-        if (!std::filesystem::exists(file, ignored)) {
-            browser.trouble = "There is no file " + file.string();
-            return;
-        }
-        if (browser.purpose == BrowseFor::open)
-            ui.wish(WishOpen{file});
-        else if (browser.purpose == BrowseFor::cloud_of_session)
-            ui.wish(WishUseCloud{file});
-        else
-            ui.wish(WishTakeHandles{file});
-    } else {
-        if (!can_save(browser, file)) return;
-        ui.wish(WishSaveTo{browser.purpose, file, true, browser.columns});
-    }
-    browser.folder = file.parent_path(); // where the next one begins
-    ImGui::CloseCurrentPopup();
 }
 
 void choose_entry(const Ui& ui, const FolderEntry& entry) {
@@ -178,8 +72,9 @@ void new_folder(const Ui& ui) {
     }
     if (std::exchange(folder.focus, false)) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(width);
-    folder.entered = ImGui::InputTextWithHint("##new", "Name of the new folder", &folder.name,
-                                              ImGuiInputTextFlags_EnterReturnsTrue);
+    folder.entered =
+        ImGui::InputTextWithHint("##new", "Name of the new folder", &folder.name,
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     folder.left = ImGui::IsItemDeactivated();
 }
 
@@ -389,129 +284,6 @@ void keys(FileBrowser& browser) {
     const int backspace = ImGui::GetKeyIndex(ImGuiKey_Backspace);
     if (browser.typed.empty() && ImGui::IsKeyPressed(backspace, false))
         go_to(browser, browser.folder.parent_path());
-}
-
-// ".txt, .asc: numbers in columns"
-std::string words_of(const Format& format) {
-    std::string words;
-    for (const std::string_view extension : format.extensions)
-        words.append(words.empty() ? "" : ", ").append(extension);
-    return words.append(": ").append(format.words);
-}
-
-// The formats that a cloud can be exported in; the name's extension says which, and becomes what is chosen.
-void format_choice(const Ui& ui) {
-    FileBrowser& browser = ui.state.browser;
-    const Format* const meant = meant_format(browser);
-    inline_caption("Format", ImGui::GetStyle().WindowPadding.x + ui.scaled(62));
-    ImGui::SetNextItemWidth(ui.scaled(290));
-    const std::string shown = meant ? words_of(*meant) : "None that knead writes: choose one";
-    if (ImGui::BeginCombo("##format", shown.c_str(), ImGuiComboFlags_HeightLarge)) {
-        for (const Format& format : known_formats())
-            if (ImGui::Selectable(words_of(format).c_str(), &format == meant) && &format != meant)
-                take_format(browser, format);
-        // Nothing else closes it over a dialog.
-        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
-        ImGui::EndCombo();
-    }
-    explain(
-        "What the name ends in says which it is. A cloud keeps everything of its file in the format that it "
-        "was opened in; in another one what that has a place for, and what is lost is told");
-}
-
-// Beside the format, or below it where there is no room.
-void hidden_points(const Ui& ui) {
-    if (!tells_of_hidden(ui)) return;
-    if (!is_narrow(ui)) {
-        ImGui::SameLine(0, ui.scaled(16));
-        ImGui::AlignTextToFramePadding();
-    }
-    const std::size_t count = ui.editor.hidden;
-    ImGui::TextUnformatted(
-        (grouped(count) + (count == 1 ? " hidden point is written, too" : " hidden points are written, too"))
-            .c_str());
-    explain("Hiding is for looking and choosing: the file keeps all of its points, in their order");
-}
-
-// What an exported cloud gets beside its own attributes.
-void column_choice(FileBrowser& browser) {
-    ImGui::SameLine();
-    ImGui::Checkbox("With displacement", &browser.columns.displacement);
-    explain("Adds the attribute \"displacement\": how far each point is from where it was opened, in the "
-            "cloud's units");
-    ImGui::SameLine();
-    ImGui::Checkbox("With stretch", &browser.columns.stretch);
-    explain("Adds the attribute \"stretch\": how much farther apart a point and its neighbours are than when "
-            "the cloud was opened; 1 is unstretched");
-}
-
-// Whether Enter was pressed in it.
-bool name_field(FileBrowser& browser) {
-    // The field keeps its own copy while it is active; typing another name from outside needs it to let go.
-    ImGui::PushID(browser.name_version);
-    if (browser.name_changed_outside) {
-        browser.name_changed_outside = false;
-        ++browser.name_version;
-        ImGui::PopID();
-        ImGui::PushID(browser.name_version);
-        browser.focus_name = true;
-    }
-    if (browser.focus_name) ImGui::SetKeyboardFocusHere();
-    browser.focus_name = false;
-    ImGui::SetNextItemWidth(-1);
-    const bool entered = ImGui::InputText("##path", &browser.typed, ImGuiInputTextFlags_EnterReturnsTrue);
-    if (ImGui::IsItemEdited()) name_typed(browser);
-    ImGui::PopID();
-    return entered;
-}
-
-// What is wrong, and what helps; or what the name is for.
-void words_about_name(FileBrowser& browser) {
-    if (browser.trouble.empty())
-        return caption(reads_file(browser.purpose) ? "A name in this folder, or a path"
-                                                   : "File name, or a path");
-    ImGui::PushStyleColor(ImGuiCol_Text, palette::error);
-    wrapped_text(browser.trouble);
-    ImGui::PopStyleColor();
-    if (browser.missing_folder.empty()) return;
-    const std::string folder = browser.missing_folder.string();
-    if (ImGui::Button("Make that folder")) make_missing_folder(browser);
-    explain(folder);
-}
-
-void bottom_row(const Ui& ui, bool hears_keys) {
-    FileBrowser& browser = ui.state.browser;
-    words_about_name(browser);
-    const bool entered = name_field(browser);
-    if (browser.purpose == BrowseFor::save_cloud) format_choice(ui);
-    hidden_points(ui);
-    if (ImGui::Checkbox(has_line_of_columns(ui) ? "All" : "All files", &browser.every_file))
-        read_folder(browser);
-    explain(browser.purpose == BrowseFor::save_picture ? "Also shows files that are no pictures (.png)"
-                                                       : "Also shows files that are neither clouds (" +
-                                                             known_extensions() + ") nor sessions (.knead)");
-    if (browser.purpose == BrowseFor::save_cloud) column_choice(browser);
-    const float width = ui.scaled(110), gap = ImGui::GetStyle().ItemSpacing.x;
-    const float left = ImGui::GetWindowWidth() - 2 * width - gap - ImGui::GetStyle().WindowPadding.x;
-    if (has_line_of_columns(ui))
-        ImGui::SetCursorPosX(left);
-    else
-        ImGui::SameLine(left);
-    if (ImGui::Button("Cancel", {width, 0})) ImGui::CloseCurrentPopup();
-    ImGui::SameLine();
-    ImGui::BeginDisabled(browser.typed.empty());
-    const bool confirmed = main_button(verb_of(browser.purpose), {width, 0});
-    ImGui::EndDisabled();
-    // The lit button is Enter's, whatever was clicked before.
-    const bool pressed = hears_keys && !entered && !ImGui::IsAnyItemActive() &&
-                         (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
-                          ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false));
-    if (confirmed || entered || pressed) choose(ui);
-    // Whatever was clicked, what is typed next is the name, unless another one is asked for; but taking the
-    // focus would close what dropped down.
-    if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive() && popup_has_keys() &&
-        !browser.new_folder.asked_for)
-        browser.focus_name = true;
 }
 
 } // namespace

@@ -31,6 +31,22 @@ bool only_the_chosen(const Ui& ui) {
     return !ui.editor.tools.band.empty() || ui.editor.status.playing;
 }
 
+// Of the chosen handle's gizmo, in the window's coordinates.
+struct GizmoPlace {
+    glm::dvec2 center{0.0};
+    double radius = 0;
+};
+
+std::optional<GizmoPlace> gizmo_place(const Ui& ui) {
+    const std::optional<Gizmo> gizmo = gizmo_of(ui.editor);
+    if (!gizmo) return std::nullopt;
+    const auto projected = project(ui.editor.camera, ui.editor.viewport, gizmo->center);
+    if (!projected) return std::nullopt;
+    const ImVec2 at = in_window(ui, projected->pixel);
+    return GizmoPlace{{static_cast<double>(at.x), static_cast<double>(at.y)},
+                      gizmo->size / static_cast<double>(ui.state.pixel_ratio)};
+}
+
 std::optional<Name> name_of(const Ui& ui, std::size_t number) {
     const Handle& handle = ui.editor.document->handles[number];
     const bool chosen = handle.name == ui.editor.chosen;
@@ -47,11 +63,10 @@ std::optional<Name> name_of(const Ui& ui, std::size_t number) {
     name.label.anchor = {static_cast<double>(at.x), static_cast<double>(at.y)};
     name.label.size = {static_cast<double>(shown + icon_size(ui) + ui.scaled(19)),
                        static_cast<double>(size.y + ui.scaled(6))};
-    // The chosen one's stands above its gizmo.
-    const std::optional<Gizmo> gizmo = chosen ? gizmo_of(ui.editor) : std::nullopt;
-    if (gizmo)
-        name.label.rise = 1.3 * gizmo->size / static_cast<double>(ui.state.pixel_ratio) +
-                          static_cast<double>(ui.scaled(10)) + 0.5 * name.label.size.y;
+    // The chosen one's stands above its gizmo, where that is about the handle and not at a joint elsewhere.
+    const std::optional<GizmoPlace> gizmo = chosen ? gizmo_place(ui) : std::nullopt;
+    if (gizmo && glm::distance(gizmo->center, name.label.anchor) < gizmo->radius)
+        name.label.rise = 1.3 * gizmo->radius + static_cast<double>(ui.scaled(10)) + 0.5 * name.label.size.y;
     return name;
 }
 
@@ -64,13 +79,8 @@ LabelBox as_box(const Rectangle& place) {
 // frame.
 std::vector<LabelBox> in_the_way(const Ui& ui) {
     std::vector<LabelBox> boxes;
-    if (const std::optional<Gizmo> gizmo = gizmo_of(ui.editor))
-        if (const auto projected = project(ui.editor.camera, ui.editor.viewport, gizmo->center)) {
-            const ImVec2 at = in_window(ui, projected->pixel);
-            const glm::dvec2 center(static_cast<double>(at.x), static_cast<double>(at.y));
-            const double reach = 1.15 * gizmo->size / static_cast<double>(ui.state.pixel_ratio);
-            boxes.push_back({center - reach, center + reach});
-        }
+    if (const std::optional<GizmoPlace> gizmo = gizmo_place(ui))
+        boxes.push_back({gizmo->center - 1.15 * gizmo->radius, gizmo->center + 1.15 * gizmo->radius});
     if (ui.state.display.axes) boxes.push_back(as_box(axes_place(ui)));
     if (ui.state.legend.range) boxes.push_back(as_box(ui.state.legend_place));
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {

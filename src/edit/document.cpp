@@ -176,16 +176,26 @@ Index Document::find_handle(const std::string& name, const std::string& place) c
 }
 
 // Only points that are named: those of a region depend on the shape.
-std::optional<Index> Document::retouched_by(const HandleLine& line, const std::string& place) const {
+std::optional<Index> Document::held_as_in(const HandleLine& line, const std::string& place) const {
     const auto old = std::ranges::find(handles_, line.name, &Handle::name);
     if (old == handles_.end() || std::holds_alternative<Region>(line.points)) return std::nullopt;
-    if (old->color == line.color && old->pivot == line.pivot) return std::nullopt;
     const bool holds_alike =
         old->role == line.role && old->free_rotation == line.free_rotation && old->falloff == line.falloff;
     if (!holds_alike) return std::nullopt;
     const std::vector<Index> points = resolve_points(line, cloud_, nullptr, place);
     if (*old->points != points && !is_unknown(*old->points)) return std::nullopt; // those may be these
     return static_cast<Index>(old - handles_.begin());
+}
+
+bool Document::has(const HandleLine& line) const {
+    const auto handle = held_as_in(line, "");
+    return handle && handles_[*handle].color == line.color && handles_[*handle].pivot == line.pivot;
+}
+
+std::optional<Index> Document::retouched_by(const HandleLine& line, const std::string& place) const {
+    const auto old = std::ranges::find(handles_, line.name, &Handle::name);
+    if (old != handles_.end() && old->color == line.color && old->pivot == line.pivot) return std::nullopt;
+    return held_as_in(line, place);
 }
 
 Index Document::movable_handle(const std::string& name, const std::string& place) const {

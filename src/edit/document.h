@@ -63,6 +63,9 @@ public:
     // commit has to come before it.
     bool needs_commit(const SessionAction& act) const;
 
+    // Whether there is this very handle, whatever was declared after it. Not of lines with a region.
+    bool has(const HandleLine& line) const;
+
     // --- The acts; `place` names the line in errors ---
 
     void declare(const HandleLine& line, const std::string& place);
@@ -212,6 +215,8 @@ private:
 
     bool is_as_opened() const;
     Index find_handle(const std::string& name, const std::string& place) const;
+    // The handle of this name, where it holds what the line says and as it says.
+    std::optional<Index> held_as_in(const HandleLine& line, const std::string& place) const;
     // The handle that this line gives another colour or pivot and changes in nothing else; nothing: it does
     // more.
     std::optional<Index> retouched_by(const HandleLine& line, const std::string& place) const;

@@ -104,9 +104,11 @@ void LiveWork::carry_out(task::PutPivot& task) {
 }
 
 void LiveWork::carry_out(task::MakePosed& task) {
-    task::Lines lines{task.step, {task.line}, false};
+    task::Lines lines{task.step, {}, false};
     try {
         finish_settling();
+        // Declared again it would take a commit, and the other one's pose with it.
+        if (!document_->has(task.line)) lines.lines.emplace_back(task.line);
         std::vector<HandleMotion> way = document_->way_of(task.pose.handle);
         std::ranges::transform(way, way.begin(), task.pose.seen);
         const auto& points = std::get<std::vector<IndexRange>>(task.line.points);
@@ -117,6 +119,7 @@ void LiveWork::carry_out(task::MakePosed& task) {
         refuse(task.step);
         throw;
     }
+    if (lines.lines.empty()) return refuse(task.step);
     carry_out(lines);
 }
 

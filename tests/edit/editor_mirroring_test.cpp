@@ -30,6 +30,28 @@ TEST_F(BarEditor, MirroringTakesThePointsAndThePoseAcross) {
     EXPECT_NEAR(turn.axis().x() * first.axis().x(), -1, 1e-9);
 }
 
+TEST_F(BarEditor, MirroringAnotherPoseOntoTheSameTwinCommitsNeither) {
+    make_handles();
+    apply(editor_, MirrorHandle{"high", 2}); // at rest
+    calm();
+    for (const char* degrees : {"40", "20"}) {
+        apply(editor_, ChooseHandle{"high"});
+        transform_chosen('R', 'X', degrees);
+        apply(editor_, MirrorHandle{"high", 2});
+        calm();
+    }
+    ASSERT_EQ(editor_.document->handles.size(), 3U);
+    const auto degrees = [&](std::size_t handle) {
+        return Eigen::AngleAxisd(editor_.document->motions[handle].rotation).angle() * 180 / pi;
+    };
+    EXPECT_NEAR(degrees(1), 60, 1e-7) << "of this edit still";
+    EXPECT_NEAR(degrees(2), 60, 1e-7);
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_NEAR(degrees(1), 60, 1e-7);
+    EXPECT_NEAR(degrees(2), 40, 1e-7);
+}
+
 // Also by more than half a turn, which by the shortest way would be less the other way round.
 TEST_F(BarEditor, AMirroredHandleIsWoundUpAsTheOtherIs) {
     editor_.camera.orthographic = true;

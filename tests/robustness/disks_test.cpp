@@ -40,12 +40,13 @@ struct Command {
     bool draws = false;
 };
 
-// All ways of the program to a file. They work on bar.ply (1000 points, 27 kB) and s.knead.
+// All ways of the program to a file. They work on bar.ply (1000 points, 27 kB), s.knead, and t.knead, the
+// same with a check that is recorded again.
 std::vector<Command> commands() {
     return {{"make", {"make", "bar", "--points", "3000", "--out", "out.ply"}},
             {"replay --out", {"replay", "s.knead", "--out", "out.ply"}},
-            {"replay --record-checks", {"replay", "s.knead", "--record-checks"}},
-            {"both", {"replay", "s.knead", "--record-checks", "--out", "out.ply"}},
+            {"replay --record-checks", {"replay", "t.knead", "--record-checks"}},
+            {"both", {"replay", "t.knead", "--record-checks", "--out", "out.ply"}},
             {"render", {"render", "bar.ply", "--out", "out.png"}, true},
             {"replay --picture", {"replay", "s.knead", "--picture", "out.png"}, true},
             {"replay --frames", {"replay", "s.knead", "--frames", "frames"}, true},
@@ -73,8 +74,13 @@ class Disks : public testing::Test {
 protected:
     void SetUp() override {
         bar_file(folder_, 1000);
-        write_text(folder_ / "s.knead", "{\"knead\":1,\"cloud\":{\"path\":\"bar.ply\"}}\n" + ends +
-                                            drag(lift) + commit + drag(turn('y', 20)));
+        const std::string first = "{\"knead\":1,\"cloud\":{\"path\":\"bar.ply\"}}\n" + ends + drag(lift),
+                          second = commit + drag(turn('y', 20));
+        write_text(folder_ / "s.knead", first + second);
+        write_text(folder_ / "t.knead", first +
+                                            R"({"op":"check","positions":"t-check-1.ply","tolerance":1})"
+                                            "\n" +
+                                            second);
         fs::create_directory(folder_ / "disk");
     }
 
@@ -82,9 +88,9 @@ protected:
     bool lay_out_disk() const {
         const fs::path disk = folder_ / "disk";
         if (!mount_small_disk(disk, disk_bytes)) return false;
-        for (const char* name : {"bar.ply", "s.knead"}) fs::copy_file(folder_ / name, disk / name);
+        for (const char* name : {"bar.ply", "s.knead", "t.knead"}) fs::copy_file(folder_ / name, disk / name);
         fs::create_directory(disk / "frames");
-        for (const char* name : {"out.ply", "out.png", "s-check-1.ply", "frames/frame-000001.png"})
+        for (const char* name : {"out.ply", "out.png", "t-check-1.ply", "frames/frame-000001.png"})
             write_text(disk / name, "old");
         return true;
     }

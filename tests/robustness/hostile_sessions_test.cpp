@@ -67,7 +67,9 @@ TEST_F(HostileSession, RecordingChecksWritesBesideTheSessionAndThroughNoLink) {
                                   "\n"
                                   R"({"op":"check","positions":")" +
                                   (folder_ / "s-check-1.ply").string() + "\",\"tolerance\":9}\n";
-    session(ends + drag(lift) + elsewhere);
+    const std::string own = R"({"op":"check","positions":"s-check-1.ply","tolerance":9})"
+                            "\n"; // is recorded again
+    session(ends + drag(lift) + own + elsewhere);
     const std::set<std::string> before = names();
     const Outcome outcome = replay({"--record-checks"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;

@@ -148,8 +148,12 @@ pid_t begin_knead(const std::vector<std::string>& arguments, const fs::path& fol
 
 TEST_F(Kills, OfAReplayThatSavesItsShapeAndItsChecks) {
     const fs::path bar_path = bar_file(folder_, 5000);
-    const std::string session =
-        "{\"knead\":1,\"cloud\":{\"path\":\"bar.ply\"}}\n" + ends + drag(lift) + commit + drag(turn('y', 20));
+    const auto check = [](int number) { // that is recorded again
+        return R"({"op":"check","positions":"s-check-)" + std::to_string(number) +
+               ".ply\",\"tolerance\":0.5}\n";
+    };
+    const std::string session = "{\"knead\":1,\"cloud\":{\"path\":\"bar.ply\"}}\n" + ends + drag(lift) +
+                                check(1) + commit + drag(turn('y', 20)) + check(2);
     const std::vector<std::string> arguments{"replay",          "s.knead",  "--out",     "out.ply",
                                              "--record-checks", "--device", "reference", "--samples=100"};
     const std::set<std::string> finished{"bar.ply", "out.ply", "s-check-1.ply", "s-check-2.ply", "s.knead"};

@@ -1,6 +1,7 @@
 #include "app/recent_files.h"
 
 #include "app/kept_text.h"
+#include "app/kept_views.h"
 
 #include <algorithm>
 #include <fstream>
@@ -63,6 +64,7 @@ void forget_files(Files& recent) {
     recent.clear();
     write_list(recent_list, recent);
     write_list(choosing_list, {});
+    forget_views();
 }
 
 bool chose_samples(const std::filesystem::path& session) {

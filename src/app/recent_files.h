@@ -12,7 +12,7 @@ std::vector<std::filesystem::path> read_recent_files();
 
 // Puts a file in front and writes the list; a list that cannot be written is silently not kept.
 void remember_file(std::vector<std::filesystem::path>& recent, const std::filesystem::path& file);
-// Of both lists.
+// All that is kept of files, views (kept_views.h) included.
 void forget_files(std::vector<std::filesystem::path>& recent);
 
 // Whether a session was saved last while its number of samples was chosen by itself. What cannot be read is

@@ -2,6 +2,7 @@
 
 #include "app/run_editor.h"
 
+#include "app/kept_views.h"
 #include "app/loop.h"
 #include "app/recent_files.h"
 #include "app/remembered.h"
@@ -36,13 +37,31 @@ void face_creature(Editor& editor) {
     orbit(editor.camera, Orbiting::turntable, {-0.2 * height, 0.09 * height}, editor.viewport);
 }
 
+// A session that is left is looked at from there when it is opened again.
+void leave_session(const std::filesystem::path& session, const Camera& camera) {
+    if (!session.empty()) keep_view(session, camera);
+}
+
+// The first look at what was opened.
+void look_at_opened(Loop& loop) {
+    Editor& editor = loop.editor;
+    set_up(editor.camera, standing_axis(editor.frame.positions()).value_or(loop.state.display.up));
+    if (loop.state.opening_demonstration) face_creature(editor);
+    apply(editor, FrameView{FrameWhat::everything});
+    if (loop.state.opening_demonstration || editor.document->session.empty()) return;
+    if (const auto view = kept_view(editor.document->session)) editor.camera = *view;
+}
+
 // Takes in what the document has made. Returns whether anything is new.
 bool take_news(Loop& loop) {
     Editor& editor = loop.editor;
+    const auto session_before = editor.document ? editor.document->session : std::filesystem::path();
+    const Camera camera_before = editor.camera;
     const bool was_opening = editor.opening != nullptr;
     const LiveDocument* before = editor.live.get();
     const bool changed = refresh(editor);
     if (was_opening && !editor.opening && editor.live.get() != before) {
+        leave_session(session_before, camera_before);
         const OpenRequest& request = editor.opening_request;
         if (request.restore)
             std::erase_if(loop.state.lost,
@@ -58,9 +77,7 @@ bool take_news(Loop& loop) {
         loop.state.playback.steps = 0; // where looking began was in the document before
         loop.state.playback.wanted.reset();
         lay_out(loop);
-        set_up(editor.camera, standing_axis(editor.frame.positions()).value_or(loop.state.display.up));
-        if (loop.state.opening_demonstration) face_creature(editor);
-        apply(editor, FrameView{FrameWhat::everything});
+        look_at_opened(loop);
         loop.frames_to_draw = 3;
     }
     if (changed && editor.document) place_colors(loop.state.handle_colors, editor.document->handles);
@@ -146,6 +163,7 @@ void run_editor(const EditorOptions& options) {
                                     {loop.window.drawn_by(), loop.state.measured.drawn, !loop.is_coarse});
         loop.frames_to_draw = std::max(0, loop.frames_to_draw - 1);
     }
+    if (loop.editor.document) leave_session(loop.editor.document->session, loop.editor.camera);
     // Whoever closes the window has saved what they wanted to keep.
     if (loop.editor.live) loop.editor.live->discard_journal();
 }

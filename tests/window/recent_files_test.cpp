@@ -1,5 +1,6 @@
 // What the window keeps of files from one run to the next.
 
+#include "app/kept_views.h"
 #include "app/recent_files.h"
 #include "support/scratch_folder.h"
 
@@ -30,6 +31,33 @@ protected:
     ScratchFolder folder_;
     std::string before_;
 };
+
+TEST_F(RecentFiles, ASessionIsLookedAtFromWhereItWasLeft) {
+    const std::filesystem::path a = folder_ / "a.knead", b = folder_ / "b.knead";
+    EXPECT_FALSE(kept_view(a));
+    Camera camera;
+    camera.pivot = {1.0 / 3, -2e-9, 4e5};
+    camera.distance = 0.07;
+    camera.orientation = glm::angleAxis(1.1, glm::normalize(glm::dvec3(1, 2, 3)));
+    camera.offset = {0.25, -0.125};
+    camera.orthographic = true;
+    camera.up = UpAxis::minus_y;
+    keep_view(a, camera);
+    keep_view(b, Camera{});
+    EXPECT_EQ(kept_view(folder_ / "." / "a.knead"), camera) << "to the last bit, by another name";
+    EXPECT_EQ(kept_view(b), Camera{});
+    camera.distance = 3;
+    keep_view(a, camera);
+    EXPECT_EQ(kept_view(a), camera) << "the newest";
+    write_text(folder_ / "state/knead/views",
+               "0 0 0 -1 1 0 0 0 0 0 0 0 " + a.string() + "\nnan " + b.string() + '\n');
+    EXPECT_FALSE(kept_view(a)) << "it stands nowhere";
+    EXPECT_FALSE(kept_view(b));
+    keep_view(b, camera);
+    std::vector<std::filesystem::path> recent;
+    forget_files(recent);
+    EXPECT_FALSE(kept_view(b));
+}
 
 TEST_F(RecentFiles, ASessionThatChoosesItsSamplesIsKnownAgain) {
     const std::filesystem::path a = folder_ / "a.knead", b = folder_ / "b.knead";

@@ -2,6 +2,7 @@
 // Private to this room: OpenGL objects that release themselves.
 
 #include <epoxy/gl.h>
+#include <glm/vec3.hpp>
 
 #include <utility>
 
@@ -82,5 +83,10 @@ using GlProgram = GlObject<gl::make_program, gl::release_program>;
 // A program of two shaders' texts; `defines` ("#define ROUND\n") go behind their #version lines. Breaks off
 // with the compiler's words if they do not compile, since they are part of knead.
 GlProgram make_program(const char* vertex, const char* fragment, const char* defines = "");
+
+// A uniform of the program in use.
+inline void set_vector(GLint location, const glm::vec3& v) {
+    glUniform3f(location, v.x, v.y, v.z);
+}
 
 } // namespace knead

@@ -8,10 +8,6 @@ namespace knead {
 
 namespace {
 
-void set_vector(GLint location, const glm::vec3& v) {
-    glUniform3f(location, v.x, v.y, v.z);
-}
-
 void set_uniforms(GLuint compose, const ScreenPass& pass) {
     const auto at = [compose](const char* name) { return glGetUniformLocation(compose, name); };
     glUniform1i(at("colors"), 0);

@@ -34,10 +34,6 @@ PointProgram make_point_program(bool shaded, Shape shape) {
     return {std::move(program), to_clip, size, growth, extremes, forward, key, pixel_size};
 }
 
-void set_vector(GLint location, const glm::vec3& v) {
-    glUniform3f(location, v.x, v.y, v.z);
-}
-
 template<typename Item>
 void upload(GLuint buffer, std::span<const Item> items) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer);

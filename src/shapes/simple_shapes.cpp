@@ -11,8 +11,6 @@ namespace knead {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double half_length = 2.5; // of bar and cylinder
-constexpr double half_width = 0.5;
 
 std::function<double(double)> rising_density(double gradient, double low, double high) {
     return [=](double u) { return gradient_density(gradient, (u - low) / (high - low)); };

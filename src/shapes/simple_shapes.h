@@ -7,6 +7,9 @@
 
 namespace knead {
 
+// Of the bar, the solid one too, and of the cylinder: along z and across, to each side.
+inline constexpr double half_length = 2.5, half_width = 0.5;
+
 // `gradient`: densest over sparsest, as in ShapeOptions.
 std::vector<SurfacePatch> plane_patches(double gradient);
 std::vector<SurfacePatch> bar_patches(double gradient);

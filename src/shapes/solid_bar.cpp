@@ -10,9 +10,6 @@ namespace knead {
 
 namespace {
 
-constexpr double half_length = 2.5;
-constexpr double half_width = 0.5;
-
 struct Layer {
     std::size_t first = 0;
     std::size_t points = 0;

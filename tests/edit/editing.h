@@ -3,6 +3,7 @@
 
 #include "edit/document.h"
 #include "shapes/shapes.h"
+#include "support/comparing.h"
 #include "upsample/devices.h"
 
 #include <gtest/gtest.h>
@@ -70,15 +71,6 @@ inline std::string refusal(Desk& desk, const std::string& lines) {
         return error.what();
     }
     return "accepted";
-}
-
-inline bool says(const std::string& words, const std::string& part) {
-    return words.find(part) != std::string::npos;
-}
-#define EXPECT_SAYS(words, part) EXPECT_PRED2(::knead::test::says, words, part)
-
-inline bool same_bits(std::span<const float> a, std::span<const float> b) {
-    return std::ranges::equal(std::as_bytes(a), std::as_bytes(b));
 }
 
 inline PointCloud made(Shape shape, std::size_t points) {

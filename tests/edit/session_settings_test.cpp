@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "edit/session.h"
+#include "support/comparing.h"
 
 #include <gtest/gtest.h>
 
@@ -17,12 +18,6 @@ std::string refusal_of_setting(const std::string& assignment) {
     }
     return "accepted";
 }
-
-bool says(const std::string& words, const char* part) {
-    return words.find(part) != std::string::npos;
-}
-
-#define EXPECT_SAYS(words, part) EXPECT_PRED2(says, words, part)
 
 TEST(SettingOfTheCommandLine, TakesJsonAndBareWords) {
     EXPECT_EQ(parse_setting("neighbors=8").neighbors, 8U);

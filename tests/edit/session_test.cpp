@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "edit/session.h"
+#include "support/comparing.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
@@ -42,12 +43,6 @@ std::string refusal(const std::string& line) {
     if (words.starts_with(place)) words.erase(0, place.size());
     return words;
 }
-
-bool says(const std::string& words, const char* part) {
-    return words.find(part) != std::string::npos;
-}
-
-#define EXPECT_SAYS(words, part) EXPECT_PRED2(says, words, part)
 
 // --- What is accepted
 

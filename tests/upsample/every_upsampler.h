@@ -3,12 +3,11 @@
 // device made to copy as a GPU does.
 
 #include "base/workers.h"
+#include "support/comparing.h"
 #include "upsample/devices.h"
 #include "upsample/scene.h"
 
 #include <gtest/gtest.h>
-
-#include <cstring>
 
 namespace knead::test {
 
@@ -48,11 +47,6 @@ inline std::string name_of_path(const ::testing::TestParamInfo<Path>& tested) {
     return tested.param == Path::reference ? "Reference"
            : tested.param == Path::device  ? "Device"
                                            : "DeviceWithOwnMemory";
-}
-
-inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
 }
 
 inline bool same_bits(const Posed& a, const Posed& b) {

@@ -4,6 +4,7 @@
 #include "app/window.h"
 #include "base/workers.h"
 #include "render/point_renderer.h"
+#include "support/comparing.h"
 #include "upsample/devices.h"
 #include "upsample/point_blocks.h"
 #include "upsample/scene.h"
@@ -12,7 +13,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <cstring>
 #include <thread>
 
 namespace knead::test {
@@ -24,10 +24,6 @@ std::vector<float> contents(unsigned buffer, std::size_t floats) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
     glGetBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(floats * sizeof(float)), values.data());
     return values;
-}
-
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
 // On the device that shares; null where none of them does.

@@ -138,15 +138,18 @@ std::string words_about_unused(const Arguments& arguments) {
     return words;
 }
 
-// A session may have any name, that of a picture, too.
-void refuse_pictures_over_session(const Arguments& arguments) {
+// Of a rehearsal, too. A session may have any name, that of a picture as well.
+void refuse_bad_pictures(const Arguments& arguments) {
     const auto refuse_if_session = [&](const std::filesystem::path& target) {
         std::error_code ignored;
         if (std::filesystem::equivalent(target, arguments.session, ignored))
             throw Error(Trouble::output, target.string(),
                         "is the session itself; give the picture another name");
     };
-    if (!arguments.pictures.picture.empty()) refuse_if_session(arguments.pictures.picture);
+    if (!arguments.pictures.picture.empty()) {
+        refuse_bad_picture(arguments.pictures.picture);
+        refuse_if_session(arguments.pictures.picture);
+    }
     const std::filesystem::path name = std::filesystem::path(arguments.session).filename();
     if (!arguments.pictures.frames.empty() && is_name_of_frame(name))
         refuse_if_session(arguments.pictures.frames / name);
@@ -155,7 +158,7 @@ void refuse_pictures_over_session(const Arguments& arguments) {
 int run_replay(const Arguments& arguments, Terminal& terminal) {
     ReplayOptions options = options_from(arguments);
     const Session session = read_session(arguments.session);
-    refuse_pictures_over_session(arguments);
+    refuse_bad_pictures(arguments);
     std::optional<ReplayPictures> pictures;
     if (arguments.pictures.wanted() && !arguments.dry_run) {
         pictures.emplace(arguments.pictures, terminal);

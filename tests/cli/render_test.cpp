@@ -220,8 +220,22 @@ TEST_F(Render, AReplayWhoseFramesCannotBePlacedSavesNothingElse) {
     EXPECT_EQ(files_in(folder / "frames"), std::vector<std::string>{"frame-000002.png"});
 }
 
+TEST_F(Render, NoPictureTakesThePlaceOfTheSession) {
+    const std::string session = read_text(folder / "s.knead");
+    const std::vector<std::string> commands[] = {{"replay", "frame-000001.png", "--frames", "."},
+                                                 {"replay", "s.png", "--picture", "./s.png"}};
+    for (const std::vector<std::string>& command : commands) {
+        write_text(folder / command[1], session);
+        const Outcome outcome = run_knead(command, folder.path());
+        EXPECT_EQ(outcome.code, 5);
+        EXPECT_NE(outcome.err.find("is the session itself"), std::string::npos) << outcome.err;
+        EXPECT_EQ(read_text(folder / command[1]), session);
+    }
+}
+
 TEST_F(Render, ARehearsalDrawsNothing) {
     EXPECT_EQ(replay({"--dry-run", "--picture", "a.png", "--frames", "frames"}).code, 0);
+    EXPECT_EQ(replay({"--dry-run", "--picture", "a.jpg"}).code, 2);
     EXPECT_EQ(files_in(folder.path()), (std::vector<std::string>{"bar.ply", "s.knead"}));
 }
 

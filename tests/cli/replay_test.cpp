@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 #include <thread>
@@ -249,6 +250,18 @@ TEST_F(Replay, RefusesCloudsThatAreNotTheRecordedOne) {
 TEST_F(Replay, RefusesSettingsOutOfRangeOnTheCommandLineToo) {
     session(edit);
     expect_failure(2, "poisson", {"--set", "poisson=0.5"});
+}
+
+// As a service is started. A kernel is built anew then, for which PoCL runs the linker.
+TEST_F(Replay, RunsWithNoEnvironmentAtAll) {
+    session(edit);
+    const std::string command = "cd " + folder.path().string() + " && env -i HOME=" + folder.path().string() +
+                                "/home " + knead_binary().string() + " replay s.knead --out out.ply 2> err";
+    std::filesystem::create_directory(folder / "home");
+    const int status = std::system(command.c_str()); // NOLINT(concurrency-mt-unsafe)
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0) << read_text(folder / "err");
+    EXPECT_TRUE(std::filesystem::exists(folder / "out.ply"));
 }
 
 // --- Checks and exit code 4

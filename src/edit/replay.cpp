@@ -224,6 +224,25 @@ private:
         if (document.is_posed()) checked_ = false;
     }
 
+    // Where all points lie in one place, D is 0, and only what lies just there holds.
+    static void compare(const Distances& distances, double diagonal, double tolerance,
+                        const std::string& other, CheckResult& result) {
+        const std::string point = "point " + std::to_string(distances.largest_index) + " lies ";
+        if (distances.incomparable > 0) {
+            result.words = "point " + std::to_string(distances.first_incomparable) +
+                           " is not finite in one of the two, the cloud and " + other;
+        } else if (diagonal > 0) {
+            result.distance = distances.largest / diagonal;
+            result.held = *result.distance <= tolerance;
+            if (!result.held)
+                result.words = point + words_beyond(*result.distance, tolerance, " D from " + other);
+        } else {
+            result.distance = distances.largest;
+            result.held = distances.largest == 0;
+            if (!result.held) result.words = point + "elsewhere than in " + other + ", and D is 0";
+        }
+    }
+
     void check(Document& document, const CheckLine& line, std::size_t number) {
         CheckResult result;
         result.line = number;
@@ -237,15 +256,7 @@ private:
         } else {
             const Distances distances =
                 distances_between(document.cloud(), document.positions(progress_), expected);
-            const double diagonal = document.bounds().diagonal();
-            result.distance = diagonal > 0 ? distances.largest / diagonal : distances.largest;
-            result.held = distances.incomparable == 0 && *result.distance <= line.tolerance;
-            if (distances.incomparable > 0)
-                result.words = "point " + std::to_string(distances.first_incomparable) +
-                               " is not finite in one of the two, the cloud and " + path.string();
-            else if (!result.held)
-                result.words = "point " + std::to_string(distances.largest_index) + " lies " +
-                               words_beyond(*result.distance, line.tolerance, " D from " + path.string());
+            compare(distances, document.bounds().diagonal(), line.tolerance, path.string(), result);
         }
         report_.checks.push_back(std::move(result));
     }

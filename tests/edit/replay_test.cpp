@@ -276,6 +276,25 @@ TEST(Replay, ACheckWithAPointThatIsNotFiniteFails) {
     EXPECT_FALSE(report.checks[0].held);
     EXPECT_FALSE(report.all_checks_held());
     EXPECT_SAYS(report.checks[0].words, "point 7 is not finite");
+    EXPECT_FALSE(report.checks[0].distance) << "they cannot be compared";
+}
+
+TEST(Replay, WhereAllPointsLieInOnePlaceACheckHoldsJustThere) {
+    const ScratchFolder folder;
+    SilentProgress progress;
+    for (const float x : {0.0F, 0.5F}) {
+        const std::vector<float> place{x, 1, 1};
+        write_cloud(folder / (x == 0 ? "there.ply" : "elsewhere.ply"), make_cloud(place), {}, progress);
+    }
+    const auto held = [&](const std::string& other) {
+        write_text(folder / "s.knead", R"({"knead":1,"cloud":{"path":"there.ply"}})"
+                                       "\n"
+                                       R"({"op":"check","positions":")" +
+                                           other + R"(.ply","tolerance":1})" + "\n");
+        return told(read_session(folder / "s.knead")).report.all_checks_held();
+    };
+    EXPECT_TRUE(held("there"));
+    EXPECT_FALSE(held("elsewhere")) << "D is 0, and so is any tolerance times D";
 }
 
 TEST(Replay, WarnsThatItReplacedItsOwnCloud) {

@@ -91,6 +91,7 @@ void end_naming(FileBrowser& browser) {
             folder.focus = true;
     } else if (folder.entered || folder.left || escaped) {
         if (folder.entered || escaped) browser.focus_name = true; // else the hand has it elsewhere already
+        forget_trouble(browser);
         folder = {};
     }
 }

@@ -63,6 +63,9 @@ struct FileBrowser {
 // Reads the folder, `entries` and `trouble` anew. Never throws.
 void read_folder(FileBrowser& browser);
 
+// What was wrong is so no longer.
+void forget_trouble(FileBrowser& browser);
+
 // The hand has typed `typed`: of a name, that is what is looked for in the folder; a path from the root or
 // from home leads to its folder, and its last part is what is looked for there. Nothing while something is
 // saved.

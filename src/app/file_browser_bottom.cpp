@@ -88,8 +88,7 @@ float bottom_height(const Ui& ui) {
 void choose(const Ui& ui) {
     FileBrowser& browser = ui.state.browser;
     if (browser.typed.empty()) return;
-    browser.trouble.clear();
-    browser.missing_folder.clear();
+    forget_trouble(browser);
     const std::filesystem::path file = chosen_path(browser);
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) {
@@ -137,7 +136,10 @@ void format_choice(const Ui& ui) {
             if (ImGui::Selectable(words_of(format).c_str(), &format == meant) && &format != meant)
                 take_format(browser, format);
         // Nothing else closes it over a dialog.
-        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
+        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+            ImGui::CloseCurrentPopup();
+            browser.name_changed_outside = true; // what is typed next is the name again
+        }
         ImGui::EndCombo();
     }
     explain(

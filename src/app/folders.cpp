@@ -97,7 +97,13 @@ void read_folder(FileBrowser& browser) {
     std::sort(browser.entries.begin(), browser.entries.end(), by_name);
 }
 
+void forget_trouble(FileBrowser& browser) {
+    browser.trouble.clear();
+    browser.missing_folder.clear();
+}
+
 void name_typed(FileBrowser& browser) {
+    forget_trouble(browser); // it was about another name
     if (!reads_file(browser.purpose)) return;
     const bool is_path = browser.typed.find('/') != std::string::npos || browser.typed.starts_with('~');
     browser.filter = is_path ? std::string() : browser.typed;
@@ -136,8 +142,7 @@ void go_to(FileBrowser& browser, const std::filesystem::path& place) {
 bool make_folder(FileBrowser& browser, const std::string& name) {
     const std::filesystem::path folder = browser.folder / name;
     std::error_code trouble;
-    browser.trouble.clear();
-    browser.missing_folder.clear();
+    forget_trouble(browser);
     if (std::filesystem::create_directory(folder, trouble)) {
         go_to(browser, folder);
         return true;
@@ -188,6 +193,7 @@ const Format* meant_format(const FileBrowser& browser) {
 
 void take_format(FileBrowser& browser, const Format& format) {
     browser.usual_extension = format.extensions.front();
+    forget_trouble(browser);
     if (!names_file(browser)) return;
     std::filesystem::path named(browser.typed);
     if (!lacks_extension(named)) named.replace_extension();

@@ -66,7 +66,8 @@ std::optional<Name> name_of(const Ui& ui, std::size_t number) {
     // The chosen one's stands above its gizmo, where that is about the handle and not at a joint elsewhere.
     const std::optional<GizmoPlace> gizmo = chosen ? gizmo_place(ui) : std::nullopt;
     if (gizmo && glm::distance(gizmo->center, name.label.anchor) < gizmo->radius)
-        name.label.rise = 1.3 * gizmo->radius + static_cast<double>(ui.scaled(10)) + 0.5 * name.label.size.y;
+        name.label.rise = name.label.anchor.y - gizmo->center.y + 1.3 * gizmo->radius +
+                          static_cast<double>(ui.scaled(10)) + 0.5 * name.label.size.y;
     return name;
 }
 

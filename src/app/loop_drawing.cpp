@@ -157,8 +157,8 @@ void save_picture(Loop& loop) {
     try {
         const Picture picture = loop.scene.picture(loop.editor, look_of(loop.state));
         write_png(*file, picture);
-        add_toast(loop.state, {Notice::Kind::information, "Saved picture " + file->filename().string() +
-                                                              " (" + std::to_string(picture.width) + " × " +
+        add_toast(loop.state, {Notice::Kind::information, "Saved picture " + file->string() + " (" +
+                                                              std::to_string(picture.width) + " × " +
                                                               std::to_string(picture.height) + ")"});
     } catch (const Error& error) {
         add_toast(loop.state, {Notice::Kind::error, error.what()});

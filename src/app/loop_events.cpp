@@ -178,11 +178,13 @@ bool leaves_field(const Loop& loop, const Input& input) {
     return pressed && is_for_file(*pressed);
 }
 
-// Whether this begins a move from where nobody knows yet: the handle was just made, or an undo takes it back.
+// Whether this begins a move, of a handle or its pivot, from where nobody knows yet: the handle was just
+// made, or an undo takes it back.
 bool moves_from_elsewhere(const Editor& editor, const Input& input) {
     const auto* pressed = std::get_if<KeyPress>(&input);
-    if (!pressed || pressed->held.ctrl || pressed->held.alt) return false;
-    if (pressed->key != key('G') && pressed->key != key('R') && pressed->key != key('S')) return false;
+    if (!pressed || pressed->held.ctrl) return false;
+    const bool moves = pressed->key == key('G') || pressed->key == key('R') || pressed->key == key('S');
+    if (!(moves && !pressed->held.alt) && pressed->key != key('.')) return false;
     return !editor.tools.drag && !editor.status.playing && handles_may_be_elsewhere(editor);
 }
 

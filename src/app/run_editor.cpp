@@ -45,7 +45,9 @@ void leave_session(const std::filesystem::path& session, const Camera& camera) {
 // The first look at what was opened.
 void look_at_opened(Loop& loop) {
     Editor& editor = loop.editor;
-    set_up(editor.camera, standing_axis(editor.frame.positions()).value_or(loop.state.display.up));
+    // As the cloud stood before it was posed.
+    const auto standing = standing_axis(editor.opened.opened->positions);
+    set_up(editor.camera, standing.value_or(loop.state.display.up));
     if (loop.state.opening_demonstration) face_creature(editor);
     apply(editor, FrameView{FrameWhat::everything});
     if (loop.state.opening_demonstration || editor.document->session.empty()) return;

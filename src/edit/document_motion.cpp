@@ -30,7 +30,7 @@ void refuse_absurd(const HandleMotion& motion, double diagonal, std::size_t fram
     if (sane) return;
     // By hand it is no frame of a file.
     const std::string what =
-        place.empty() ? "this" : "\"frames\": frame " + std::to_string(frame) + " (from 0)";
+        place.empty() ? "This" : "\"frames\": frame " + std::to_string(frame) + " (from 0)";
     throw Error(Trouble::input, place, what + " sends the handle out of all range");
 }
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 namespace knead {
 
@@ -211,13 +212,29 @@ std::string words_about(const MirrorPlane& plane, double place) {
                                               : ", where the cloud is most like its mirror image");
 }
 
-// Mirrored once more to where it was mirrored before, it takes the place of what that made.
-std::string name_of_mirrored(const Editor& editor, const Handle& handle, const std::vector<Index>& points) {
+// Whether a good part of these are the same points; both ascend. The shape that a handle was mirrored in may have been
+// bent since, and the plane lie elsewhere.
+bool are_alike(const std::vector<Index>& a, const std::vector<Index>& b) {
+    std::vector<Index> both;
+    std::ranges::set_intersection(a, b, std::back_inserter(both));
+    return 4 * both.size() > std::max(a.size(), b.size());
+}
+
+// The line of a mirrored handle. Mirrored once more to where it was mirrored before, it is the one that was
+// made then.
+HandleLine line_of_mirrored(const Editor& editor, const Handle& handle, const std::vector<Index>& points) {
+    HandleLine line = line_of(handle);
+    line.color.reset(); // it has its own
+    line.points = ranges_of(points);
     for (unsigned number = 1;; ++number) {
-        std::string name = handle.name + " mirrored" + (number > 1 ? " " + std::to_string(number) : "");
-        const auto there = number_of(editor, name);
-        if (is_free(editor, name) || (there && *editor.document->handles[*there].points == points))
-            return name;
+        line.name = handle.name + " mirrored" + (number > 1 ? " " + std::to_string(number) : "");
+        if (is_free(editor, line.name)) return line;
+        const auto there = number_of(editor, line.name);
+        if (!there || !are_alike(*editor.document->handles[*there].points, points)) continue;
+        const Handle& twin = editor.document->handles[*there];
+        line.color = twin.color;
+        line.points = ranges_of(*twin.points);
+        return line;
     }
 }
 
@@ -259,11 +276,7 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     if (!plane.is_middle)
         say(editor, Notice::Kind::information, "Mirrored across " + words_about(plane, place) + ".");
     const HandleMotion motion = motion_now(editor, *number);
-    HandleLine line = line_of(handle);
-    line.name = name_of_mirrored(editor, handle, points);
-    const auto there = number_of(editor, line.name); // its colour is its own
-    line.color = there ? editor.document->handles[*there].color : std::nullopt;
-    line.points = ranges_of(points);
+    HandleLine line = line_of_mirrored(editor, handle, points);
     const auto pivot = pivot_of(editor, command.handle);
     const auto over_there = [&](const Vec3d& p) { return mirrored(p, plane, across.shift); };
     line.pivot = std::nullopt;

@@ -46,10 +46,19 @@ std::string& name_of(SessionAction& line) {
 // Posts handles as one step. `besides`: what else is to be said of them.
 void post_handles(Editor& editor, std::vector<SessionAction> lines, const std::string& besides) {
     const std::size_t count = lines.size();
-    std::vector<std::string> names;
-    for (SessionAction& line : lines) names.push_back(name_of(line));
+    std::vector<HandleLine> made;
+    for (const SessionAction& line : lines) {
+        HandleLine& named = made.emplace_back(); // of what is known at once
+        named.name = std::get<HandleLine>(line).name;
+        named.pivot = std::get<HandleLine>(line).pivot;
+    }
     const StepNumber step = post_step(editor, std::move(lines));
-    for (std::string& name : names) editor.posted_names.emplace_back(step, std::move(name));
+    for (HandleLine& line : made) {
+        if (line.pivot)
+            put_pivot_with(editor.past.back(), editor, line.name,
+                           to_glm(*line.pivot - editor.opened.cloud->origin));
+        editor.posted_names.emplace_back(step, std::move(line.name));
+    }
     say(editor, Notice::Kind::information, "Made " + counted(count, "handle") + "." + besides);
 }
 
@@ -122,6 +131,10 @@ std::vector<SessionAction> with_points(const Editor& editor, const Session& sess
         const float* p = editor.frame.positions().data() + 3 * std::size_t{at};
         return cloud.origin + Vec3f(p[0], p[1], p[2]).cast<double>();
     };
+    const auto acts = acts_after(session.lines).done;
+    const bool is_at_rest = !editor.document->rest && std::ranges::none_of(acts, [](const StandingAct& act) {
+        return std::holds_alternative<CommitLine>(act.line->action);
+    });
     std::vector<SessionAction> lines;
     for (const auto& [name, from] : handles) {
         HandleLine line = std::get<HandleLine>(from->action);
@@ -130,7 +143,7 @@ std::vector<SessionAction> with_points(const Editor& editor, const Session& sess
             append_point(ranges, i);
         line.points = std::move(ranges);
         line.name = name;
-        line.pivot = std::nullopt; // that was told of another shape
+        if (!is_at_rest) line.pivot = std::nullopt; // it was told of another shape
         lines.emplace_back(std::move(line));
     }
     return lines;

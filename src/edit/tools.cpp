@@ -62,10 +62,11 @@ void end_camera(const Hand& hand) {
     }
 }
 
-void hover(const Hand& hand) {
+// With Shift held a press would select.
+void hover(const Hand& hand, Modifiers held) {
     const ToolContext& context = hand.context;
     hand.tools.hovered.reset();
-    if (context.gizmo)
+    if (context.gizmo && !held.shift)
         hand.tools.hovered =
             gizmo_part_under(*context.gizmo, context.camera, context.viewport, hand.tools.cursor);
 }
@@ -82,7 +83,7 @@ bool move_to(const Hand& hand, glm::dvec2 cursor, Modifiers held) {
     else if (tools.doing == Doing::selecting)
         extend_band(tools);
     else
-        hover(hand);
+        hover(hand, held);
     return tools.doing != Doing::nothing || tools.hovered;
 }
 
@@ -100,7 +101,7 @@ void press_left(const Hand& hand, const MousePress& press) {
     tools.button = press.button;
     tools.clicks = press.clicks;
     tools.moved = false;
-    if (tools.hovered && !press.held.shift)
+    if (tools.hovered)
         begin_drag(hand, GizmoPart(*tools.hovered), false);
     else
         begin_band(hand, press.held);
@@ -152,7 +153,7 @@ bool take(const Hand& hand, const MouseRelease& release) {
                !draws_polygon(tools)) {
         end_band(hand);
     }
-    if (tools.doing == Doing::nothing) hover(hand);
+    if (tools.doing == Doing::nothing) hover(hand, release.held);
     return busy;
 }
 

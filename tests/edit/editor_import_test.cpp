@@ -158,6 +158,26 @@ TEST_F(Import, ASessionGivesTheHandlesThatItEndsWith) {
     EXPECT_TRUE(editor_.document->handles.empty());
 }
 
+TEST_F(Import, ASessionGivesThePivotsOfTheSameShape) {
+    const std::string arm =
+        R"({"op":"handle","name":"arm","role":"moving","points":[8],"pivot":[0.5,0.25,1]})"
+        "\n";
+    handles_from_session(editor_, session(arm));
+    calm();
+    ASSERT_TRUE(handle("arm") && handle("arm")->pivot);
+    EXPECT_EQ(*handle("arm")->pivot, Vec3d(0.5, 0.25, 1));
+    const Vec3d there = Vec3d(0.5, 0.25, 1) - editor_.opened.cloud->origin;
+    ASSERT_TRUE(pivot_of(editor_, "arm"));
+    EXPECT_LT(glm::distance(*pivot_of(editor_, "arm"), glm::dvec3(there.x(), there.y(), there.z())), 1e-12);
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_FALSE(pivot_of(editor_, "arm"));
+    handles_from_session(editor_, session(arm + R"({"op":"commit"})" + "\n"));
+    calm();
+    ASSERT_TRUE(handle("arm"));
+    EXPECT_FALSE(handle("arm")->pivot) << "told of another shape, for all that is known";
+}
+
 TEST_F(Import, TakesNoHandleThePlaceOfAnotherOfItsName) {
     const std::filesystem::path other = session(R"({"op":"handle","name":"a","role":"fixed","points":[0]}
 {"op":"handle","name":"b","role":"moving","points":[8]}

@@ -52,6 +52,25 @@ TEST_F(BarEditor, MirroringAnotherPoseOntoTheSameTwinCommitsNeither) {
     EXPECT_NEAR(degrees(2), 40, 1e-7);
 }
 
+// The first time the pose is committed with the twin's making, and the shape is no mirror image of itself
+// then.
+TEST_F(BarEditor, MirroringOnInABentShapeTakesTheTwinThatIsThere) {
+    make_handles();
+    transform_chosen('R', 'X', "25");
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    apply(editor_, CommitPose{});
+    calm();
+    apply(editor_, ChooseHandle{"high"});
+    transform_chosen('R', 'X', "20");
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    ASSERT_EQ(editor_.document->handles.size(), 3U);
+    for (const std::size_t handle : {1U, 2U})
+        EXPECT_NEAR(Eigen::AngleAxisd(editor_.document->motions[handle].rotation).angle() * 180 / pi, 20,
+                    1e-7);
+}
+
 // Also by more than half a turn, which by the shortest way would be less the other way round.
 TEST_F(BarEditor, AMirroredHandleIsWoundUpAsTheOtherIs) {
     editor_.camera.orthographic = true;

@@ -9,9 +9,18 @@
 
 namespace knead {
 
+namespace {
+
+// The least that is told apart.
+double unit_of(const Ui& ui) {
+    return std::max(ui.editor.opened.bounds.diagonal(), DBL_MIN) / 1e4;
+}
+
+} // namespace
+
 std::string length_format(const Ui& ui, double value) {
     constexpr int room = 7; // for digits
-    const double unit = std::max(ui.editor.opened.bounds.diagonal(), DBL_MIN) / 1e4;
+    const double unit = unit_of(ui);
     const int wanted = std::max(0, static_cast<int>(std::ceil(-std::log10(unit))));
     const int before = std::max(1, static_cast<int>(std::floor(std::log10(std::abs(value) + 1e-9))) + 1);
     if (wanted >= room || before > room + 1) return "%.3g";
@@ -22,6 +31,7 @@ std::string extent_text(const Ui& ui, const Bounds& bounds) {
     const Vec3d size = bounds.highest - bounds.lowest, middle = (bounds.lowest + bounds.highest) / 2;
     std::string words = "Size: ";
     const auto add = [&](double length, const char* behind) {
+        if (std::abs(length) < 0.5 * unit_of(ui)) length = 0; // no "-0.0"
         char number[48];
         std::snprintf(number, sizeof number, length_format(ui, length).c_str(), length);
         words.append(number).append(behind);

@@ -43,6 +43,12 @@ TEST_F(Extents, OfABoxAreItsSizeAndItsMiddle) {
               "Size: 1.0000 × 2.0000 × 4.0000\nMiddle: 100.5000, 1.0000, 2.0000");
 }
 
+TEST_F(Extents, NoNothingIsBelowZero) {
+    editor.opened.bounds = {Vec3d(-1, -1, -1.00001), Vec3d(1, 1, 1)};
+    EXPECT_EQ(extent_text(ui, editor.opened.bounds),
+              "Size: 2.0000 × 2.0000 × 2.0000\nMiddle: 0.0000, 0.0000, 0.0000");
+}
+
 TEST_F(Extents, LengthsHaveAsManyDigitsAsTellPartsOfTheCloudApart) {
     EXPECT_EQ(length_format(ui, 1), "%.4f");
     EXPECT_EQ(length_format(ui, 612345), "%.1f");

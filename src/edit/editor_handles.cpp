@@ -1,16 +1,12 @@
-// What the editor does to handles: making, changing, mirroring and dragging them.
+// What the editor does to handles: making, choosing and changing them. How they are posed is
+// editor_poses.cpp.
 
 #include "base/counts.h"
 #include "base/quoted.h"
 #include "edit/editor_steps.h"
 #include "edit/handle_lines.h"
-#include "edit/handle_motion.h"
-#include "edit/mirroring.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <iterator>
 
 namespace knead {
 
@@ -26,14 +22,6 @@ std::string_view word_for(HandleRole role) {
         break;
     }
     return "handle";
-}
-
-std::optional<std::size_t> number_of(const Editor& editor, const std::string& name) {
-    if (!editor.document) return std::nullopt;
-    const auto& handles = editor.document->handles;
-    const auto found = std::ranges::find(handles, name, &Handle::name);
-    if (found == handles.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - handles.begin());
 }
 
 void post_edit(Editor& editor, HandleEdit edit, std::shared_ptr<const KeptMarks> marks_before) {
@@ -94,6 +82,14 @@ void tell_who_is_robbed(Editor& editor, HandleRole role, const std::string& name
 }
 
 } // namespace
+
+std::optional<std::size_t> number_of(const Editor& editor, const std::string& name) {
+    if (!editor.document) return std::nullopt;
+    const auto& handles = editor.document->handles;
+    const auto found = std::ranges::find(handles, name, &Handle::name);
+    if (found == handles.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - handles.begin());
+}
 
 bool is_free(const Editor& editor, const std::string& name) {
     return !number_of(editor, name) && std::ranges::none_of(editor.posted_names, [&](const auto& posted) {
@@ -199,194 +195,6 @@ void carry_out(Editor& editor, const SelectHandlePoints& command) {
     for (const Index i : *editor.document->handles[*number].points)
         if (editor.ordered[i] != no_index) inside[editor.ordered[i]] = 1;
     change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });
-}
-
-// --- Poses that are not dragged ----------------------------------------------------------------------------
-
-namespace {
-
-std::string words_about(const MirrorPlane& plane, double place) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%c = %.4g", "xyz"[plane.axis], place);
-    return text + std::string(plane.is_middle ? ", the middle of the cloud"
-                                              : ", where the cloud is most like its mirror image");
-}
-
-// Whether a good part of these are the same points; both ascend. The shape that a handle was mirrored in may have been
-// bent since, and the plane lie elsewhere.
-bool are_alike(const std::vector<Index>& a, const std::vector<Index>& b) {
-    std::vector<Index> both;
-    std::ranges::set_intersection(a, b, std::back_inserter(both));
-    return 4 * both.size() > std::max(a.size(), b.size());
-}
-
-// The line of a mirrored handle. Mirrored once more to where it was mirrored before, it is the one that was
-// made then.
-HandleLine line_of_mirrored(const Editor& editor, const Handle& handle, const std::vector<Index>& points) {
-    HandleLine line = line_of(handle);
-    line.color.reset(); // it has its own
-    line.points = ranges_of(points);
-    for (unsigned number = 1;; ++number) {
-        line.name = handle.name + " mirrored" + (number > 1 ? " " + std::to_string(number) : "");
-        if (is_free(editor, line.name)) return line;
-        const auto there = number_of(editor, line.name);
-        if (!there || !are_alike(*editor.document->handles[*there].points, points)) continue;
-        const Handle& twin = editor.document->handles[*there];
-        line.color = twin.color;
-        line.points = ranges_of(*twin.points);
-        return line;
-    }
-}
-
-// Where the points are in this edit while no handle is moved.
-std::span<const float> rest_positions(const Editor& editor) {
-    if (editor.document->rest) return editor.document->rest->positions;
-    if (editor.document->posed) return editor.opened.opened->positions;
-    return editor.frame.positions();
-}
-
-} // namespace
-
-void carry_out(Editor& editor, const ResetPose& command) {
-    const auto number = number_of(editor, command.handle);
-    if (!number || editor.document->handles[*number].role != HandleRole::moving) return;
-    if (!is_or_will_be_posed(editor)) return;
-    EditorStep step = coming_step(editor, ++editor.last_step);
-    editor.live->reset_pose(step.document, command.handle);
-    add_step(editor, std::move(step));
-    if (const auto pivot = pivot_of(editor, command.handle)) {
-        const Vec3d at_rest = point_at_rest(motion_now(editor, *number), to_eigen(*pivot));
-        put_pivot_with(editor.past.back(), editor, command.handle, to_glm(at_rest));
-    }
-}
-
-void carry_out(Editor& editor, const MirrorHandle& command) {
-    const auto number = number_of(editor, command.handle);
-    if (!number) return;
-    const Handle& handle = editor.document->handles[*number];
-    const std::span<const float> positions = rest_positions(editor);
-    const MirrorPlane plane = mirror_plane(positions, command.axis, editor.opened.spacing);
-    const PartAcross across = part_across(editor, positions, handle, plane, 3 * editor.opened.spacing);
-    const std::vector<Index>& points = across.points;
-    const double place = plane.at + editor.opened.cloud->origin[command.axis];
-    if (points.empty())
-        return say(editor, Notice::Kind::error,
-                   "There is nothing across " + words_about(plane, place) + ", where " + quoted(handle.name) +
-                       " would be mirrored to.");
-    if (!plane.is_middle)
-        say(editor, Notice::Kind::information, "Mirrored across " + words_about(plane, place) + ".");
-    const HandleMotion motion = motion_now(editor, *number);
-    HandleLine line = line_of_mirrored(editor, handle, points);
-    const auto pivot = pivot_of(editor, command.handle);
-    const auto over_there = [&](const Vec3d& p) { return mirrored(p, plane, across.shift); };
-    line.pivot = std::nullopt;
-    if (pivot) line.pivot = over_there(point_at_rest(motion, to_eigen(*pivot))) + editor.opened.cloud->origin;
-    const std::string name = line.name;
-    if (handle.role == HandleRole::moving && leaves_rest(motion)) {
-        PoseOfAnother pose{handle.name,
-                           [=](const HandleMotion& seen) { return mirrored(seen, plane, across.shift); }};
-        EditorStep step = coming_step(editor, ++editor.last_step);
-        editor.live->make_posed(step.document, std::move(line), std::move(pose));
-        add_step(editor, std::move(step));
-    } else {
-        post_step(editor, {std::move(line)});
-        if (handle.role == HandleRole::moving)
-            say(editor, Notice::Kind::information,
-                "Only the handle was mirrored: " + quoted(handle.name) +
-                    " is where it was at rest, so there is no pose to mirror.");
-    }
-    put_pivot_with(editor.past.back(), editor, name,
-                   pivot ? std::optional(to_glm(over_there(to_eigen(*pivot)))) : std::nullopt);
-    editor.posted_names.emplace_back(editor.last_step, name);
-    choose_with_step(editor, name);
-}
-
-// --- Dragging ---
-
-void forget_drag(Editor& editor, StepNumber step) {
-    if (editor.drag && editor.drag->step == step) editor.drag.reset();
-    std::erase_if(editor.earlier_drags, [&](const EditorDrag& drag) { return drag.step == step; });
-}
-
-void carry_out(Editor& editor, const BeginDrag& command) {
-    const auto number = number_of(editor, editor.chosen);
-    if (!number || editor.document->handles[*number].role != HandleRole::moving) return;
-    if (editor.drag && !editor.drag->ended) return; // one at a time
-    const ChosenPose pose = *pose_of_chosen(editor);
-    EditorDrag drag;
-    drag.step = ++editor.last_step;
-    drag.handle = editor.chosen;
-    drag.middle = pose.pivot;
-    drag.motion = {pose.motion, pose.motion};
-    EditorStep step = coming_step(editor, drag.step);
-    step.is_drag = true;
-    editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin);
-    if (editor.drag) editor.earlier_drags.push_back(std::move(*editor.drag));
-    editor.drag = std::move(drag);
-    add_step(editor, std::move(step));
-}
-
-void carry_out(Editor& editor, const DragTo& command) {
-    if (!editor.drag || editor.drag->ended) return;
-    Transform transform = command.transform;
-    transform.angle = within_turns(transform.angle);
-    carry_on(editor.drag->motion, transform);
-    editor.drag->transform = transform;
-    editor.live->drag_to(transform);
-}
-
-void carry_out(Editor& editor, const EndDrag& /*command*/) {
-    if (!editor.drag || editor.drag->ended) return;
-    editor.drag->ended = true;
-    const glm::dvec3 middle = transformed(editor.drag->transform, editor.drag->middle);
-    if (editor.chosen == editor.drag->handle) editor.handle_middle = middle;
-    // What the gizmo stands on went along, be it the pivot or the middle.
-    const auto step = std::ranges::find(editor.past, editor.drag->step, &EditorStep::document);
-    if (step != editor.past.end() && pivot_of(editor, editor.drag->handle))
-        put_pivot_with(*step, editor, editor.drag->handle, middle);
-    editor.live->end_drag();
-}
-
-void carry_out(Editor& editor, const CancelDrag& /*command*/) {
-    if (!editor.drag || editor.drag->ended) return;
-    const auto step = std::ranges::find(editor.past, editor.drag->step, &EditorStep::document);
-    if (step != editor.past.end()) {
-        if (step + 1 == editor.past.end()) editor.future = std::move(step->undone);
-        editor.past.erase(step);
-    }
-    editor.drag.reset();
-    editor.live->cancel_drag();
-}
-
-namespace {
-
-std::string words_about_nothing_chosen(const Editor& editor) {
-    if (looks_back(editor))
-        return "An earlier step is shown: Esc leads back to where you were, and Space plays on from here.";
-    if (!editor.document) return {};
-    const auto is_moving = [](const Handle& handle) { return handle.role == HandleRole::moving; };
-    if (std::ranges::any_of(editor.document->handles, is_moving))
-        return "No handle is chosen: click a moving one, in the view or in the list.";
-    return next_step(editor);
-}
-
-} // namespace
-
-void carry_out(Editor& editor, const RefuseTransform& command) {
-    const Handle* chosen = chosen_handle(editor);
-    if (!chosen) return say(editor, Notice::Kind::information, words_about_nothing_chosen(editor));
-    if (chosen->role != HandleRole::moving)
-        return say(editor, Notice::Kind::information,
-                   quoted(chosen->name) +
-                       " is no moving handle: choose one that is, or right-click this one in "
-                       "the list to make it one.");
-    if (!gizmo_of(editor)) return;
-    const bool scales = command.kind == TransformKind::scale;
-    say(editor, Notice::Kind::information,
-        (scales ? "Scaling \"" : "Turning \"") + editor.chosen +
-            "\" about itself changes nothing: it is one point that leaves rotation free. Move it with G; or "
-            "right-click it in the list and tick \"Holds rotation\", to " +
-            (scales ? "scale" : "turn") + " what is around it.");
 }
 
 } // namespace knead

@@ -28,6 +28,9 @@ void add_step(Editor& editor, EditorStep step) noexcept;
 StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
                      std::shared_ptr<const KeptMarks> marks_before = nullptr);
 
+// Of the document's handle of this name, as far as the document is known; nothing: it has none.
+std::optional<std::size_t> number_of(const Editor& editor, const std::string& name);
+
 // Whether no handle has this name, of the document's and of those that are on their way there.
 bool is_free(const Editor& editor, const std::string& name);
 

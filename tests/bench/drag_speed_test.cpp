@@ -37,7 +37,8 @@ TEST(DragSpeed, FewSamplesComeToTheSameRest) {
 
     const auto json = nlohmann::json::parse(drag_speeds_json(speeds));
     EXPECT_EQ(json["rows"][0]["coarse"]["last_step"]["rms"].get<double>(), row.coarse.last_step.rms);
-    EXPECT_EQ(json["region"]["with"]["upsample_seconds"]["median"].get<double>(), speeds.region.region.upsample.median);
+    EXPECT_EQ(json["region"]["with"]["upsample_seconds"]["median"].get<double>(),
+              speeds.region.region.upsample.median);
     EXPECT_NE(drag_speeds_text(speeds).find("8,000 points"), std::string::npos);
 }
 

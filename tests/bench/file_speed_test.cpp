@@ -30,7 +30,8 @@ TEST(FileSpeed, MeasuresEveryFormatAndLeavesNothing) {
     const auto json = nlohmann::json::parse(file_speed_json(speed));
     ASSERT_EQ(json["formats"].size(), speed.formats.size());
     const auto& ply = json["formats"][0];
-    EXPECT_DOUBLE_EQ(ply["load"]["megabytes_per_second"].get<double>() * ply["load"]["seconds"]["median"].get<double>(),
+    EXPECT_DOUBLE_EQ(ply["load"]["megabytes_per_second"].get<double>() *
+                         ply["load"]["seconds"]["median"].get<double>(),
                      1e-6 * ply["bytes"].get<double>());
     const std::string text = file_speed_text(speed);
     for (const std::string& extension : extensions) EXPECT_NE(text.find(extension), std::string::npos);

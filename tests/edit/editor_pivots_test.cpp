@@ -4,6 +4,20 @@
 
 namespace knead::test {
 
+namespace {
+
+// As a window would that comes after. False if it does not come up.
+bool open_in(Editor& editor, const std::filesystem::path& session) {
+    editor.viewport = {800, 800};
+    OpenRequest request;
+    request.file = session;
+    request.device = "reference";
+    open(editor, request);
+    return wait_until([&] { return refresh(editor) && editor.document; });
+}
+
+} // namespace
+
 TEST_F(BarEditor, EveryHandleKeepsItsPivotAndTakesItAlong) {
     make_handles();
     select_heights(-0.5, 0.5);
@@ -67,12 +81,7 @@ TEST_F(BarEditor, PivotsAreThereWhenTheSessionIsOpenedAgain) {
         save_session(editor_, kept, true);
         calm();
         Editor again{1};
-        again.viewport = {800, 800};
-        OpenRequest request;
-        request.file = kept;
-        request.device = "reference";
-        open(again, request);
-        ASSERT_TRUE(wait_until([&] { return refresh(again) && again.document; }));
+        ASSERT_TRUE(open_in(again, kept));
         ASSERT_TRUE(pivot_of(again, "high"));
         EXPECT_LT(glm::distance(*pivot_of(again, "high"), pivot), 1e-6);
         EXPECT_FALSE(pivot_of(again, "middle"));
@@ -98,12 +107,7 @@ TEST_F(BarEditor, APivotIsSavedWithOrWithoutADragAndGoesBackAndForthWhenOpenedAg
     save_session(editor_, kept, true);
     calm();
     Editor again{1};
-    again.viewport = {800, 800};
-    OpenRequest request;
-    request.file = kept;
-    request.device = "reference";
-    open(again, request);
-    ASSERT_TRUE(wait_until([&] { return refresh(again) && again.document; }));
+    ASSERT_TRUE(open_in(again, kept));
     const auto is_at = [&](const std::optional<glm::dvec3>& place) {
         const auto now = pivot_of(again, "high");
         return now.has_value() == place.has_value() && (!now || glm::distance(*now, *place) < 1e-6);

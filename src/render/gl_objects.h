@@ -1,8 +1,9 @@
 #pragma once
 // Private to this room: OpenGL objects that release themselves.
 
+#include "view/camera.h"
+
 #include <epoxy/gl.h>
-#include <glm/vec3.hpp>
 
 #include <utility>
 

@@ -264,8 +264,9 @@ TEST_F(WindowTest, WhatIsTypedCountsBeforeTheHandGoesOn) {
     pause(0.7);
     desktop_->keys({"Escape"});
     EXPECT_TRUE(wait_for_act("rename", 1));
+    pause(0.7); // the dialog is gone
     desktop_->keys({"F2"});
-    pause(0.5);
+    pause(0.7);
     desktop_->type("sole");
     desktop_->drag(1, round(-0.2, 0.2, 0.7, 1.0)); // nor here
     desktop_->keys({"h"});

@@ -57,9 +57,10 @@ void look_at_opened(Loop& loop) {
 // Takes in what the document has made. Returns whether anything is new.
 bool take_news(Loop& loop) {
     Editor& editor = loop.editor;
-    const auto session_before = editor.document ? editor.document->session : std::filesystem::path();
-    const Camera camera_before = editor.camera;
     const bool was_opening = editor.opening != nullptr;
+    std::filesystem::path session_before;
+    if (was_opening && editor.document) session_before = editor.document->session;
+    const Camera camera_before = editor.camera;
     const LiveDocument* before = editor.live.get();
     const bool changed = refresh(editor);
     if (was_opening && !editor.opening && editor.live.get() != before) {

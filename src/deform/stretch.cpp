@@ -102,9 +102,8 @@ Mat3d elastic_target(const Surroundings& surroundings, const Mat3d& gradient, do
     });
     const double thickness = surroundings.thickness;
     const double ratio = (1 - thickness) * poisson + thickness * poisson / (1 - poisson);
-    const double of_shape = 1 - ratio,
-                 of_size =
-                     1 + (1 + thickness) * ratio; // of M, which has no others on a surface and in a solid
+    // M's eigenvalues; on a surface and in a solid it has no others.
+    const double of_shape = 1 - ratio, of_size = 1 + (1 + thickness) * ratio;
     const double loose = surroundings.looseness, stiffest = std::max(of_shape, of_size);
     const double scale = std::min(1 / (1 + loose), most_answered / (stiffest * (1 + loose * most_answered)));
     const auto answer = [&](double stiffness) { return scale * stiffness / (1 - scale * loose * stiffness); };

@@ -16,7 +16,7 @@
 
 namespace knead {
 
-// Where handles have their joints, by their names.
+// Where handles have their joints, by their names; in whose coordinates says who has them.
 using Pivots = std::map<std::string, Vec3d>;
 
 // What the frames of a document cost, for whoever wants to know; times in seconds.
@@ -190,7 +190,7 @@ private:
         std::shared_ptr<const HandleChange> change; // of the handles; null: none
         std::shared_ptr<Committed> rest;            // null: as opened
         std::shared_ptr<Posed> posed;               // null: nothing was dragged in this edit
-        std::shared_ptr<const Pivots> pivots;       // as Handle::pivot; null: no line told of any
+        std::shared_ptr<const Pivots> pivots;       // at rest, as Handle::pivot; null: no line told of any
     };
 
     // What a frame of a drag needs to know of those before it, or an iteration of settling.

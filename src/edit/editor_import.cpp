@@ -46,18 +46,13 @@ std::string& name_of(SessionAction& line) {
 // Posts handles as one step. `besides`: what else is to be said of them.
 void post_handles(Editor& editor, std::vector<SessionAction> lines, const std::string& besides) {
     const std::size_t count = lines.size();
-    std::vector<HandleLine> made;
-    for (const SessionAction& line : lines) {
-        HandleLine& named = made.emplace_back(); // of what is known at once
-        named.name = std::get<HandleLine>(line).name;
-        named.pivot = std::get<HandleLine>(line).pivot;
-    }
+    std::vector<std::pair<std::string, std::optional<Vec3d>>> made; // names and pivots
+    for (SessionAction& line : lines) made.emplace_back(name_of(line), std::get<HandleLine>(line).pivot);
     const StepNumber step = post_step(editor, std::move(lines));
-    for (HandleLine& line : made) {
-        if (line.pivot)
-            put_pivot_with(editor.past.back(), editor, line.name,
-                           to_glm(*line.pivot - editor.opened.cloud->origin));
-        editor.posted_names.emplace_back(step, std::move(line.name));
+    for (auto& [name, pivot] : made) {
+        if (pivot)
+            put_pivot_with(editor.past.back(), editor, name, to_glm(*pivot - editor.opened.cloud->origin));
+        editor.posted_names.emplace_back(step, std::move(name));
     }
     say(editor, Notice::Kind::information, "Made " + counted(count, "handle") + "." + besides);
 }

@@ -13,8 +13,11 @@ std::optional<glm::dvec3> pivot_of(const Editor& editor, const std::string& hand
 
 namespace {
 
-Vec3d file_place(const Editor& editor, const glm::dvec3& place) {
-    return to_eigen(place) + editor.opened.cloud->origin;
+// Whether a document that has heard of all steps would find nothing to change: no line told of the pivot that
+// goes, which was known by where the handle was dragged about.
+bool is_of_no_line(const Editor& editor, const PivotMove& move) {
+    const auto number = number_of(editor, move.handle);
+    return !move.after && !has_pending_steps(editor) && number && !editor.document->handles[*number].pivot;
 }
 
 } // namespace
@@ -47,10 +50,12 @@ void carry_out(Editor& editor, const SetPivot& command) {
     put_pivot(editor, move.handle, move.after);
     if (command.stage == SetPivot::Stage::moving) return;
     if (move.after != move.before) {
-        EditorStep step = coming_step(editor, ++editor.last_step);
+        EditorStep step = coming_step(editor, is_of_no_line(editor, move) ? 0 : ++editor.last_step);
+        step.chosen_before = step.chosen_after = move.handle;
         step.pivots.push_back(move);
-        editor.live->put_pivot(step.document, move.handle,
-                               move.after ? std::optional(file_place(editor, *move.after)) : std::nullopt);
+        std::optional<Vec3d> place; // in the file's coordinates
+        if (move.after) place = to_eigen(*move.after) + editor.opened.cloud->origin;
+        if (step.document) editor.live->put_pivot(step.document, move.handle, place);
         add_step(editor, std::move(step));
     }
     editor.moved_pivot.reset();

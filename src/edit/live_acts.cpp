@@ -35,10 +35,6 @@ Vec3d middle_at_rest(const Document& document, std::span<const IndexRange> point
     return count > 0 ? Vec3d(sum / count) : sum;
 }
 
-} // namespace
-
-namespace {
-
 // What of a document a line would change that stays as it is while a pose stands.
 std::string kept_of(const SessionAction& line) {
     return std::holds_alternative<SetLine>(line) ? "samples, neighbours and strays" : "handles";

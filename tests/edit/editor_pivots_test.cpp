@@ -89,6 +89,15 @@ TEST_F(BarEditor, PivotsAreThereWhenTheSessionIsOpenedAgain) {
         EXPECT_FALSE(pivot_of(again, "high")) << "the handle may be elsewhere then";
         apply(again, RedoStep{});
         EXPECT_TRUE(pivot_of(again, "high"));
+        wait_until_idle(*again.live);
+        refresh(again);
+        apply(again, ChooseHandle{"high"});
+        apply(again, SetPivot{}); // of which no line told
+        wait_until_idle(*again.live);
+        refresh(again);
+        EXPECT_FALSE(pivot_of(again, "high")) << "it stays away";
+        apply(again, UndoStep{});
+        EXPECT_TRUE(pivot_of(again, "high"));
     }
 }
 

@@ -23,19 +23,19 @@ struct Piece {
 };
 
 struct Shapes {
-    const PointOrder& order;
+    const Numbering& point;
     const Graph& graph;
     std::span<const float> opened, normals, now;
 };
 
 Piece piece_of(const Shapes& shapes, Index vertex) {
-    const Index here = shapes.order.first_point[vertex];
+    const Index here = shapes.point[vertex];
     Mat3d spread = Mat3d::Zero();
     Mat3d moved = Mat3d::Zero();
     Piece piece;
     const auto links = static_cast<double>(shapes.graph.row(vertex).size());
     for (const Index other : shapes.graph.row(vertex)) {
-        const Index there = shapes.order.first_point[other];
+        const Index there = shapes.point[other];
         const Vec3d edge = point_at(shapes.opened, there) - point_at(shapes.opened, here);
         spread += edge * edge.transpose();
         moved += (point_at(shapes.now, there) - point_at(shapes.now, here)) * edge.transpose();
@@ -72,7 +72,7 @@ std::optional<double> enclosed(const Shapes& shapes, std::span<const Piece> piec
     double area = 0;
     for (std::size_t v = 0; v < pieces.size(); ++v) {
         const double size = (pieces[v].*facing).norm();
-        middle += size * point_at(positions, shapes.order.first_point[v]);
+        middle += size * point_at(positions, shapes.point[v]);
         sum += pieces[v].*facing;
         area += size;
     }
@@ -80,16 +80,16 @@ std::optional<double> enclosed(const Shapes& shapes, std::span<const Piece> piec
     middle /= area;
     double volume = 0;
     for (std::size_t v = 0; v < pieces.size(); ++v)
-        volume += (pieces[v].*facing).dot(point_at(positions, shapes.order.first_point[v]) - middle);
+        volume += (pieces[v].*facing).dot(point_at(positions, shapes.point[v]) - middle);
     return std::abs(volume);
 }
 
 } // namespace
 
-ExtentChange extent_change(const PointOrder& order, const Graph& graph, std::span<const float> opened,
+ExtentChange extent_change(const Numbering& point, const Graph& graph, std::span<const float> opened,
                            std::span<const float> normals, std::span<const float> now, Workers& workers) {
-    const Shapes shapes{order, graph, opened, normals, now};
-    std::vector<Piece> pieces(order.vertices());
+    const Shapes shapes{point, graph, opened, normals, now};
+    std::vector<Piece> pieces(graph.size());
     workers.for_each(pieces.size(), 1024,
                      [&](std::size_t v) { pieces[v] = piece_of(shapes, static_cast<Index>(v)); });
     Piece sum;

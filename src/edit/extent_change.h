@@ -21,9 +21,9 @@ struct ExtentChange {
 // the lengths of its links, and the piece is changed by the determinant of the gradient of its links. A cloud
 // is taken for a solid where most vertices have neighbours on all sides. What a surface encloses is found by
 // the divergence theorem, and told if the normals of all pieces sum up to nothing, within 5 %, as they do on
-// a closed one. `opened` and `now`: 3 floats a point, in the order of computation; `normals` of the points
-// when opened, outward or inward throughout, or empty.
-ExtentChange extent_change(const PointOrder& order, const Graph& graph, std::span<const float> opened,
+// a closed one. `point` names one for each vertex; `opened` and `now`: 3 floats a point, in the order of
+// computation; `normals` of the points when opened, outward or inward throughout, or empty.
+ExtentChange extent_change(const Numbering& point, const Graph& graph, std::span<const float> opened,
                            std::span<const float> normals, std::span<const float> now, Workers& workers);
 
 } // namespace knead

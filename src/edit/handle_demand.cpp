@@ -26,11 +26,11 @@ std::string with_digits(const char* format, double value) {
 
 } // namespace
 
-Parting parting_of(const Graph& graph, const HandleLabels& labels, const PointOrder& order,
+Parting parting_of(const Graph& graph, const HandleLabels& labels, const Numbering& point,
                    std::span<const float> rest, std::span<const float> posed) {
     const std::vector<Index>& handle = labels.vertex;
     const auto length_of = [&](std::span<const float> positions, Index v, Index w) {
-        return (point_at(positions, order.first_point[w]) - point_at(positions, order.first_point[v])).norm();
+        return (point_at(positions, point[w]) - point_at(positions, point[v])).norm();
     };
     std::map<std::pair<Index, Index>, std::vector<double>> factors;
     for (Index v = 0; v < graph.size(); ++v) {

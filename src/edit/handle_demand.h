@@ -21,8 +21,9 @@ struct Parting {
     Index one = no_index, other = no_index; // the handles, one < other
 };
 
-// `graph`: of the vertices. `rest` and `posed`: 3 floats a point, in the order of computation.
-Parting parting_of(const Graph& graph, const HandleLabels& labels, const PointOrder& order,
+// `graph`: of the vertices, for each of which `point` names one. `rest` and `posed`: 3 floats a point, in the
+// order of computation.
+Parting parting_of(const Graph& graph, const HandleLabels& labels, const Numbering& point,
                    std::span<const float> rest, std::span<const float> posed);
 
 struct HandleDemand {

@@ -64,6 +64,10 @@ void Pipeline::prepare(PipelineInput input, Progress& progress) {
         stale_.influences = stale_.weights = stale_.energy = stale_.systems = true;
         stale_.handles = false;
     }
+    if (stale_.areas) { // other twins stand for their vertices
+        prepare_areas();
+        stale_.areas = false;
+    }
     if (stale_.influences) {
         prepare_influences();
         stale_.upsampler = true;
@@ -243,7 +247,7 @@ void Pipeline::prepare_areas() {
     const RestShape& rest = rest_shape();
     const std::size_t all = order_.vertices();
     const Asking asking = every_point_ ? Asking{all, 1} : asking_for(base_samples_, all);
-    asked_ = ask_vertices(every_point_ ? sample_graph_.graph : *graph_, rest.positions, order_.first_point,
+    asked_ = ask_vertices(every_point_ ? sample_graph_.graph : *graph_, rest.positions, standing_points(),
                           hanging_, asking.vertices, asking.of_cells, workers_);
     area_of_links_.clear();
     if (!every_point_) area_of_links_ = level_areas(asked_, territories_, base_samples_);
@@ -271,7 +275,7 @@ void Pipeline::find_energy(const SampleRest& rest) {
     const RestShape& shape = rest_shape();
     const PointsBetween between{*graph_,
                                 shape.positions,
-                                order_.first_point,
+                                standing_points(),
                                 nearest_,
                                 input_.settings.weights,
                                 area_of_links_,
@@ -299,7 +303,7 @@ void Pipeline::prepare_systems() {
     rest.graph = sample_graph_.graph;
     rest.position.reserve(samples_.size());
     for (const Index v : samples_) {
-        rest.position.push_back(point_at(shape.positions, order_.first_point[v]));
+        rest.position.push_back(point_at(shape.positions, standing_points()[v]));
         rest.handle.push_back(labels_.vertex[v]);
     }
     if (stale_.weights) find_link_weights(rest);
@@ -311,7 +315,7 @@ void Pipeline::prepare_systems() {
     for (const Handle& handle : slots_.handles) rest.turns_freely.push_back(handle.free_rotation);
     std::vector<Vec3d> held;
     for (const Pulled& each : pulled_)
-        held.push_back(point_at(shape.positions, order_.first_point[each.held]));
+        held.push_back(point_at(shape.positions, standing_points()[each.held]));
     rest.pulled = soft_holds(slots_.handles, pulled_, held, rest);
     if (stale_.energy) find_energy(rest);
     stale_.energy = false;
@@ -335,7 +339,7 @@ void Pipeline::prepare_systems() {
 Influence Pipeline::influence(Index vertex) const {
     const UpsampleInput input = upsample_input();
     return influence_of(nearest_, input.weights, input.places, vertex,
-                        point_at(input.positions, order_.first_point[vertex]));
+                        point_at(input.positions, standing_points()[vertex]));
 }
 
 // What the upsampler is told, but for what is known of the numbers in it.
@@ -352,7 +356,7 @@ void Pipeline::prepare_upsampler() {
         const Index begin = contacts_.first[part], end = contacts_.first[part + 1];
         Vec3d sum = Vec3d::Zero();
         for (Index at_contact = begin; at_contact < end; ++at_contact)
-            sum += point_at(rest.positions, order_.first_point[contacts_.vertex[at_contact]]);
+            sum += point_at(rest.positions, standing_points()[contacts_.vertex[at_contact]]);
         carried_.anchor[part] = sum / static_cast<double>(end - begin);
     }
     posed_.make_room(rest.positions.size(), rest.normals.size(), workers_);

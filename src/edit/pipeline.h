@@ -128,6 +128,10 @@ public:
     std::vector<float> rotations(const std::vector<HandleMotion>& motions, const SampleState& state) const;
 
     const PointOrder& order() const { return order_; }
+    // The point that stands for each vertex, its first one; but of twins that different handles hold, the
+    // first that belongs to the handle that the vertex does. Where those were taken apart by a pose, a vertex
+    // of a committed shape is where its handle has it.
+    const Numbering& standing_points() const { return standing_ ? *standing_ : order_.first_point; }
     const Graph& graph() const { return *graph_; }
     const Components& components() const { return *components_; }
     // The same for whoever looks on from another thread, where they outlive a change of settings; null
@@ -188,6 +192,7 @@ private:
     void choose_coarse_samples();
     void label_vertices();
     void label_hanging();
+    void find_standing_points();
     void count_strays();
     struct MoverNumbers {
         std::size_t first_handle = 0; // where every part holds one; 0: else, or there are no movers
@@ -252,6 +257,7 @@ private:
     HandleLabels labels_;
     std::vector<HeldBlock> held_blocks_; // of those
     std::vector<Pulled> pulled_;
+    std::optional<Numbering> standing_; // standing_points(), where they are not all the first ones
     LooseParts strays_;
     std::vector<bool> held_component_;
     SampleGraph sample_graph_;

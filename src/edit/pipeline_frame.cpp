@@ -138,7 +138,8 @@ void Pipeline::put_exactly(Index sample, const Vec3d& displacement, RestShape& p
 
 HandleDemand Pipeline::demand(const SampleState& state) const {
     const RestShape& rest = rest_shape();
-    const Parting parting = parting_of(*graph_, labels_, order_, rest.positions, posed().positions);
+    const Parting parting =
+        parting_of(*graph_, labels_, standing_points(), rest.positions, posed().positions);
     HandleDemand demand{
         strain_of(system_, state), parting.factor, {}, {}, rounding_of(posed().positions, cloud_size_)};
     const auto name_of = [&](Index label) {

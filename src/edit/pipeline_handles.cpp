@@ -154,6 +154,31 @@ void Pipeline::label_vertices() {
     stale_.contacts |= held != held_component_;
     held_component_ = std::move(held);
     count_strays();
+    find_standing_points();
+}
+
+void Pipeline::find_standing_points() {
+    std::vector<Index> point; // empty: of each vertex the first
+    const std::size_t vertices = order_.vertices();
+    const auto choose = [&](Index v) {
+        const Index first = order_.first_point[v], end = order_.first_point[v + 1];
+        Index own = first;
+        while (own < end && labels_.point[own] != labels_.vertex[v]) ++own;
+        if (own == first || own == end) return;
+        if (point.empty())
+            for (std::size_t u = 0; u < vertices; ++u) point.push_back(order_.first_point[u]);
+        point[v] = own;
+    };
+    if (vertices < order_.points())
+        for (std::size_t block = 0; block < labels_.held.size(); ++block)
+            for (std::size_t v = block * rows_in_block;
+                 labels_.held[block] && v < std::min((block + 1) * rows_in_block, vertices); ++v)
+                choose(static_cast<Index>(v));
+    std::optional<Numbering> standing;
+    if (!point.empty()) standing.emplace(std::move(point));
+    if (standing == standing_) return;
+    standing_ = std::move(standing);
+    stale_.areas = true;
 }
 
 void Pipeline::count_strays() {

@@ -361,8 +361,8 @@ private:
         if (!options_.measure_extent || options_.rehearse || !pipeline.shared_graph()) return;
         const RestShape& shape = document.shape(progress_);
         const RestShape& opened = pipeline.opened();
-        report_.extent = extent_change(pipeline.order(), pipeline.graph(), opened.positions, opened.normals,
-                                       shape.positions, workers_);
+        report_.extent = extent_change(pipeline.standing_points(), pipeline.graph(), opened.positions,
+                                       opened.normals, shape.positions, workers_);
     }
 
     void warn_of_strays(const Document& document) {

@@ -37,6 +37,33 @@ TEST(Document, GivesAPointToTheHandleThatWasDeclaredLast) {
     EXPECT_LT(farthest(cap_first, is_top, lifted), 1e-6);
 }
 
+// One scan twice over, and the upper end of either one a handle. Which of two points in one place comes first
+// in the file says nothing.
+TEST(Document, TwinsThatHandlesTookApartRestWhereTheirOwnHandleHasThem) {
+    const std::vector<float> one = bar().positions;
+    std::vector<float> both = one;
+    both.insert(both.end(), one.begin(), one.end());
+    const auto n = static_cast<Index>(one.size() / 3);
+    const auto handle = [&](const std::string& name, const std::string& role, Index scan) {
+        std::string points;
+        for (Index i = 0; i < n; ++i)
+            if (at(one, i).z() >= 2) points += (points.empty() ? "" : ",") + std::to_string(i + scan * n);
+        return R"({"op":"handle","name":")" + name + R"(","role":")" + role + R"(","points":[)" + points +
+               "]}\n";
+    };
+    const auto played = [&](Index stays, Index moves) {
+        Desk desk(make_cloud(both));
+        desk.play(foot + handle("stays", "fixed", stays) + handle("top", "moving", moves) +
+                  drag(turn('y', 60)) + commit + drag(turn('x', 40)));
+        return desk.shape();
+    };
+    const std::vector<float> shape = played(0, 1), swapped = played(1, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+        EXPECT_EQ(at(shape, i), at(swapped, i + n)) << i;
+        EXPECT_EQ(at(shape, i + n), at(swapped, i)) << i;
+    }
+}
+
 TEST(Document, ANameGivenAgainReplacesTheHandleAndDeclaresItLast) {
     Desk desk(bar());
     std::string cap_that_moves = top;

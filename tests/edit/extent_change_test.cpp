@@ -27,7 +27,8 @@ struct Measured {
             now.insert(now.end(), moved.begin(), moved.end());
         }
         const LineArray<float> normals = with_normals ? opened.normals : LineArray<float>{};
-        change = extent_change(pipeline.order(), pipeline.graph(), opened.positions, normals, now, workers);
+        change = extent_change(pipeline.standing_points(), pipeline.graph(), opened.positions, normals, now,
+                               workers);
     }
 };
 

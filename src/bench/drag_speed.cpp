@@ -1,8 +1,10 @@
 #include "bench/drag_speed.h"
 
+#include "base/error.h"
 #include "base/require.h"
 #include "base/stopwatch.h"
 #include "bench/posing.h"
+#include "cloud/point_cloud.h"
 #include "upsample/devices.h"
 
 #include <algorithm>
@@ -51,6 +53,8 @@ DraggedWay drag(const DeformationTask& task, bool coarse, Document& document, Li
 DragSpeeds measure_drags(const std::string& name, PointCloud cloud, std::span<const std::uint64_t> samples,
                          const Table1Options& options, Progress& progress) {
     require(!samples.empty(), "a number of samples to drag with");
+    if (bounds_of(cloud).finite_points == 0)
+        throw Error(Trouble::input, name, "holds no point with finite coordinates");
     Workers workers(options.threads);
     UpsamplerChoice choice = make_upsampler(options.device, workers, options.threads);
     DragSpeeds speeds{this_machine(), name, choice.upsampler->device(), cloud.size(), {}, {}, {}};

@@ -58,7 +58,8 @@
 //
 // A leaf, a free sample with one link, to a sample with more, is sent the same way whatever that link weighs:
 // along with the other end. So its link counts with a thousandth of its weight, or less if it is longer than
-// ℓ, and C is 0 there: the turn that one edge leaves open is that of the other end. Nothing pulls at a leaf.
+// ℓ, and of links C is 0 there: the turn that one edge leaves open is that of the other end. Nothing pulls at
+// a leaf.
 //
 // The fixed point of these steps is what knead means by the deformed shape. Both matrices stand as long as
 // the handle set and the rest shape do. Everything is solved for u and r - 1, which are exactly zero where

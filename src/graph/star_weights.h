@@ -42,7 +42,8 @@ double start_weights(std::span<const Spoke> star, std::span<double> weight);
 // One update towards pulling as much along each direction.
 void even_out(std::span<Spoke> star, double sum, std::span<double> weight);
 
-// What ends every update: the sum is what it was and no weight vanishes.
+// What ends every update: the sum is what it was, and then no weight vanishes, for which the least are
+// raised.
 void finish_update(std::span<double> weight, double sum);
 
 } // namespace knead

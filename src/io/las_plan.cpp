@@ -1,6 +1,7 @@
 #include "io/las_plan.h"
 
 #include "base/lower_case.h"
+#include "cloud/colors.h"
 #include "io/text_numbers.h"
 
 #include <algorithm>
@@ -72,6 +73,16 @@ bool has_place(const Places& places, std::string_view name) {
                        [&](const auto& place) { return place && place->name == name; });
 }
 
+// What makes a colour of this column fill 16 bits. Columns of 16 bits and more stay as they are, also where
+// they hold bytes.
+double colour_factor(const PointCloud& cloud, const NewColumn& column) {
+    if (column.type == ScalarType::uint8) return 256;
+    const auto colours = find_colors(cloud);
+    if (is_whole(column.type) || !colours) return 1;
+    const double brightest = brightest_value(cloud, *colours);
+    return brightest == 1 ? 65535 : brightest == 255 ? 256 : 1;
+}
+
 // Chooses the format: the largest of a family offers all places, and those that are taken tell which it is.
 void choose_format(const std::vector<NewColumn>& columns, std::size_t points, LasPlan& plan) {
     const Places legacy = places_in(3, columns, points);
@@ -120,8 +131,8 @@ LasPlan plan_las(const PointCloud& cloud, std::vector<NewColumn> columns, std::v
     for (std::size_t c = 0; c < columns.size(); ++c) {
         NewColumn& column = columns[c];
         if (places[c]) {
-            const bool fills = column.type == ScalarType::uint8 && is_colour(places[c]->name);
-            plan.fields.push_back({column, *places[c], fills ? 256.0 : 1.0, false});
+            const double factor = is_colour(places[c]->name) ? colour_factor(cloud, column) : 1;
+            plan.fields.push_back({column, *places[c], factor, false});
         } else if (plan.extra_columns == most_extra) {
             heard.push_back("the column " + in_quotes(column.name) +
                             " is left out: LAS describes no more than " + std::to_string(most_extra));

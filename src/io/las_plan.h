@@ -15,7 +15,7 @@ namespace knead {
 struct LasField {
     NewColumn column;
     LasDimension dimension; // where in a point
-    double factor = 1;      // of the values: 256 for colours of 8 bits, as LAS asks for
+    double factor = 1;      // of the values: colours fill 16 bits, as LAS asks for
     bool is_extra = false;  // extra bytes, of the column's own type
 };
 

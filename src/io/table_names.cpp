@@ -167,6 +167,7 @@ void type_colors(std::vector<Attribute>& columns) {
             return rows_of(*column) > 0;
         });
     };
+    if (all([](double value) { return value <= 1; })) return; // fractions, of the brightest colours only
     const bool bytes = all(is_byte);
     if (!bytes && !all(is_short)) return;
     for (Attribute* const column : colors)

@@ -232,6 +232,21 @@ TEST(LasWriter, adds_columns_where_a_description_ends_in_half_an_entry) {
 const std::string ply_header = "ply\nformat ascii 1.0\nelement vertex 3\n";
 const std::string ply_double_xyz = "property double x\nproperty double y\nproperty double z\n";
 
+// Fractions that are all 0 or 1 are whole numbers, too.
+TEST(LasWriter, fills_its_colours_from_floats) {
+    const std::string header = ply_header + ply_double_xyz +
+                               "property float red\nproperty float green\nproperty float blue\nend_header\n";
+    const PointCloud pure = read_bytes(header + "1 2 3 1 0 1\n1 2 4 1 1 1\n1 2 5 0 0 1\n");
+    const PointCloud bytes = read_bytes(header + "1 2 3 255 0 7\n1 2 4 1 0 0\n1 2 5 0 0 1\n");
+    const PointCloud pure_back = read_bytes(written(pure, {}, "out.las"));
+    const PointCloud bytes_back = read_bytes(written(bytes, {}, "out.las"));
+    for (const char* const name : {"red", "green", "blue"})
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_EQ(value_of(pure_back, name, i), 65535 * value_of(pure, name, i));
+            EXPECT_EQ(value_of(bytes_back, name, i), 256 * value_of(bytes, name, i));
+        }
+}
+
 TEST(LasWriter, makes_a_new_file_of_another_formats_cloud) {
     const PointCloud cloud = read_bytes(ply_header + ply_double_xyz +
                                         "property uchar red\nproperty uchar green\nproperty uchar blue\n"

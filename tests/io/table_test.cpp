@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "cloud/colors.h"
 #include "io/through_files.h"
 #include "support/scans.h"
 
@@ -180,6 +181,10 @@ TEST(Table, KnowsUnnamedColumnsByTheirValues) {
     EXPECT_EQ(colors.attributes[3].type, ScalarType::uint8);
     EXPECT_EQ(colors.attributes[0].type, ScalarType::float64);
     EXPECT_EQ(value_at(colors.attributes[3], 0), 255);
+    const PointCloud pure =
+        read_bytes("//X Y Z Rf Gf Bf\n1 2 3 1.0 0.0 1.0\n1 2 4 1.0 1.0 1.0\n", "cloud.txt");
+    EXPECT_NE(pure.attributes[3].type, ScalarType::uint8) << "fractions: of bytes it would be next to black";
+    EXPECT_EQ(brightest_value(pure, {3, 4, 5}), 1);
 }
 
 TEST(Table, KnowsNamedColumnsByTheirNames) {

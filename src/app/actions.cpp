@@ -171,6 +171,10 @@ constexpr Shortcut on(char letter, Modifiers held = plain) {
 constexpr Shortcut on(Key which, Modifiers held = plain) {
     return {which, held};
 }
+constexpr Shortcut repeating(Shortcut shortcut) {
+    shortcut.repeats = true;
+    return shortcut;
+}
 
 const Action file_actions[] = {
     {"File", "Open…", "Ctrl+O", "Opens a cloud or a recorded session", on('O', ctrl), browse<BrowseFor::open>,
@@ -194,10 +198,10 @@ const Action file_actions[] = {
 };
 
 const Action edit_actions[] = {
-    {"Edit", "Undo", "Ctrl+Z", "Takes the last step back", on('Z', ctrl),
+    {"Edit", "Undo", "Ctrl+Z", "Takes the last step back", repeating(on('Z', ctrl)),
      [](const Ui& ui) { ui.tell(UndoStep{}); }, undo_is_possible},
-    {"Edit", "Redo", "Ctrl+Shift+Z", "Does the step taken back again (also Ctrl+Y)", on('Z', ctrl_shift),
-     [](const Ui& ui) { ui.tell(RedoStep{}); }, redo_is_possible},
+    {"Edit", "Redo", "Ctrl+Shift+Z", "Does the step taken back again (also Ctrl+Y)",
+     repeating(on('Z', ctrl_shift)), [](const Ui& ui) { ui.tell(RedoStep{}); }, redo_is_possible},
     {"Edit", "Commit the pose", "Enter", "Makes the shape as it is now the new rest shape", on(Key::enter),
      [](const Ui& ui) { ui.tell(CommitPose{}); }, something_is_posed, nullptr, true},
 };
@@ -209,10 +213,10 @@ const Action select_actions[] = {
      something_is_selected},
     {"Select", "Invert", "Ctrl+I", "Selects what is not selected", on('I', ctrl),
      select<SelectionStep::invert>, cloud_is_open},
-    {"Select", "Grow", "Ctrl++", "Adds the neighbours of the selected points", on('=', ctrl),
+    {"Select", "Grow", "Ctrl++", "Adds the neighbours of the selected points", repeating(on('=', ctrl)),
      select<SelectionStep::grow>, something_is_selected, nullptr, true},
-    {"Select", "Shrink", "Ctrl+-", "Takes away points at the border of the selection", on('-', ctrl),
-     select<SelectionStep::shrink>, something_is_selected},
+    {"Select", "Shrink", "Ctrl+-", "Takes away points at the border of the selection",
+     repeating(on('-', ctrl)), select<SelectionStep::shrink>, something_is_selected},
     {"Select", "Connected part", "L", "Adds all that hangs together with the selected points", on('L'),
      select<SelectionStep::connected>, something_is_selected},
     {"Select", "Hide the selection", "V", "Hides the selected points; hidden points cannot be selected",
@@ -324,9 +328,10 @@ const Action view_actions[] = {
     {"View/Upward axis", "-Y", "",
      "y points down and z to the back, as depth cameras and photogrammetry have it", std::nullopt,
      turn_up<UpAxis::minus_y>, cloud_is_open, is_up<UpAxis::minus_y>},
-    {"View", "Larger points", "+", "Draws the points larger", on('='), resize_points<1>, cloud_is_open,
-     nullptr, true},
-    {"View", "Smaller points", "-", "Draws the points smaller", on('-'), resize_points<-1>, cloud_is_open},
+    {"View", "Larger points", "+", "Draws the points larger", repeating(on('=')), resize_points<1>,
+     cloud_is_open, nullptr, true},
+    {"View", "Smaller points", "-", "Draws the points smaller", repeating(on('-')), resize_points<-1>,
+     cloud_is_open},
     {"View", "Eye-dome lighting", "E", "Darkens what lies behind, so that depth shows", on('E'),
      toggle_look<&PointLook::eye_dome>, cloud_is_open, look_is_on<&PointLook::eye_dome>},
     {"View", "Shading", "", "Lights the points by their normals; where the file has none, they are estimated",
@@ -353,9 +358,9 @@ const Action session_actions[] = {
     {"Session", "Play", "Space", "Plays back what was done, as it was recorded; again: holds it", on(' '),
      toggle_playing, document_has_steps, [](const Ui& ui) { return ui.state.playback.playing; }},
     {"Session", "Next frame", "Right", "Shows the next frame that was recorded, and stops there",
-     on(Key::right), [](const Ui& ui) { play_frame(ui, 1); }, document_has_steps},
+     repeating(on(Key::right)), [](const Ui& ui) { play_frame(ui, 1); }, document_has_steps},
     {"Session", "Previous frame", "Left", "Shows the frame before; between two steps, the step before",
-     on(Key::left), [](const Ui& ui) { play_frame(ui, -1); }, document_has_steps},
+     repeating(on(Key::left)), [](const Ui& ui) { play_frame(ui, -1); }, document_has_steps},
     {"Session", "To the beginning", "", "Goes back to the cloud as it was opened", std::nullopt,
      [](const Ui& ui) { play_to(ui, 0); }, document_has_steps},
     {"Session", "To the end", "", "Goes to the last step that was done", std::nullopt,
@@ -413,7 +418,7 @@ bool press_shortcut(const Ui& ui, const KeyPress& press) {
         if (!action.shortcut || action.shortcut->key != usual.key || !(action.shortcut->held == usual.held))
             continue;
         if (!action.possible(ui)) return false;
-        action.act(ui);
+        if (!press.repeated || action.shortcut->repeats) action.act(ui);
         return true;
     }
     return false;

@@ -12,6 +12,7 @@ namespace knead {
 struct Shortcut {
     Key key{};
     Modifiers held;
+    bool repeats = false; // does it again and again while the key is held
 };
 
 struct Action {

@@ -44,9 +44,11 @@ std::string extent_text(const Ui& ui, const Bounds& bounds) {
 std::string shown_extent_text(const Ui& ui) {
     const Editor& editor = ui.editor;
     ShownExtent& known = ui.state.shown_extent;
-    // Very many points take a while to be looked at, and in a drag they come anew with every picture.
-    const bool is_other = known.marks_version != editor.marks_version ||
-                          (known.frame_version != editor.frame.version && !editor.drag);
+    // Very many points take a while to be looked at, and as long as they move they come anew with every
+    // picture.
+    const bool moves = editor.drag || editor.status.solving || editor.status.playing;
+    const bool is_other = known.frame_version == 0 || known.marks_version != editor.marks_version ||
+                          (known.frame_version != editor.frame.version && !moves);
     if (is_other)
         known = {editor.marks_version, editor.frame.version,
                  box_of_selection(editor).value_or(box_of(editor))};

@@ -13,7 +13,7 @@ std::string length_format(const Ui& ui, double value);
 
 // "Size: 0.52 × 0.30 × 0.08" and in a second line "Middle: …", of a box in the file's coordinates.
 std::string extent_text(const Ui& ui, const Bounds& bounds);
-// Of the selected points, or of all where none is, as they are now; while a drag goes on, as they were.
+// Of the selected points, or of all where none is, as they are now; while they move, as they were.
 std::string shown_extent_text(const Ui& ui);
 
 } // namespace knead

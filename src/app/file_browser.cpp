@@ -310,6 +310,7 @@ void draw_file_browser(const Ui& ui) {
         return;
     }
     browser.is_open = true;
+    if (std::exchange(browser.close_now, false)) ImGui::CloseCurrentPopup();
     ImGui::PushFont(ui.state.fonts.title);
     ImGui::TextUnformatted(title_of(browser.purpose));
     ImGui::PopFont();

@@ -42,6 +42,7 @@ struct FileBrowser {
     BrowseFor purpose = BrowseFor::open;
     bool open_now = false; // is to come up in the next frame
     bool is_open = false;
+    bool close_now = false; // is to go in the next frame, if it is there
     std::filesystem::path folder;
     std::vector<FolderEntry> entries;     // folders first, by name
     std::string trouble;                  // why the folder could not be read; empty: it was

@@ -17,7 +17,7 @@ void selection_words(const Ui& ui) {
     if (selected > 0) {
         faint_text(counted(selected, "point") +
                    (selected == 1 ? " selected. Make it a" : " selected. Make them a"));
-        explain(shown_extent_text(ui));
+        if (ImGui::IsItemHovered()) explain(shown_extent_text(ui));
     } else if (ui.editor.document->handles.empty())
         faint_text("Nothing selected. Draw around a part of the cloud with the left button.");
     else

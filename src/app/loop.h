@@ -9,6 +9,7 @@
 #include "app/wishes.h"
 #include "base/stopwatch.h"
 
+#include <array>
 #include <optional>
 #include <set>
 #include <vector>
@@ -38,13 +39,13 @@ struct Loop {
     bool close_menus = false; // in the next frame
     // Events that come after something that the next picture carries out first.
     std::vector<WindowEvent> waiting;
-    Stopwatch waits;             // since the first of them began to
-    bool tabbed = false;         // since the last frame, in a field: nobody knows whether into another one
-    bool ends_typing = false;    // in the next frame: what is being typed counts, the hand goes elsewhere
-    bool button_is_ours = false; // a press began over the cloud
-    bool press_is_hands = false; // and ended what a full hand was doing: no panel is to see it
-    int frames_to_draw = 3;      // even if nothing happens: ImGui needs some to settle
-    Stopwatch calm;              // since the last event; ImGui's time stands still while nothing is drawn
+    Stopwatch waits;               // since the first of them began to
+    bool tabbed = false;           // since the last frame, in a field: nobody knows whether into another one
+    bool ends_typing = false;      // in the next frame: what is being typed counts, the hand goes elsewhere
+    std::array<bool, 3> presses{}; // of each button of the mouse: it is down, and went down over the cloud
+    bool press_is_hands = false;   // and ended what a full hand was doing: no panel is to see it
+    int frames_to_draw = 3;        // even if nothing happens: ImGui needs some to settle
+    Stopwatch calm;                // since the last event; ImGui's time stands still while nothing is drawn
 
     // What the picture shows, to tell whether it moves.
     Camera shown_camera;
@@ -54,6 +55,9 @@ struct Loop {
 };
 
 // --- loop_events.cpp ---
+
+// Whether a button of the mouse is down that went down over the cloud.
+bool holds_button(const Loop& loop);
 
 // Gives the hand's events to what they are meant for: the cloud, the shortcuts, or nobody, where a panel has
 // them. Returns whether there were any.

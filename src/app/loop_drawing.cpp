@@ -4,7 +4,7 @@
 #include "app/loop.h"
 #include "app/timeline.h"
 #include "app/widgets.h"
-#include "base/error.h"
+#include "edit/cures.h"
 #include "render/png.h"
 
 #include <epoxy/gl.h>
@@ -160,8 +160,8 @@ void save_picture(Loop& loop) {
         add_toast(loop.state, {Notice::Kind::information, "Saved picture " + file->string() + " (" +
                                                               std::to_string(picture.width) + " × " +
                                                               std::to_string(picture.height) + ")"});
-    } catch (const Error& error) {
-        add_toast(loop.state, {Notice::Kind::error, error.what()});
+    } catch (const std::exception&) { // for a large one there may be no memory
+        add_toast(loop.state, {Notice::Kind::error, words_about_exception()});
     }
     loop.frames_to_draw = 3;
 }
@@ -207,7 +207,7 @@ void draw(Loop& loop) {
     if (size.width == 0 || size.height == 0) return;
     const Stopwatch clock;
     loop.window.begin_frame(loop.press_is_hands || hand_is_full(loop), keys_walk(loop.state.menus));
-    loop.press_is_hands &= loop.button_is_ours;
+    loop.press_is_hands &= holds_button(loop);
     draw_panels(loop);
     const bool played = loop.state.playback.playing;
     play_on(loop.ui);

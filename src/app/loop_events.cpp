@@ -57,32 +57,39 @@ void carry_out_commands(Loop& loop) {
     for (const Command& command : std::exchange(loop.commands, {})) apply(loop.editor, command);
 }
 
+bool holds_button(const Loop& loop) {
+    return std::ranges::find(loop.presses, true) != loop.presses.end();
+}
+
 namespace {
+
+bool& press_of(Loop& loop, MouseButton button) {
+    return loop.presses.at(static_cast<std::size_t>(button));
+}
 
 void take(Loop& loop, MouseMove event) {
     loop.cursor = event.cursor;
     loop.state.cursor_in_view = over_cloud(loop, event.cursor);
-    if (!loop.state.cursor_in_view && !loop.button_is_ours && !hand_is_full(loop)) return;
+    if (!loop.state.cursor_in_view && !holds_button(loop) && !hand_is_full(loop)) return;
     event.cursor = in_view(loop, event.cursor);
     handle_input(loop.editor, event);
 }
 
 void take(Loop& loop, MousePress event) {
-    if (!over_cloud(loop, event.cursor) && !loop.button_is_ours && !hand_is_full(loop)) {
+    if (!over_cloud(loop, event.cursor) && !holds_button(loop) && !hand_is_full(loop)) {
         loop.editor.tools.refused = Tools::Refused::no; // the hand works on a panel
         return;
     }
     send_slid_settings(loop.ui);
     carry_out_commands(loop);
-    loop.button_is_ours = true;
+    press_of(loop, event.button) = true;
     loop.press_is_hands |= hand_is_full(loop);
     event.cursor = in_view(loop, event.cursor);
     handle_input(loop.editor, event);
 }
 
 void take(Loop& loop, MouseRelease event) {
-    if (!loop.button_is_ours) return;
-    loop.button_is_ours = false;
+    if (!std::exchange(press_of(loop, event.button), false)) return;
     event.cursor = in_view(loop, event.cursor);
     handle_input(loop.editor, event);
 }
@@ -124,7 +131,7 @@ bool is_for_file(const KeyPress& event) {
 
 // Whether the hand draws a lasso or a box, or paints, with the button down.
 bool draws_selection(const Loop& loop) {
-    return loop.button_is_ours && loop.editor.tools.doing == Tools::Doing::selecting;
+    return holds_button(loop) && loop.editor.tools.doing == Tools::Doing::selecting;
 }
 
 void take(Loop& loop, const KeyPress& event) {

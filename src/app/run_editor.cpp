@@ -75,6 +75,8 @@ bool take_news(Loop& loop) {
         forget_shape(loop.state.toasts);
         loop.state.display.look.scale = 1; // another cloud is another matter
         loop.state.browser.columns = {};
+        if (!reads_file(loop.state.browser.purpose)) // it was about to save what was there before
+            loop.state.browser.close_now = loop.state.browser.is_open;
         editor.held_saves.clear(); // which would ask about the document before
         loop.state.playback.playing = false;
         loop.state.playback.steps = 0; // where looking began was in the document before

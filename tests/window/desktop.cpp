@@ -176,15 +176,23 @@ void Desktop::move(double x, double y) const {
     pause(0.03);
 }
 
+void Desktop::press(int button) const {
+    xdotool({"mousedown", std::to_string(button)});
+    pause(0.05);
+}
+
+void Desktop::release(int button) const {
+    xdotool({"mouseup", std::to_string(button)});
+    pause(0.05);
+}
+
 void Desktop::drag(int button, const std::vector<std::pair<double, double>>& path, const char* held) const {
     if (held) xdotool({"keydown", held});
     move(path.front().first, path.front().second);
-    xdotool({"mousedown", std::to_string(button)});
-    pause(0.05);
+    press(button);
     for (const auto& [x, y] : path) move(x, y);
-    xdotool({"mouseup", std::to_string(button)});
+    release(button);
     if (held) xdotool({"keyup", held});
-    pause(0.05);
 }
 
 } // namespace knead::test

@@ -278,6 +278,29 @@ TEST_F(WindowTest, WhatIsTypedCountsBeforeTheHandGoesOn) {
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
 }
 
+TEST_F(WindowTest, ASecondButtonLeavesTheFirstOneAtWork) {
+    open_cat();
+    desktop_->keys({"3", "Home", "t"});
+    const Path path = round(-0.55, 0.55, 1.2, 1.85);
+    desktop_->move(path.front().first, path.front().second);
+    desktop_->press(1);
+    for (const auto& [x, y] : path) desktop_->move(x, y);
+    desktop_->press(2);
+    desktop_->release(2);
+    desktop_->release(1); // which ends the lasso: H is heard
+    desktop_->keys({"h"});
+    EXPECT_TRUE(wait_for_act("handle", 1));
+    // And the other way round: a click in the middle of an orbit.
+    desktop_->move(500, 400);
+    desktop_->press(2);
+    desktop_->move(540, 410);
+    desktop_->press(1);
+    desktop_->release(1);
+    desktop_->release(2);
+    desktop_->keys({"r", "3", "0", "Return"});
+    EXPECT_TRUE(wait_for_act("drag", 1));
+}
+
 TEST_F(WindowTest, MenusAndQuestionsGoByTheKeyboard) {
     open_cat();
     make_handles();

@@ -134,6 +134,8 @@ public:
     // Of all handles that were ever dragged and of whose joints no line tells, by the names that they had
     // then: where the pivot of the last drag is by now, which that took along.
     Pivots last_pivots() const;
+    // The handles as a commit would leave them: their pivots go where they are taken.
+    std::vector<Handle> handles_committed() const;
 
     // --- What history costs ---
     //

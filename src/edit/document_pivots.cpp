@@ -3,6 +3,7 @@
 #include "edit/handle_motion.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace knead {
@@ -88,16 +89,31 @@ Pivots Document::last_pivots() const {
             history_, [&](const State& state) { return state.pivots && state.pivots->contains(handle); });
     };
     Pivots pivots;
+    std::set<std::string> made; // from there on: what had that name before is another handle
     for (std::size_t at = at_; at > 0; --at) {
+        if (const auto& change = history_[at].change; change && change->come)
+            if (!change->gone || change->gone->handle.name != change->come->handle.name)
+                made.insert(change->come->handle.name);
         const std::shared_ptr<Posed>& posed = history_[at].posed;
         if (!posed || posed == history_[at - 1].posed) continue;
         const auto* drag = std::get_if<DragLine>(&posed->act);
-        if (!drag || pivots.contains(drag->handle) || is_told(drag->handle)) continue;
+        if (!drag || pivots.contains(drag->handle) || made.contains(drag->handle) || is_told(drag->handle))
+            continue;
         const HandleMotion before = motions_of(posed->made_from)[posed->handle];
         const Vec3d at_rest = point_at_rest(before, drag->pivot - cloud_.origin);
         pivots[drag->handle] = posed->motion.linear * at_rest + posed->motion.offset;
     }
     return pivots;
+}
+
+std::vector<Handle> Document::handles_committed() const {
+    std::vector<Handle> handles = handles_;
+    const std::shared_ptr<const Pivots> pivots = carried(now().pivots, handles_, motions_, cloud_.origin);
+    if (!pivots) return handles;
+    for (Handle& handle : handles)
+        if (const auto found = pivots->find(handle.name); found != pivots->end())
+            handle.pivot = found->second;
+    return handles;
 }
 
 } // namespace knead

@@ -50,8 +50,9 @@ void post_handles(Editor& editor, std::vector<SessionAction> lines, const std::s
     for (SessionAction& line : lines) made.emplace_back(name_of(line), std::get<HandleLine>(line).pivot);
     const StepNumber step = post_step(editor, std::move(lines));
     for (auto& [name, pivot] : made) {
-        if (pivot)
-            put_pivot_with(editor.past.back(), editor, name, to_glm(*pivot - editor.opened.cloud->origin));
+        const Vec3d& origin = editor.opened.cloud->origin;
+        put_pivot_with(editor.past.back(), editor, name,
+                       pivot ? std::optional(to_glm(*pivot - origin)) : std::nullopt);
         editor.posted_names.emplace_back(step, std::move(name));
     }
     say(editor, Notice::Kind::information, "Made " + counted(count, "handle") + "." + besides);
@@ -127,9 +128,10 @@ std::vector<SessionAction> with_points(const Editor& editor, const Session& sess
         return cloud.origin + Vec3f(p[0], p[1], p[2]).cast<double>();
     };
     const auto acts = acts_after(session.lines).done;
-    const bool is_at_rest = !editor.document->rest && std::ranges::none_of(acts, [](const StandingAct& act) {
-        return std::holds_alternative<CommitLine>(act.line->action);
-    });
+    const bool is_at_rest = !editor.document->rest && !is_or_will_be_posed(editor) &&
+                            std::ranges::none_of(acts, [](const StandingAct& act) {
+                                return std::holds_alternative<CommitLine>(act.line->action);
+                            });
     std::vector<SessionAction> lines;
     for (const auto& [name, from] : handles) {
         HandleLine line = std::get<HandleLine>(from->action);
@@ -209,7 +211,7 @@ void handles_from_session(Editor& editor, const std::filesystem::path& session) 
         std::vector<SessionAction> lines = with_points(editor, read, handles);
         const std::string besides = take_free_names(editor, lines);
         post_handles(editor, std::move(lines), besides);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         say(editor, Notice::Kind::error, "No handles were made. " + words_in_window(error));
     }
 }

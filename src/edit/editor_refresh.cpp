@@ -50,10 +50,21 @@ void take_last_pivots(Editor& editor) {
     }
 }
 
+// The last words of what was there: what became of its saves, above all.
+void take_last_words(Editor& editor) {
+    std::ranges::move(editor.live->take_notices(), std::back_inserter(editor.notices));
+    for (const HeldSave& held : editor.live->take_held_saves())
+        say(editor, Notice::Kind::error,
+            held.target.string() + " was not written: it was changed by another program meanwhile.");
+}
+
 // What was opened takes the place of what was there, of which nothing is to be restored: whoever opens a file
 // was asked about it.
 void take_over(Editor& editor) {
-    if (editor.live) editor.live->discard_journal();
+    if (editor.live) {
+        take_last_words(editor);
+        editor.live->discard_journal();
+    }
     editor.live = std::move(editor.opening);
     editor.opened = editor.live->opened();
     editor.document = editor.live->view();

@@ -82,6 +82,10 @@ bool leaves_rest(const HandleMotion& motion) {
     return motion.linear != Mat3d::Identity() || motion.offset != Vec3d::Zero();
 }
 
+bool is_at_rest(const HandleMotion& motion) {
+    return !leaves_rest(motion) && motion.rotation.w() > 0;
+}
+
 HandleMotion motion_of(const HandlePose& pose, const Vec3d& pivot, const Vec3d& origin,
                        const HandleMotion& before) {
     HandleMotion motion;
@@ -94,8 +98,7 @@ HandleMotion motion_of(const HandlePose& pose, const Vec3d& pivot, const Vec3d& 
     if (stretched) motion.linear = motion.linear * stretch;
     const Vec3d center = pivot - origin;
     motion.offset = center - motion.linear * center + pose.translate;
-    if (leaves_rest(motion) || motion.rotation.w() < 0)
-        motion.turned = angles_along(before.rotation, before.turned, motion.rotation);
+    if (!is_at_rest(motion)) motion.turned = angles_along(before.rotation, before.turned, motion.rotation);
     return motion;
 }
 

@@ -12,6 +12,8 @@ namespace knead {
 // Whether it takes a handle's points away from where they were at rest. One that was reset does not, though
 // its drags are recorded.
 bool leaves_rest(const HandleMotion& motion);
+// It does not, and its quaternion is not that of one whole turn (of two it is).
+bool is_at_rest(const HandleMotion& motion);
 
 // Where a point was at rest that the motion has taken to `point`.
 Vec3d point_at_rest(const HandleMotion& motion, const Vec3d& point);

@@ -83,6 +83,8 @@ void LiveWork::carry_out(task::Lines& lines) {
 void LiveWork::carry_out(task::EditHandle& task) {
     task::Lines lines{task.step, lines_for(document_->handles(), task.edit), false};
     if (lines.lines.empty()) return refuse(task.step);
+    if (document_->needs_commit(lines.lines.front())) // which takes the pivots along
+        lines.lines = lines_for(document_->handles_committed(), task.edit);
     carry_out(lines);
 }
 
@@ -124,6 +126,7 @@ void LiveWork::carry_out(task::ResetPose& task) {
     try {
         finish_settling();
         const std::vector<HandleMotion> way = document_->way_of(task.handle);
+        if (is_back(way)) return refuse(task.step);
         const auto handle = std::ranges::find(document_->handles(), task.handle, &Handle::name);
         back = way_back(task.handle, way, middle_at_rest(*document_, ranges_of(*handle->points)),
                         document_->cloud().origin);
@@ -188,7 +191,7 @@ bool LiveWork::hold_back(HeldSave save) {
 }
 
 void LiveWork::carry_out(task::SaveCloud& task) {
-    finish_settling();
+    come_to_rest();
     if (!task.anyway && hold_back({task.target, task.columns})) return;
     look_for_others(task.target);
     const std::vector<float> positions = document_->positions(progress_);
@@ -207,7 +210,7 @@ void LiveWork::carry_out(task::SaveCloud& task) {
 }
 
 void LiveWork::carry_out(task::SaveSession& task) {
-    finish_settling();
+    come_to_rest(); // or it would be unsaved again at once
     if (!task.anyway && hold_back({task.target, std::nullopt})) return;
     look_for_others(task.target);
     note_digest();

@@ -43,7 +43,7 @@ struct DocumentView {
     std::vector<Handle> handles;
     std::vector<HandleMotion> motions; // of each handle, in this edit, about the cloud's origin
     bool posed = false;
-    std::size_t acts = 0;        // that were recorded so far: what was saved is what had as many
+    std::size_t acts = 0;        // that were recorded so far
     std::uint64_t state = 0;     // names what the acts so far make; undone and done again it is the same
     StepNumber last_step = 0;    // the newest that was carried out
     std::string last_words;      // what the newest act does, such as "pose committed"; empty at the beginning

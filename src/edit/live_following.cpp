@@ -20,6 +20,7 @@ constexpr double still = 1e-7;
 // So many frames of a drag may repeat one pose, and so many iterations may a released pose settle.
 constexpr std::size_t most_repeats = 400;
 constexpr unsigned most_settling = 1000;
+constexpr double longest_wait = 3; // seconds that a save waits for a shape to come to rest
 
 // Iterations of settling between two frames on the screen: as many as take this long, in seconds, but no
 // more.
@@ -92,7 +93,7 @@ void LiveWork::finish_drag() {
     last_step_ = drag.step;
     settling_.wanted = true;
     learn_cost(std::move(drag.solving), std::move(drag.upsampling));
-    publish_view(); // first: it cannot fail
+    publish_view(); // first: it takes next to no memory
     if (publisher_.last_is_drawn()) publish_shape(false);
 }
 
@@ -196,6 +197,18 @@ void LiveWork::settle() {
     solve_seconds_ = clock.seconds();
     publish_shape(false);
     if (rests || settling_.iterations >= most_settling) finish_settling();
+}
+
+// As far as one likes to wait for it. What goes wrong on the way is told, and nothing else fails of it.
+void LiveWork::come_to_rest() {
+    const Stopwatch clock;
+    try {
+        while (settling_.wanted && clock.seconds() < longest_wait) settle();
+    } catch (const Cancelled&) { // the window is closing
+    } catch (...) {
+        tell_of_exception(shared_);
+    }
+    finish_settling();
 }
 
 void LiveWork::stop_settling() {

@@ -279,7 +279,7 @@ void LiveWork::rest_if_idle() {
 // --- Telling the window ---
 
 void LiveWork::show_document() {
-    publish_view(); // first: it cannot fail
+    publish_view(); // first: it takes next to no memory
     publish_shape(false);
 }
 

@@ -90,6 +90,7 @@ private:
     void drop_drag();
     void settle();
     unsigned iterations_a_picture() const;
+    void come_to_rest();
     void stop_settling();
     void finish_settling();
 

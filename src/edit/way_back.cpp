@@ -11,6 +11,8 @@ namespace {
 // time, it went no other way round.
 constexpr double least_cosine = 0.5;
 
+constexpr double rounding = 1e-9; // of cosines, by which two turns are alike
+
 double turn_between(const HandleMotion& from, const HandleMotion& to) {
     return 2 * std::acos(std::clamp(from.rotation.dot(to.rotation), -1.0, 1.0));
 }
@@ -26,12 +28,31 @@ std::vector<std::size_t> corners(std::span<const HandleMotion> way) {
     return result;
 }
 
+// The way from rest, without what was gone there and back again: from one place over a second to a third that
+// is nearer to the first than the second is to the farther of both.
+std::vector<HandleMotion> from_rest_without_returns(std::span<const HandleMotion> way) {
+    std::vector<HandleMotion> result{HandleMotion{}};
+    for (const HandleMotion& next : way) {
+        const auto goes_back = [&] {
+            const Quatd &last = result.back().rotation, &before = result[result.size() - 2].rotation;
+            const double farther = std::min(before.dot(last), last.dot(next.rotation));
+            return before.dot(next.rotation) > farther - rounding;
+        };
+        while (result.size() > 1 && goes_back()) result.pop_back();
+        result.push_back(next);
+    }
+    return result;
+}
+
 } // namespace
+
+bool is_back(std::span<const HandleMotion> way) {
+    return way.empty() || (is_at_rest(way.back()) && corners(from_rest_without_returns(way)).size() <= 2);
+}
 
 DragLine way_back(const std::string& handle, std::span<const HandleMotion> way, const Vec3d& middle,
                   const Vec3d& origin) {
-    std::vector<HandleMotion> from_rest{HandleMotion{}};
-    from_rest.insert(from_rest.end(), way.begin(), way.end());
+    const std::vector<HandleMotion> from_rest = from_rest_without_returns(way);
     const std::vector<std::size_t> stops = corners(from_rest);
     const HandlePose posed = pose_of(from_rest.back(), middle + origin, origin);
     double whole = 0, done = 0;

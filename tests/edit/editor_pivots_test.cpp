@@ -176,4 +176,58 @@ TEST_F(BarEditor, AHandleOfANameThatWasBeginsWithNoPivot) {
     EXPECT_NE(pivot(), elsewhere);
 }
 
+// Which takes a commit, that takes the pivots along.
+TEST_F(BarEditor, ChangingAHandleWhileAnotherIsPosedLeavesThatOneItsPivotAndItsPoints) {
+    make_handles();
+    select_heights(1.5, 2.5); // part of it is the other one's
+    apply(editor_, MakeHandle{HandleRole::moving, "collar"});
+    calm();
+    apply(editor_, SetPivot{glm::dvec3(0.5, 0, 1.5)});
+    transform_chosen('G', 'X', "1");
+    apply(editor_, ChangeHold{"high", true, 0});
+    calm();
+    EXPECT_FALSE(editor_.document->posed);
+    const auto& handles = editor_.document->handles;
+    ASSERT_EQ(handles.size(), 3U);
+    EXPECT_EQ(handles.back().name, "collar") << "it still has what both hold";
+    ASSERT_TRUE(handles.back().pivot);
+    EXPECT_LT((*handles.back().pivot - Vec3d(1.5, 0, 1.5)).norm(), 1e-6) << "where it was taken";
+}
+
+TEST_F(BarEditor, ANewHandleOfAnOldNameHasNoPivotWhenOpenedAgain) {
+    make_handles();
+    apply(editor_, ChooseHandle{"high"});
+    calm();
+    editor_.pivots["high"] = {0.5, 0, 1.5}; // as an older session had it, which told of none
+    turn_chosen("30");
+    apply(editor_, CommitPose{});
+    apply(editor_, DeleteHandle{"high"});
+    select_heights(-0.5, 0.5);
+    apply(editor_, MakeHandle{HandleRole::moving, "high"});
+    calm();
+    const std::filesystem::path kept = folder_ / "kept.knead";
+    save_session(editor_, kept, true);
+    calm();
+    Editor again{1};
+    ASSERT_TRUE(open_in(again, kept));
+    EXPECT_FALSE(pivot_of(again, "high"));
+    wait_until_idle(*again.live);
+}
+
+TEST_F(BarEditor, AResetThatIsGivenTwiceIsOne) {
+    make_handles();
+    const glm::dvec3 joint(0.5, 0, 1.5);
+    apply(editor_, SetPivot{joint});
+    turn_chosen("360");
+    const std::size_t steps = editor_.past.size();
+    apply(editor_, ResetPose{"high"});
+    apply(editor_, ResetPose{"high"});
+    calm();
+    EXPECT_EQ(editor_.past.size(), steps + 1);
+    EXPECT_LT(glm::distance(*pivot_of(editor_, "high"), joint), 1e-9);
+    apply(editor_, ResetPose{"high"});
+    calm();
+    EXPECT_EQ(editor_.past.size(), steps + 1) << "it is at rest";
+}
+
 } // namespace knead::test

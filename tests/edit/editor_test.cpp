@@ -213,6 +213,23 @@ TEST_F(BarEditor, AFailedOpeningLeavesThePresentDocument) {
     EXPECT_EQ(editor_.notices.size(), 1U);
 }
 
+TEST_F(BarEditor, WhatBecameOfASaveIsToldThoughAnotherFileWasOpenedMeanwhile) {
+    write_text(folder_ / "other.ply", "somebody else's");
+    editor_.live->save_cloud(folder_ / "nowhere" / "a.ply");
+    OpenRequest request;
+    request.file = bar_file(folder_);
+    request.device = "reference";
+    LiveDocument* const before = editor_.live.get();
+    open(editor_, request);
+    ASSERT_TRUE(wait_until([&] { // nobody looks before all of it is done
+        return !before->status().busy && editor_.opening->status().stage == LiveDocument::Stage::open;
+    }));
+    refresh(editor_);
+    ASSERT_NE(editor_.live.get(), before);
+    ASSERT_EQ(editor_.notices.size(), 1U);
+    EXPECT_NE(editor_.notices[0].words.find("nowhere"), std::string::npos);
+}
+
 TEST_F(BarEditor, LeadsTheArtistFromStepToStep) {
     EXPECT_NE(next_step(editor_).find("box"), std::string::npos);
     editor_.camera.orthographic = true;

@@ -529,4 +529,27 @@ TEST_F(SavingOver, AnOpenedSessionIsKnownToo) {
     EXPECT_TRUE(held());
 }
 
+// A hand that saves right after it let go has the shape at rest all the same.
+TEST_F(LiveBar, SavingDoesNotKeepAShapeFromComingToRest) {
+    const auto settled = [&](const std::filesystem::path& session) {
+        return std::ranges::count_if(lines_in(session), [](const std::string& line) {
+            return line.find("settle") != std::string::npos;
+        });
+    };
+    const auto drag_and = [&](auto&& act) {
+        live_->begin_drag(++step_, "high", {0, 0, 2});
+        live_->drag_to(turned(1));
+        live_->end_drag();
+        act();
+        settle_down();
+    };
+    drag_and([&] { live_->save_session(folder_ / "a.knead"); });
+    EXPECT_EQ(settled(folder_ / "a.knead"), 1);
+    EXPECT_EQ(live_->saved().session_state, live_->view()->state) << "and it is not unsaved again at once";
+    drag_and([&] { live_->save_cloud(folder_ / "a.ply"); });
+    live_->save_session(folder_ / "b.knead");
+    settle_down();
+    EXPECT_EQ(settled(folder_ / "b.knead"), 2);
+}
+
 } // namespace knead::test

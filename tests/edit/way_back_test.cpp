@@ -107,5 +107,26 @@ TEST(WayBack, AShiftAndAScaleGoBackInOneFrame) {
     EXPECT_EQ(way_back("ear", {}, middle, origin).frames.size(), 1U);
 }
 
+// What Reset has unwound is not wound up again.
+TEST(WayBack, WhatWasGoneBackAlreadyIsNotGoneAgain) {
+    std::vector<HandleMotion> way;
+    wind(way, Vec3d::UnitZ(), 72);
+    const DragLine back = way_back("ear", way, middle, origin);
+    for (const HandlePose& pose : back.frames) way.push_back(motion_of(pose, back.pivot, origin, way.back()));
+    EXPECT_TRUE(is_back(way));
+    wind(way, Vec3d::UnitZ(), 1);
+    EXPECT_FALSE(is_back(way));
+    EXPECT_NEAR(turned_in_all(way_back("ear", way, middle, origin), way.back()), pi / 18, 1e-6);
+}
+
+TEST(WayBack, TwoTurnsThatEndAtRestAreNotBack) {
+    EXPECT_TRUE(is_back({}));
+    std::vector<HandleMotion> way;
+    wind(way, Vec3d::UnitZ(), 71);
+    way.emplace_back(); // as a session may have it, in whole numbers
+    EXPECT_FALSE(is_back(way));
+    EXPECT_NEAR(turned_in_all(way_back("ear", way, middle, origin), way.back()), 4 * pi, 1e-6);
+}
+
 } // namespace
 } // namespace knead

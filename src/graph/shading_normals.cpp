@@ -11,16 +11,15 @@ namespace {
 
 constexpr int rounds = 2; // of evening out: what noise of a tenth of the spacing needs
 
-// A surface that is at least so flat, of its neighbours alone, is taken as it lies. Where scans overlap and
-// do not quite fit each other, neighbours are a lump, and one looks farther: two links, and then at runs of
-// vertices before and behind it in their order, in which near ones follow each other. Of long runs only some.
+// Surroundings that are at least so flat are a surface, and taken as they lie. Where scans overlap and do not
+// quite fit each other they are a lump: single vertices in it may lie flat with their neighbours by chance.
 constexpr float flat_enough = 0.1F;
-struct Run {
-    std::size_t length, stride;
-};
-constexpr std::array runs{Run{64, 2}, Run{256, 8}, Run{1024, 32}};
 
-// Farther is only better where it is so much flatter: edges and hollows stay.
+// There points are drawn together, each to the mean of its neighbours, so often before their planes are
+// looked at again: scans that lie less than a link apart become one surface.
+constexpr std::array drawings{2, 4, 8};
+
+// That is only better where it is so much flatter: edges and hollows stay.
 constexpr float flatter = 0.7F;
 
 // A vertex without a surface around counts so much for its neighbours; a flat one 1.
@@ -32,19 +31,17 @@ struct Plane {
     float roughness = 1; // the spread across it over the smaller one along it, 0 … 1
 };
 
-// The plane through the points that each(take) calls take(vertex) for, seen from one of them.
-template<typename Each>
-Plane plane_through(std::span<const float> positions, Index seen_from, Each&& each) {
-    const Vec3d own = point_at(positions, seen_from);
+// The plane through a vertex and its neighbours.
+Plane plane_at(const Graph& graph, std::span<const float> positions, Index v) {
+    const Vec3d own = point_at(positions, v);
     Vec3d sum = Vec3d::Zero();
     Mat3d squares = Mat3d::Zero();
-    double count = 0;
-    each([&](Index u) {
+    for (const Index u : graph.row(v)) {
         const Vec3d way = point_at(positions, u) - own;
         sum += way;
         squares += way * way.transpose();
-        ++count;
-    });
+    }
+    const double count = 1 + static_cast<double>(graph.row(v).size());
     const Mat3d spread = squares / count - (sum / count) * (sum / count).transpose();
     Eigen::SelfAdjointEigenSolver<Mat3d> axes;
     axes.computeDirect(spread);
@@ -54,44 +51,10 @@ Plane plane_through(std::span<const float> positions, Index seen_from, Each&& ea
             static_cast<float>(std::clamp(along[0] / along[1], 0.0, 1.0))};
 }
 
-Plane plane_of_neighbors(const Graph& graph, std::span<const float> positions, Index v) {
-    return plane_through(positions, v, [&](auto&& take) {
-        take(v);
-        for (const Index u : graph.row(v)) take(u);
-    });
-}
-
-// Those that are met in more ways count more.
-Plane plane_of_their_neighbors(const Graph& graph, std::span<const float> positions, Index v) {
-    return plane_through(positions, v, [&](auto&& take) {
-        const auto take_around = [&](Index u) {
-            take(u);
-            for (const Index w : graph.row(u)) take(w);
-        };
-        take_around(v);
-        for (const Index u : graph.row(v)) take_around(u);
-    });
-}
-
-Plane plane_of_run(std::span<const float> positions, Index v, const Run& run) {
-    const std::size_t vertices = positions.size() / 3;
-    const std::size_t half = run.length / 2 / run.stride * run.stride;
-    const std::size_t first = v - std::min<std::size_t>(v / run.stride * run.stride, half);
-    return plane_through(positions, v, [&](auto&& take) {
-        for (std::size_t u = first; u < std::min(vertices, v + half); u += run.stride)
-            take(static_cast<Index>(u));
-    });
-}
-
-Plane plane_at(const Graph& graph, std::span<const float> positions, Index v) {
-    Plane best = plane_of_neighbors(graph, positions, v);
-    const auto compare = [&](const Plane& wider) {
-        if (wider.roughness < flatter * best.roughness) best = wider;
-    };
-    if (best.roughness > flat_enough) compare(plane_of_their_neighbors(graph, positions, v));
-    for (const Run& run : runs)
-        if (best.roughness > flat_enough) compare(plane_of_run(positions, v, run));
-    return best;
+float mean_around(const Graph& graph, std::span<const float> values, Index v) {
+    float sum = values[v];
+    for (const Index u : graph.row(v)) sum += values[u];
+    return sum / static_cast<float>(1 + graph.row(v).size());
 }
 
 using Normals = std::vector<float>;
@@ -111,16 +74,72 @@ Vec3f evened_out(const Graph& graph, const Normals& normals, std::span<const flo
     return sum.normalized(); // own · sum ≥ say, so it is not zero
 }
 
+// What is known of the surface at each vertex.
+struct Surface {
+    Normals normals;
+    std::vector<float> around; // how rough its surroundings are, 0 … 1
+};
+
+Surface surface_as_it_lies(const Graph& graph, std::span<const float> positions,
+                           std::vector<float>& roughness, Workers& workers) {
+    Surface surface{Normals(3 * graph.size()), std::vector<float>(graph.size())};
+    workers.for_each(graph.size(), 1024, [&](std::size_t v) {
+        const Plane plane = plane_at(graph, positions, static_cast<Index>(v));
+        Eigen::Map<Vec3f>(surface.normals.data() + 3 * v) = plane.normal;
+        roughness[v] = plane.roughness;
+    });
+    workers.for_each(graph.size(), 4096, [&](std::size_t v) {
+        surface.around[v] = mean_around(graph, roughness, static_cast<Index>(v));
+    });
+    return surface;
+}
+
+// Draws these vertices, one time, to the means of their neighbours.
+void draw_together(const Graph& graph, std::span<const Index> lumps, std::span<float> positions,
+                   Workers& workers) {
+    std::vector<Vec3f> drawn(lumps.size());
+    workers.for_each(lumps.size(), 4096, [&](std::size_t k) {
+        Vec3d sum = point_at(positions, lumps[k]);
+        for (const Index u : graph.row(lumps[k])) sum += point_at(positions, u);
+        drawn[k] = (sum / static_cast<double>(1 + graph.row(lumps[k]).size())).cast<float>();
+    });
+    for (std::size_t k = 0; k < lumps.size(); ++k)
+        Eigen::Map<Vec3f>(positions.data() + 3 * std::size_t{lumps[k]}) = drawn[k];
+}
+
+// Takes the planes of points that are drawn together where the surroundings are no surface as they lie.
+void look_through_lumps(const Graph& graph, std::span<const float> positions, std::vector<float>& roughness,
+                        Surface& surface, Workers& workers) {
+    std::vector<Index> lumps;
+    for (Index v = 0; v < graph.size(); ++v)
+        if (surface.around[v] > flat_enough) lumps.push_back(v);
+    if (lumps.empty()) return;
+    std::vector<float> drawn(positions.begin(), positions.end());
+    std::vector<Plane> planes(lumps.size());
+    for (const int times : drawings) {
+        for (int time = 0; time < times; ++time) draw_together(graph, lumps, drawn, workers);
+        workers.for_each(lumps.size(), 1024,
+                         [&](std::size_t k) { planes[k] = plane_at(graph, drawn, lumps[k]); });
+        for (std::size_t k = 0; k < lumps.size(); ++k) roughness[lumps[k]] = planes[k].roughness;
+        workers.for_each(lumps.size(), 4096, [&](std::size_t k) {
+            const Index v = lumps[k];
+            const float around = mean_around(graph, roughness, v);
+            if (surface.around[v] <= flat_enough || around >= flatter * surface.around[v]) return;
+            surface.around[v] = around;
+            Eigen::Map<Vec3f>(surface.normals.data() + 3 * std::size_t{v}) = planes[k].normal;
+        });
+    }
+}
+
 } // namespace
 
 std::vector<float> shading_normals(const Graph& graph, std::span<const float> positions, Workers& workers) {
-    Normals normals(3 * graph.size());
-    std::vector<float> say(graph.size());
-    workers.for_each(graph.size(), 1024, [&](std::size_t v) {
-        const Plane plane = plane_at(graph, positions, static_cast<Index>(v));
-        Eigen::Map<Vec3f>(normals.data() + 3 * v) = plane.normal;
-        say[v] = std::max(least_say, 1 - plane.roughness);
-    });
+    std::vector<float> roughness(graph.size());
+    Surface surface = surface_as_it_lies(graph, positions, roughness, workers);
+    look_through_lumps(graph, positions, roughness, surface, workers);
+    std::vector<float>& say = roughness; // of no other use from here on
+    for (std::size_t v = 0; v < say.size(); ++v) say[v] = std::max(least_say, 1 - surface.around[v]);
+    Normals& normals = surface.normals;
     Normals next(normals.size());
     for (int round = 0; round < rounds; ++round) {
         workers.for_each(graph.size(), 4096, [&](std::size_t v) {
@@ -128,7 +147,7 @@ std::vector<float> shading_normals(const Graph& graph, std::span<const float> po
         });
         std::swap(normals, next);
     }
-    return normals;
+    return std::move(surface.normals);
 }
 
 std::vector<float> spread_to_points(std::span<const float> vertex_normals, const Numbering& vertex) {

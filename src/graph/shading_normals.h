@@ -11,9 +11,9 @@
 namespace knead {
 
 // A unit normal at every vertex, up to its sign, which is left to chance: that of the plane through its
-// neighbours or, where these are no surface, as where scans overlap and do not quite fit, through more and
-// more of what lies around, evened out among neighbours. For looking at only; a saved file gets none.
-// `positions`: 3 floats a vertex; vertices that follow each other should be near each other (PointOrder).
+// neighbours or, where these are no surface, as where scans overlap and do not quite fit, through them when
+// all were drawn together, each to the mean of its neighbours; evened out among neighbours. For looking at
+// only; a saved file gets none. `positions`: 3 floats a vertex.
 std::vector<float> shading_normals(const Graph& graph, std::span<const float> positions, Workers& workers);
 
 // The points' normals from those of their vertices. `vertex`: of each point (PointOrder).

@@ -58,7 +58,7 @@ TEST(ShadingNormals, stand_on_scans_that_do_not_fit_each_other) {
         const Vec3f radius = Eigen::Map<const Vec3f>(ordered.data() + 3 * v).normalized();
         astray += std::abs(n.dot(radius)) < std::cos(0.35F) ? 1 : 0;
     }
-    EXPECT_LT(astray, graph.size() / 50);
+    EXPECT_LT(astray, graph.size() / 150);
 }
 
 TEST(ShadingNormals, are_there_for_lone_vertices_too) {

@@ -59,10 +59,9 @@ void declare_picture_options(CLI::App& command, PictureOptions& options) {
                     "front, back, left, right, top, bottom, or AZIMUTH,ELEVATION in degrees")
         ->group(group);
     command
-        .add_option(
-            "--up", options.up,
-            "Which axis points upwards: z, y, -y (as --up=-y), or auto, which tells by what the cloud "
-            "stands on (z)")
+        .add_option("--up", options.up,
+                    "Which axis points upwards: auto, which tells by what the cloud stands on, z, y, or -y "
+                    "(as --up=-y; auto)")
         ->group(group);
     command
         .add_option("--color", options.color,
@@ -109,7 +108,8 @@ UpAxis parse_up(const std::string& text, std::span<const float> positions) {
     refuse("--up", text, "z, y, -y or auto");
 }
 
-Camera camera_for(const PictureOptions& options, std::span<const float> positions, Viewport viewport) {
+Camera camera_for(const PictureOptions& options, std::span<const float> positions,
+                  std::span<const float> opened, Viewport viewport) {
     constexpr std::array<std::pair<const char*, Side>, 6> sides = {{{"front", Side::front},
                                                                     {"back", Side::back},
                                                                     {"right", Side::right},
@@ -134,7 +134,7 @@ Camera camera_for(const PictureOptions& options, std::span<const float> position
                    "front, back, left, right, top, bottom, or AZIMUTH,ELEVATION in degrees, as 30,20");
         }
     }
-    set_up(camera, parse_up(options.up, positions));
+    set_up(camera, parse_up(options.up, opened));
     frame_points(camera, positions, viewport);
     camera.distance /= options.zoom;
     return camera;

@@ -16,8 +16,9 @@ UpAxis parse_up(const std::string& text, std::span<const float> positions);
 
 // "front" … "bottom" with respect to the upward axis, or degrees "azimuth,elevation": 0,0 is the front; a
 // larger azimuth goes round to the right, a larger elevation up. Empty: a pleasant first view. Framed on the
-// bulk of `positions` (3n floats).
-Camera camera_for(const PictureOptions& options, std::span<const float> positions, Viewport viewport);
+// bulk of `positions` (3n floats); upright as `opened`, the same as they were before they were posed, stands.
+Camera camera_for(const PictureOptions& options, std::span<const float> positions,
+                  std::span<const float> opened, Viewport viewport);
 
 ColorBy parse_color(const std::string& text);
 

@@ -22,11 +22,11 @@ namespace knead {
 // As given on the command line.
 struct PictureOptions {
     std::string size = "1280x800";
-    std::string view;       // a side, or azimuth and elevation; empty: chosen
-    std::string up = "z";   // y, -y, or auto: what the cloud stands on tells
-    std::string color;      // rgb, plain, height, normal, displacement, or a column; empty: rgb, or plain
-    std::string background; // "#rrggbb"; empty: a dark gradient
-    double point_size = 0;  // pixels; 0: by distance
+    std::string view;        // a side, or azimuth and elevation; empty: chosen
+    std::string up = "auto"; // what the cloud stands on tells; or z, y, -y
+    std::string color;       // rgb, plain, height, normal, displacement, or a column; empty: rgb, or plain
+    std::string background;  // "#rrggbb"; empty: a dark gradient
+    double point_size = 0;   // pixels; 0: by distance
     double zoom = 1;
     bool orthographic = false, flat = false;
 };

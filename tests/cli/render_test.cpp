@@ -114,13 +114,16 @@ TEST_F(Render, SeesACloudUprightWhateverItsAxis) {
               0);
     write_text(folder / "turned.xyz", turned_to_y(read_cloud(folder / "tube.xyz", quiet)));
     const auto picture = [&](const char* file, const char* up) {
-        const Outcome outcome = render(
-            {file, "--out", "a.png", "--size", "64x48", "--point-size", "3", "--no-eye-dome", "--up", up});
+        std::vector<std::string> arguments{file,    "--out",        "a.png", "--size",
+                                           "64x48", "--point-size", "3",     "--no-eye-dome"};
+        if (up) arguments.insert(arguments.end(), {"--up", up});
+        const Outcome outcome = render(arguments);
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         return read_text(folder / "a.png");
     };
     EXPECT_EQ(picture("tube.xyz", "auto"), picture("tube.xyz", "z"));
     EXPECT_EQ(picture("turned.xyz", "auto"), picture("turned.xyz", "y"));
+    EXPECT_EQ(picture("turned.xyz", nullptr), picture("turned.xyz", "y")) << "as the window opens it";
     EXPECT_NE(picture("turned.xyz", "y"), picture("turned.xyz", "z"));
 }
 

@@ -23,6 +23,9 @@ bool something_is_hidden(const Ui& ui) {
 bool handle_is_chosen(const Ui& ui) {
     return ui.has_cloud() && chosen_handle(ui.editor);
 }
+bool handle_can_be_named(const Ui& ui) {
+    return ui.has_cloud() && handle_to_name(ui.editor);
+}
 bool handle_and_selection_are_there(const Ui& ui) {
     return handle_is_chosen(ui) && ui.editor.selected > 0;
 }
@@ -139,8 +142,8 @@ void choose_next_handle(const Ui& ui) {
     ui.tell(ChooseHandle{handles[order[static_cast<std::size_t>((at + direction + count) % count)]].name});
 }
 
-void rename_chosen(const Ui& ui) {
-    ui.state.renaming = ui.state.name_text = ui.editor.chosen;
+void name_handle(const Ui& ui) {
+    ui.state.renaming = ui.state.name_text = handle_to_name(ui.editor)->name;
     ui.state.renaming_begins = true;
     ui.state.show_panels = true; // the name is typed there
 }
@@ -286,8 +289,8 @@ const Action handle_actions[] = {
     {"Handles/Its points", "Hold the selection instead", "",
      "The chosen handle holds the selected points and no others", std::nullopt,
      assign_points<SelectMode::replace>, handle_and_selection_are_there},
-    {"Handles", "Rename", "F2", "Gives the chosen handle another name", on(Key::f2), rename_chosen,
-     handle_is_chosen},
+    {"Handles", "Rename", "F2", "Gives the handle that was just made, or else the chosen one, another name",
+     on(Key::f2), name_handle, handle_can_be_named},
     {"Handles", "Reset its pose", "Alt+R", "Puts the chosen handle back where it was at rest", on('R', alt),
      [](const Ui& ui) { ui.tell(ResetPose{ui.editor.chosen}); },
      [](const Ui& ui) { return moving_handle_is_chosen(ui) && something_is_posed(ui); }},

@@ -70,7 +70,10 @@ bool& press_of(Loop& loop, MouseButton button) {
 void take(Loop& loop, MouseMove event) {
     loop.cursor = event.cursor;
     loop.state.cursor_in_view = over_cloud(loop, event.cursor);
-    if (!loop.state.cursor_in_view && !holds_button(loop) && !hand_is_full(loop)) return;
+    if (!loop.state.cursor_in_view && !holds_button(loop) && !hand_is_full(loop)) {
+        loop.editor.tools.hovered.reset(); // it is over a panel
+        return;
+    }
     event.cursor = in_view(loop, event.cursor);
     handle_input(loop.editor, event);
 }

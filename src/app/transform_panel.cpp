@@ -205,8 +205,13 @@ void transform_panel(const Ui& ui) {
         fields.handle = ui.editor.chosen;
     }
     if (pose) return pose_rows(ui, *pose);
+    // As high as the rows of a pose, or all below would jump when a handle is chosen.
+    const float end = ImGui::GetCursorPosY() +
+                      static_cast<float>(std::size(row_looks)) * ImGui::GetFrameHeightWithSpacing();
     faint_text("Choose a moving handle to read and type its pose.");
     extent_words(ui);
+    const float left = end - ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y;
+    if (left > 0) ImGui::Dummy({0, left});
 }
 
 } // namespace knead

@@ -120,6 +120,7 @@ struct Editor {
     StepNumber last_step = step_of_opened_session;
     // Names of handles that were posted and that the document has not shown yet.
     std::vector<std::pair<StepNumber, std::string>> posted_names;
+    std::string just_made; // a handle, after which nothing was done or chosen; empty: none
 
     std::vector<Notice> notices; // for the user, oldest first; the window takes them
     std::vector<HeldSave>
@@ -153,6 +154,8 @@ Box3 box_of(const Editor& editor); // of all points as they are now, relative to
 std::optional<Box3> box_of_selection(const Editor& editor); // nothing when nothing is selected
 std::optional<Box3> box_of_chosen(const Editor& editor);    // nothing when no handle is chosen
 const Handle* chosen_handle(const Editor& editor);          // null: none
+// Which one a name is for that is asked for now: the one that was just made, whatever is chosen. Null: none.
+const Handle* handle_to_name(const Editor& editor);
 // The middle of a handle's points as they are now; nothing for one without a finite point.
 std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle);
 std::optional<Gizmo> gizmo_of(const Editor& editor); // of the chosen moving handle, where it is now

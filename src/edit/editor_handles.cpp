@@ -120,6 +120,7 @@ void carry_out(Editor& editor, const MakeHandle& command) {
     const StepNumber step = post_step(editor, {std::move(line)}, std::move(before));
     editor.posted_names.emplace_back(step, name);
     if (command.role == HandleRole::moving) choose_with_step(editor, name);
+    editor.just_made = name;
 }
 
 void carry_out(Editor& editor, const ChooseHandle& command) {

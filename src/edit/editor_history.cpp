@@ -30,6 +30,7 @@ void add_step(Editor& editor, EditorStep step) noexcept {
     if (step.document) step.undone = std::move(editor.future);
     editor.future.clear();
     editor.looks_from.reset(); // whoever acts goes on from here
+    editor.just_made.clear();
     editor.past.push_back(std::move(step));
 }
 
@@ -51,6 +52,7 @@ StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
 
 void choose(Editor& editor, const std::string& handle) {
     editor.chosen = handle;
+    editor.just_made.clear();
     if (const Handle* there = chosen_handle(editor))
         editor.handle_middle = middle_of(editor, *there).value_or(glm::dvec3(0.0));
 }
@@ -88,6 +90,7 @@ void begin_looking(Editor& editor) {
 
 void carry_out(Editor& editor, const UndoStep& command) {
     if (!can_undo(editor)) return;
+    editor.just_made.clear();
     if (command.to_look)
         begin_looking(editor);
     else

@@ -75,6 +75,7 @@ void take_over(Editor& editor) {
     editor.earlier_drags.clear();
     editor.chosen.clear();
     editor.posted_names.clear();
+    editor.just_made.clear();
     editor.pivots.clear();
     editor.moved_pivot.reset();
     std::vector<Command> of_before;

@@ -26,13 +26,22 @@ void extend(Box3& box, const float* p) {
     box.highest = glm::max(box.highest, point);
 }
 
+const Handle* handle_named(const Editor& editor, const std::string& name) {
+    if (!editor.document || name.empty()) return nullptr;
+    const auto& handles = editor.document->handles;
+    const auto found = std::ranges::find(handles, name, &Handle::name);
+    return found == handles.end() ? nullptr : &*found;
+}
+
 } // namespace
 
 const Handle* chosen_handle(const Editor& editor) {
-    if (!editor.document || editor.chosen.empty()) return nullptr;
-    const auto& handles = editor.document->handles;
-    const auto found = std::ranges::find(handles, editor.chosen, &Handle::name);
-    return found == handles.end() ? nullptr : &*found;
+    return handle_named(editor, editor.chosen);
+}
+
+const Handle* handle_to_name(const Editor& editor) {
+    const Handle* made = handle_named(editor, editor.just_made);
+    return made ? made : chosen_handle(editor);
 }
 
 std::vector<Index> followed_handles(const Editor& editor) {

@@ -62,11 +62,11 @@ void end_camera(const Hand& hand) {
     }
 }
 
-// With Shift held a press would select.
+// With Shift or Ctrl held a press would select.
 void hover(const Hand& hand, Modifiers held) {
     const ToolContext& context = hand.context;
     hand.tools.hovered.reset();
-    if (context.gizmo && !held.shift)
+    if (context.gizmo && !held.shift && !held.ctrl)
         hand.tools.hovered =
             gizmo_part_under(*context.gizmo, context.camera, context.viewport, hand.tools.cursor);
 }

@@ -383,4 +383,29 @@ TEST_F(BarEditor, HandlesMadeInQuickSuccessionHaveNamesOfTheirOwn) {
     EXPECT_EQ(editor_.document->handles[1].name, "handle 2");
 }
 
+// A fixed handle that is made leaves the moving one chosen, so as to be moved; the name that is typed next is
+// for the new one all the same.
+TEST_F(BarEditor, WhatWasJustMadeIsWhatIsNamed) {
+    editor_.camera.orthographic = true;
+    select_heights(2, 3);
+    apply(editor_, MakeHandle{HandleRole::moving, "high"});
+    select_heights(-3, -2);
+    apply(editor_, MakeHandle{HandleRole::fixed, "low"});
+    calm();
+    EXPECT_EQ(editor_.chosen, "high");
+    ASSERT_TRUE(handle_to_name(editor_));
+    EXPECT_EQ(handle_to_name(editor_)->name, "low");
+    apply(editor_, ChooseHandle{"high"});
+    EXPECT_EQ(handle_to_name(editor_)->name, "high");
+    apply(editor_, MakeHandle{HandleRole::fixed, "again"}); // nothing is selected
+    EXPECT_EQ(handle_to_name(editor_)->name, "high");
+    select_heights(-1, 0);
+    apply(editor_, MakeHandle{HandleRole::fixed, "waist"});
+    calm();
+    EXPECT_EQ(handle_to_name(editor_)->name, "waist");
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(handle_to_name(editor_)->name, "high");
+}
+
 } // namespace knead::test

@@ -188,13 +188,14 @@ bool leaves_field(const Loop& loop, const Input& input) {
     return pressed && is_for_file(*pressed);
 }
 
-// Whether this begins a move, of a handle or its pivot, from where nobody knows yet: the handle was just
-// made, or an undo takes it back.
-bool moves_from_elsewhere(const Editor& editor, const Input& input) {
+// Whether this is about a handle that the document has yet to make, or begins a move, of one or its pivot,
+// from where nobody knows yet: an undo takes it back.
+bool is_ahead_of_handles(const Editor& editor, const Input& input) {
     const auto* pressed = std::get_if<KeyPress>(&input);
     if (!pressed || pressed->held.ctrl) return false;
     const bool moves = pressed->key == key('G') || pressed->key == key('R') || pressed->key == key('S');
-    if (!(moves && !pressed->held.alt) && pressed->key != key('.')) return false;
+    const bool names = pressed->key == Key::f2;
+    if (!(moves && !pressed->held.alt) && !names && pressed->key != key('.')) return false;
     return !editor.tools.drag && !editor.status.playing && handles_may_be_elsewhere(editor);
 }
 
@@ -208,7 +209,7 @@ bool has_to_wait(Loop& loop, const WindowEvent& event) {
     if (std::holds_alternative<MouseMove>(*input) || std::holds_alternative<MouseRelease>(*input))
         return false;
     return !loop.wishes.empty() || loop.tabbed || tab_may_lead_to_field() ||
-           moves_from_elsewhere(loop.editor, *input);
+           is_ahead_of_handles(loop.editor, *input);
 }
 
 } // namespace

@@ -154,7 +154,8 @@ Box3 box_of(const Editor& editor); // of all points as they are now, relative to
 std::optional<Box3> box_of_selection(const Editor& editor); // nothing when nothing is selected
 std::optional<Box3> box_of_chosen(const Editor& editor);    // nothing when no handle is chosen
 const Handle* chosen_handle(const Editor& editor);          // null: none
-// Which one a name is for that is asked for now: the one that was just made, whatever is chosen. Null: none.
+// Which one a name is for that is asked for now: the one that was just made, whatever is chosen. Null: none,
+// or the document has yet to make it.
 const Handle* handle_to_name(const Editor& editor);
 // The middle of a handle's points as they are now; nothing for one without a finite point.
 std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle);

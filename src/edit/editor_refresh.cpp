@@ -137,6 +137,7 @@ void forget_refused(Editor& editor) {
         forget_drag(editor, step);
         const auto found = std::ranges::find(editor.past, step, &EditorStep::document);
         if (found == editor.past.end()) continue;
+        editor.just_made.clear();
         if (found->before) restore_selection(editor, *found->before);
         if (found->chosen_before && found->chosen_after == editor.chosen)
             choose(editor, *found->chosen_before);

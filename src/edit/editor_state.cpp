@@ -40,8 +40,7 @@ const Handle* chosen_handle(const Editor& editor) {
 }
 
 const Handle* handle_to_name(const Editor& editor) {
-    const Handle* made = handle_named(editor, editor.just_made);
-    return made ? made : chosen_handle(editor);
+    return editor.just_made.empty() ? chosen_handle(editor) : handle_named(editor, editor.just_made);
 }
 
 std::vector<Index> followed_handles(const Editor& editor) {

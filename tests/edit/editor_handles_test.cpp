@@ -391,6 +391,7 @@ TEST_F(BarEditor, WhatWasJustMadeIsWhatIsNamed) {
     apply(editor_, MakeHandle{HandleRole::moving, "high"});
     select_heights(-3, -2);
     apply(editor_, MakeHandle{HandleRole::fixed, "low"});
+    EXPECT_FALSE(handle_to_name(editor_)) << "and not the other one meanwhile";
     calm();
     EXPECT_EQ(editor_.chosen, "high");
     ASSERT_TRUE(handle_to_name(editor_));

@@ -6,14 +6,17 @@ namespace knead::test {
 
 namespace {
 
-// As a window would that comes after. False if it does not come up.
-bool open_in(Editor& editor, const std::filesystem::path& session) {
-    editor.viewport = {800, 800};
+// Saves the session and opens it in another editor, as a window would that comes after. False if it does not
+// come up.
+bool open_saved_in(Editor& again, Editor& editor, const std::filesystem::path& session) {
+    save_session(editor, session, true);
+    wait_until_idle(*editor.live);
+    again.viewport = {800, 800};
     OpenRequest request;
     request.file = session;
     request.device = "reference";
-    open(editor, request);
-    return wait_until([&] { return refresh(editor) && editor.document; });
+    open(again, request);
+    return wait_until([&] { return refresh(again) && again.document; });
 }
 
 } // namespace
@@ -75,13 +78,10 @@ TEST_F(BarEditor, PivotsAreThereWhenTheSessionIsOpenedAgain) {
     turn_chosen("30");
     turn_chosen("40");
     const glm::dvec3 pivot = *pivot_of(editor_, "high");
-    const std::filesystem::path kept = folder_ / "kept.knead";
     for (const bool commits : {false, true}) {
         if (commits) apply(editor_, CommitPose{});
-        save_session(editor_, kept, true);
-        calm();
         Editor again{1};
-        ASSERT_TRUE(open_in(again, kept));
+        ASSERT_TRUE(open_saved_in(again, editor_, folder_ / "kept.knead"));
         ASSERT_TRUE(pivot_of(again, "high"));
         EXPECT_LT(glm::distance(*pivot_of(again, "high"), pivot), 1e-6);
         EXPECT_FALSE(pivot_of(again, "middle"));
@@ -112,11 +112,8 @@ TEST_F(BarEditor, APivotIsSavedWithOrWithoutADragAndGoesBackAndForthWhenOpenedAg
     calm();
     apply(editor_, SetPivot{other});
     calm();
-    const std::filesystem::path kept = folder_ / "kept.knead";
-    save_session(editor_, kept, true);
-    calm();
     Editor again{1};
-    ASSERT_TRUE(open_in(again, kept));
+    ASSERT_TRUE(open_saved_in(again, editor_, folder_ / "kept.knead"));
     const auto is_at = [&](const std::optional<glm::dvec3>& place) {
         const auto now = pivot_of(again, "high");
         return now.has_value() == place.has_value() && (!now || glm::distance(*now, *place) < 1e-6);
@@ -205,11 +202,8 @@ TEST_F(BarEditor, ANewHandleOfAnOldNameHasNoPivotWhenOpenedAgain) {
     select_heights(-0.5, 0.5);
     apply(editor_, MakeHandle{HandleRole::moving, "high"});
     calm();
-    const std::filesystem::path kept = folder_ / "kept.knead";
-    save_session(editor_, kept, true);
-    calm();
     Editor again{1};
-    ASSERT_TRUE(open_in(again, kept));
+    ASSERT_TRUE(open_saved_in(again, editor_, folder_ / "kept.knead"));
     EXPECT_FALSE(pivot_of(again, "high"));
     wait_until_idle(*again.live);
 }

@@ -1,18 +1,20 @@
 #version 410 core
+// A splat that is wide enough is a disc in the surface that bulges a little: src/render/splats.h tells how.
 flat in vec4 splat_color;
-#ifdef CURVED
-flat in vec2 splat_depth; // at the middle, and how much more at the rim
+#ifdef DISCS
+flat in vec2 splat_depth; // at the middle, and how much more the bulge makes it at the rim
+flat in vec2 splat_slope; // to the right and upwards
 #endif
 out vec4 pixel;
 
 void main() {
-#ifdef ROUND
+#ifdef DISCS
     vec2 from_middle = 2.0 * gl_PointCoord - 1.0;
-    float squared = dot(from_middle, from_middle);
+    float fall = dot(splat_slope, vec2(from_middle.x, -from_middle.y));
+    float squared = dot(from_middle, from_middle) + 0.5 * fall * fall;
     if (squared > 1.0) discard;
-#endif
-#ifdef CURVED
-    gl_FragDepth = splat_depth.x + splat_depth.y * squared;
+    const float tilt_over_bulge = 0.5 / 0.16;
+    gl_FragDepth = splat_depth.x + splat_depth.y * (squared + tilt_over_bulge * fall);
 #endif
     pixel = splat_color;
 }

@@ -14,9 +14,21 @@ uniform vec2 extremes; // smallest and largest diameter in pixels
 uniform vec3 forward;  // where the camera looks
 uniform vec3 key;      // towards the light, in the half space of the viewer
 flat out vec4 splat_color;
-#ifdef CURVED
+#ifdef DISCS
 uniform float pixel_size; // the length of a pixel at w = 1
-flat out vec2 splat_depth;
+uniform vec2 half_field;  // half the view's width and height at w = 1; 0: orthographic
+uniform vec3 right, up;   // the camera's other axes
+flat out vec2 splat_depth; // see points.frag
+flat out vec2 splat_slope;
+
+// How steeply the surface falls away to the right and upwards (slope_of() in src/render/splats.h).
+vec2 slope_of(vec2 place) {
+    const float steepest = 3.0;
+    vec2 across = vec2(dot(normal, right), dot(normal, up));
+    float along = dot(normal, forward) + dot(half_field * place, across); // the ray to the splat
+    float least = max(length(across) / steepest, 1e-6);
+    return across / (along > 0.0 ? -max(along, least) : max(-along, least));
+}
 #endif
 
 void main() {
@@ -33,13 +45,17 @@ void main() {
 #else
     splat_color = color;
 #endif
-#ifdef CURVED
-    // A splat curves away from the viewer, see points.frag: its rim lies a third of its radius behind its middle.
-    // That parts overlapping splats between their middles; the bulge of a ball would look like scales.
-    float radius = 0.16 * diameter * pixel_size * gl_Position.w;
-    vec4 rim = to_clip * vec4(position + forward * radius, 1.0);
+#ifdef DISCS
+    // The rim of a splat lies a third of its radius behind its middle.
+    float back = 0.16 * diameter * pixel_size * gl_Position.w;
+    vec4 rim = to_clip * vec4(position + forward * back, 1.0);
     float middle = gl_Position.z / gl_Position.w;
     splat_depth = 0.5 * vec2(middle + 1.0, rim.z / rim.w - middle);
+#ifdef SHADED
+    splat_slope = slope_of(gl_Position.xy / gl_Position.w);
+#else
+    splat_slope = vec2(0.0);
+#endif
 #endif
     // Drawn at the far plane, where the depth test drops it: cheaper in software than a point outside.
     if (color.a == 0.0) gl_Position = vec4(0.0, 0.0, 1.0, 1.0);

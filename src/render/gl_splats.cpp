@@ -12,26 +12,23 @@ namespace knead {
 
 namespace {
 
-// A disc of up to three pixels covers the pixels of a square, for less.
-constexpr float widest_square = 3;
-enum class Shape { square, round, curved };
-
 struct PointProgram {
     GlProgram program;
-    GLint to_clip, size, growth, extremes, forward, key, pixel_size;
+    GLint to_clip, size, growth, extremes, right, up, forward, key, pixel_size, half_field;
 };
 
-PointProgram make_point_program(bool shaded, Shape shape) {
+PointProgram make_point_program(bool shaded, bool discs) {
     std::string defines;
     if (shaded) defines += "#define SHADED\n";
-    if (shape != Shape::square) defines += "#define ROUND\n";
-    if (shape == Shape::curved) defines += "#define CURVED\n";
+    if (discs) defines += "#define DISCS\n";
     GlProgram program = make_program(embedded::points_vert, embedded::points_frag, defines.c_str());
     const auto find = [&](const char* name) { return glGetUniformLocation(program, name); };
     const GLint to_clip = find("to_clip"), size = find("size"), growth = find("growth"),
-                extremes = find("extremes"), forward = find("forward"), key = find("key"),
-                pixel_size = find("pixel_size");
-    return {std::move(program), to_clip, size, growth, extremes, forward, key, pixel_size};
+                extremes = find("extremes"), right = find("right"), up = find("up"),
+                forward = find("forward"), key = find("key"), pixel_size = find("pixel_size"),
+                half_field = find("half_field");
+    return {std::move(program), to_clip,   size, growth, extremes, right, up, forward, key,
+            pixel_size,         half_field};
 }
 
 template<typename Item>
@@ -134,17 +131,18 @@ private:
     }
 
     void use_program(const SplatView& view) {
-        const Shape shape = view.widest <= widest_square ? Shape::square
-                            : view.widest <= view.curved ? Shape::round
-                                                         : Shape::curved;
-        std::optional<PointProgram>& with = programs_[view.shaded ? 1 : 0][static_cast<std::size_t>(shape)];
-        if (!with) with = make_point_program(view.shaded, shape);
+        const bool discs = view.widest > widest_square;
+        std::optional<PointProgram>& with = programs_[view.shaded ? 1 : 0][discs ? 1 : 0];
+        if (!with) with = make_point_program(view.shaded, discs);
         glUseProgram(with->program);
         glUniformMatrix4fv(with->to_clip, 1, GL_FALSE, &view.to_clip[0][0]);
         glUniform2f(with->size, view.fixed, view.by_distance);
         glUniform2f(with->growth, view.grown_to, view.grown);
         glUniform2f(with->extremes, view.smallest, view.largest);
         glUniform1f(with->pixel_size, view.pixel_size);
+        glUniform2f(with->half_field, view.half_field.x, view.half_field.y);
+        set_vector(with->right, view.right);
+        set_vector(with->up, view.up);
         set_vector(with->forward, view.forward);
         set_vector(with->key, view.key);
     }
@@ -178,7 +176,7 @@ private:
     bool has_normal_buffer_ = false, has_widths_ = false;
     GlBuffer positions_, normals_, colors_, widths_;
     GlVertexArray array_;
-    std::array<std::array<std::optional<PointProgram>, 3>, 2> programs_; // [shaded][shape]
+    std::array<std::array<std::optional<PointProgram>, 2>, 2> programs_; // [shaded][discs]
     GlScreen screen_;
     GlLines lines_;
     std::vector<GLint> firsts_;

@@ -16,7 +16,8 @@ constexpr double closing_factor = 2.0;
 // lie far closer together than pixels, a surface of a few of them would be full of holes.)
 constexpr double largest_enlargement = 4, widest_enlarged = 5;
 constexpr float largest_splat = 96; // pixels
-constexpr float widest_flat = 8;    // pixels; wider splats are curved, which costs
+// The rim of the steepest disc lies so many radii behind its middle, see splats.h.
+constexpr double rim_depth = 1.6;
 
 // Where the light comes from, in the camera's axes: from above the left shoulder.
 constexpr glm::vec3 key_light(-0.35f, 0.55f, 0.9f);
@@ -67,23 +68,35 @@ void ProgressivePicture::begin(const Scene& next, std::size_t budget, const Draw
     widest_splat_ = 0;
     // First what is in view; then near and far planes that enclose no more than that, so that depths are
     // fine.
-    project_onto(box_around(cloud.chunks), cloud.spacing, overlay);
+    const double radius = radius_at_pivot(cloud);
+    project_onto(box_around(cloud.chunks), radius, overlay);
     const float margin = largest_splat * scene_.look.pixel_scale /
                          static_cast<float>(std::min(scene_.viewport.width, scene_.viewport.height));
     in_view_ = chunks_in_view(cloud.chunks, cloud.n, to_clip_, margin);
-    if (in_view_.points > 0) project_onto(in_view_.box, cloud.spacing, overlay);
+    if (in_view_.points > 0) project_onto(in_view_.box, radius, overlay);
     const std::size_t most = std::max<std::size_t>(budget, 1);
     one_in_ = std::max<std::size_t>(1, (in_view_.points + most - 1) / most);
 }
 
-// Takes the projection whose near and far planes enclose the box and the overlay.
-void ProgressivePicture::project_onto(Box3 box, double spacing, const DrawnOverlay& overlay) {
+// Of the widest splats, in the units of the cloud.
+double ProgressivePicture::radius_at_pivot(const DrawnCloud& cloud) const {
+    const PointLook& look = scene_.look;
+    if (!look.size_by_distance)
+        return 0.5 * look.pixels * look.pixel_scale *
+               pixel_size_at(scene_.camera, scene_.viewport, scene_.camera.pivot);
+    return 0.5 * closing_factor * look.scale * std::exp2(cloud.widest_width / widths_in_double) *
+           cloud.spacing;
+}
+
+// Takes the projection whose near and far planes enclose the box, with splats of that radius on it, and the
+// overlay.
+void ProgressivePicture::project_onto(Box3 box, double radius, const DrawnOverlay& overlay) {
     if (overlay.box) {
         box.lowest = glm::min(box.lowest, overlay.box->lowest);
         box.highest = glm::max(box.highest, overlay.box->highest);
     }
-    // Room for the splats, and for boxes that are flat.
-    const glm::dvec3 room(2 * spacing + 1e-3 * glm::length(box.highest - box.lowest));
+    // Room for splats that stand on end, and for boxes that are flat.
+    const glm::dvec3 room(rim_depth * radius + 1e-3 * glm::length(box.highest - box.lowest));
     projection_ = projection_matrix(scene_.camera, scene_.viewport, {box.lowest - room, box.highest + room});
     to_clip_ = projection_ * view_matrix(scene_.camera);
 }
@@ -103,13 +116,15 @@ SplatView ProgressivePicture::view_of(const DrawnCloud& cloud, double enlargemen
     view.grown = static_cast<float>(std::min(1.0, largest_enlargement / enlargement));
     view.smallest = look.pixel_scale;
     view.largest = largest_splat * look.pixel_scale;
-    view.curved = widest_flat * look.pixel_scale;
     const double widest =
         fixed + by_distance * std::exp2(cloud.widest_width / widths_in_double) / in_view_.nearest;
     view.widest = diameter_of(view, static_cast<float>(widest));
     view.pixel_size = static_cast<float>(1 / pixels_a_unit);
     const glm::mat3 axes = glm::mat3_cast(glm::quat(scene_.camera.orientation));
+    view.right = axes[0];
+    view.up = axes[1];
     view.forward = -axes[2];
+    if (!scene_.camera.orthographic) view.half_field = {1 / projection_[0][0], 1 / projection_[1][1]};
     view.key = glm::normalize(axes * key_light);
     view.shaded = look.shading && cloud.has_normals;
     return view;

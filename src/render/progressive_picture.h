@@ -49,7 +49,8 @@ public:
 private:
     bool is_of(const Scene& other) const;
     void begin(const Scene& next, std::size_t budget, const DrawnCloud& cloud, const DrawnOverlay& overlay);
-    void project_onto(Box3 box, double spacing, const DrawnOverlay& overlay);
+    double radius_at_pivot(const DrawnCloud& cloud) const;
+    void project_onto(Box3 box, double radius, const DrawnOverlay& overlay);
     SplatView view_of(const DrawnCloud& cloud, double enlargement) const;
     double usual_width(const SplatView& view) const;         // of a splat at the pivot, pixels
     double first_enlargement(const DrawnCloud& cloud) const; // of the splats of the first subset

@@ -10,16 +10,21 @@ namespace knead {
 
 namespace {
 
-// A disc of up to three pixels covers the pixels of a square.
-constexpr float square_radius = 1.5f;
 constexpr int rows_in_band = 32;
 
 // A point on the screen. Pixels from the upper left corner.
 struct Splat {
     float x, y, depth, radius;
     std::uint32_t color;
-    float bulge; // how much deeper the rim is than the middle
+    float bulge;            // of a disc, as in splats.h
+    float slope_x, slope_y; // to the right, and downwards
 };
+
+// No pixel of a splat is nearer than that.
+float nearest_depth(const Splat& splat) {
+    const float steep = splat.slope_x * splat.slope_x + splat.slope_y * splat.slope_y;
+    return splat.depth - splat.bulge * 0.25f * tilt_over_bulge * tilt_over_bulge * steep / (1 + 0.5f * steep);
+}
 
 // Some splats that follow each other, and so lie close together: where they are, and the nearest depth. Most
 // that lie behind others are left out by that alone.
@@ -33,7 +38,7 @@ struct Group {
         right = std::max(right, splat.x + splat.radius);
         top = std::min(top, splat.y - splat.radius);
         bottom = std::max(bottom, splat.y + splat.radius);
-        depth = std::min(depth, splat.depth);
+        depth = std::min(depth, nearest_depth(splat));
     }
 };
 
@@ -131,13 +136,18 @@ bool project(const Points& points, std::size_t i, const SplatView& view, const P
         return false;
     splat.depth = 0.5f + 0.5f * clip.z * part;
     splat.color = view.shaded ? lit(color, points.normals[i], view) : color;
-    splat.bulge = 0;
-    if (splat.radius > square_radius) {
-        // As in points.vert: the rim of a splat lies a third of its radius behind its middle.
-        const float back = 0.16f * diameter * view.pixel_size * clip.w;
+    splat.bulge = splat.slope_x = splat.slope_y = 0;
+    if (diameter > widest_square) {
+        const float back = bulge_over_diameter * diameter * view.pixel_size * clip.w;
         const glm::vec3 f = view.forward * back;
         const glm::vec4 rim = clip + view.to_clip[0] * f.x + view.to_clip[1] * f.y + view.to_clip[2] * f.z;
         splat.bulge = 0.5f + 0.5f * rim.z / rim.w - splat.depth;
+        if (view.shaded) {
+            const float* const n = points.normals[i];
+            const glm::vec2 slope = slope_of(view, {n[0], n[1], n[2]}, clip.x * part, clip.y * part);
+            splat.slope_x = slope.x;
+            splat.slope_y = -slope.y;
+        }
     }
     return true;
 }
@@ -165,37 +175,52 @@ void draw_square(const Splat& splat, int first, int end, Pixels& layer) {
     }
 }
 
-// `dx`: from the splat's middle to the first pixel's; `depth`: in this row's middle. Pixels farther than
-// √reach from the row's middle are left alone.
-[[gnu::always_inline]] inline void draw_lanes(float dx, float depth, float curve, float reach,
-                                              std::uint32_t color, float* depths, std::uint32_t* colors) {
+// Of a row of a splat's pixels, lengths in pixels: `dx` from the middle to the first of them, `height` the
+// square of how far above or below the middle they are, and s·t where dx is 0.
+struct DiscRow {
+    float dx, height, fall;
+};
+// Of the splat: the square of its radius, s to the right, and what depths are made of.
+struct Disc {
+    float reach, slope, depth, curve, tilt;
+    std::uint32_t color;
+};
+
+[[gnu::always_inline]] inline void draw_lanes(const DiscRow& row, const Disc& disc, float* depths,
+                                              std::uint32_t* colors) {
     constexpr Floats steps = {0, 1, 2, 3, 4, 5, 6, 7};
-    const Floats away = dx + steps, squared = away * away, here = depth + curve * squared;
+    const Floats away = row.dx + steps, fall = row.fall + disc.slope * away;
+    const Floats squared = away * away + row.height + 0.5f * fall * fall;
+    const Floats here = disc.depth + disc.curve * squared + disc.tilt * fall;
     Floats there;
     Words before;
     std::memcpy(&there, depths, sizeof there);
     std::memcpy(&before, colors, sizeof before);
-    const Mask wins = (squared < reach) & (here < there);
+    const Mask wins = (squared < disc.reach) & (here < there);
     there = wins ? here : there;
-    before = wins ? color - Words{} : before;
+    before = wins ? disc.color - Words{} : before;
     std::memcpy(depths, &there, sizeof there);
     std::memcpy(colors, &before, sizeof before);
 }
 
 KNEAD_FOR_NEW_PROCESSORS_TOO
 void draw_disc(const Splat& splat, int first, int end, Pixels& layer) {
-    const float squared = splat.radius * splat.radius, curve = splat.bulge / squared;
+    const float reach = splat.radius * splat.radius;
+    const float curve = splat.bulge / reach, tilt = splat.bulge * tilt_over_bulge / splat.radius;
+    const Disc disc{reach, splat.slope_x, splat.depth, curve, tilt, splat.color};
     const Span rows = middles_between(splat.y - splat.radius, splat.y + splat.radius, first, end);
     const Span columns = middles_between(splat.x - splat.radius, splat.x + splat.radius, 0, layer.width);
-    const float dx = static_cast<float>(columns.first) + 0.5f - splat.x;
+    DiscRow row{};
     for (int y = rows.first; y < rows.end; ++y) {
         const float dy = static_cast<float>(y) + 0.5f - splat.y;
+        row.height = dy * dy;
+        row.fall = splat.slope_y * dy;
         const std::size_t at =
             static_cast<std::size_t>(y) * layer.row() + static_cast<std::size_t>(columns.first);
-        const float depth = splat.depth + curve * dy * dy, reach = squared - dy * dy;
-        for (int x = 0; x < columns.end - columns.first; x += lanes)
-            draw_lanes(dx + static_cast<float>(x), depth, curve, reach, splat.color,
-                       layer.depths.data() + at + x, layer.colors.data() + at + x);
+        for (int x = 0; x < columns.end - columns.first; x += lanes) {
+            row.dx = static_cast<float>(columns.first + x) + 0.5f - splat.x;
+            draw_lanes(row, disc, layer.depths.data() + at + x, layer.colors.data() + at + x);
+        }
     }
 }
 
@@ -224,7 +249,7 @@ void draw_group(const Group& group, std::span<const Splat> splats, int first, in
         is_hidden(group, first, end, layer))
         return;
     for (const Splat& splat : splats) {
-        if (splat.radius <= square_radius)
+        if (2 * splat.radius <= widest_square)
             draw_square(splat, first, end, layer);
         else
             draw_disc(splat, first, end, layer);

@@ -23,17 +23,37 @@ struct SplatView {
     float grown_to = 0, grown = 1;
     float smallest = 1, largest = 64; // pixels
     float widest = 64;                // no splat in view is wider
-    float curved = 8;                 // beyond that they are curved, and part between their middles
     float pixel_size = 0;             // the length of a pixel at w = 1
-    glm::vec3 forward{0, 0, -1};      // where the camera looks
-    glm::vec3 key{0, 0, 1};           // towards the light
-    bool shaded = false;              // by the normals
+    glm::vec2 half_field{0};          // half the view's width and height at w = 1; 0: orthographic
+    glm::vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1}; // the camera's axes
+    glm::vec3 key{0, 0, 1};                                   // towards the light
+    bool shaded = false;                                      // by the normals, along which splats lie
 };
 
 // The diameter of a splat, from what it would be with all its growth.
 inline float diameter_of(const SplatView& view, float full) {
     return std::clamp(std::min(full, std::max(view.grown_to, view.grown * full)), view.smallest,
                       view.largest);
+}
+
+// A splat of up to three pixels is a square, which covers the pixels of a disc for less. A wider one is a
+// disc in the surface, seen as an ellipse, and bulges a little. With t the place on the screen from its
+// middle, in radii to the right and upwards, and s how steeply the surface falls away there, the rim is where
+// r² = t² + ½(s·t)² is 1, and a place of the disc lies bulge · (r² + tilt s·t) behind the middle. (Without
+// the half it would be a circle in the surface, which leaves holes where points are few.) The bulge parts
+// overlapping splats between their middles; a ball's would look like scales.
+inline constexpr float widest_square = 3; // pixels
+inline constexpr float bulge_over_diameter = 0.16F, tilt_over_bulge = 0.5F / bulge_over_diameter;
+// Steeper ones are drawn as if they were not: normals are not that exact.
+inline constexpr float steepest = 3;
+
+// s of a splat at this place of clip space, -1 … 1.
+inline glm::vec2 slope_of(const SplatView& view, const glm::vec3& normal, float x, float y) {
+    const glm::vec2 across(glm::dot(normal, view.right), glm::dot(normal, view.up));
+    const float along = glm::dot(normal, view.forward) + view.half_field.x * x * across.x +
+                        view.half_field.y * y * across.y; // the ray to the splat
+    const float least = std::max(glm::length(across) / steepest, 1e-6F);
+    return across / (along > 0 ? -std::max(along, least) : std::max(-along, least));
 }
 
 // Lines over the points.

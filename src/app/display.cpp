@@ -78,7 +78,7 @@ bool color_parts(const Editor& editor, std::vector<std::uint32_t>& colors) {
 ColorBy::Kind kind_of(Coloring coloring) {
     switch (coloring) {
     case Coloring::file:
-        return ColorBy::Kind::rgb;
+        return ColorBy::Kind::own;
     case Coloring::height:
         return ColorBy::Kind::height;
     case Coloring::normal:

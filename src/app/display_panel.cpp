@@ -20,11 +20,19 @@ void choose(const Ui& ui, Coloring coloring, const std::string& attribute = {}) 
     display.automatic_range = true;
 }
 
+// Nothing: this cloud has none.
+const char* name_of(OwnColors own) {
+    return own == OwnColors::rgb         ? name_of(Coloring::file)
+           : own == OwnColors::intensity ? "Intensity in grey"
+                                         : nullptr;
+}
+
 std::string chosen_name(const Ui& ui) {
     const Display& display = ui.state.display;
     if (display.coloring == Coloring::attribute) return display.attribute;
-    const bool has_none = display.coloring == Coloring::file && !has_colors(*ui.editor.opened.cloud);
-    return name_of(has_none ? Coloring::plain : display.coloring);
+    if (display.coloring != Coloring::file) return name_of(display.coloring);
+    const char* const own = name_of(own_colors(*ui.editor.opened.cloud));
+    return own != nullptr ? own : name_of(Coloring::plain);
 }
 
 // What this cloud can be coloured by: item(name, is it chosen) lays one out, and returns whether it was
@@ -34,9 +42,10 @@ void coloring_items(const Ui& ui, bool (*item)(const char* name, bool chosen)) {
     const PointCloud& cloud = *ui.editor.opened.cloud;
     for (const Coloring coloring : {Coloring::file, Coloring::plain, Coloring::height, Coloring::normal,
                                     Coloring::displacement, Coloring::stretch, Coloring::parts}) {
-        if (coloring == Coloring::file && !has_colors(cloud)) continue;
+        const char* const name = coloring == Coloring::file ? name_of(own_colors(cloud)) : name_of(coloring);
+        if (name == nullptr) continue;
         if (coloring == Coloring::normal && ui.editor.frame.normals().empty()) continue;
-        if (item(name_of(coloring), chosen_name(ui) == name_of(coloring))) choose(ui, coloring);
+        if (item(name, chosen_name(ui) == name)) choose(ui, coloring);
     }
     const std::vector<std::string> columns = scalar_columns(cloud);
     if (columns.empty()) return;

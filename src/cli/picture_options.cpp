@@ -67,7 +67,7 @@ void declare_picture_options(CLI::App& command, PictureOptions& options) {
         .add_option("--color", options.color,
                     "What the colours tell: rgb, plain, height, normal, a column of the file, or in a "
                     "replay displacement "
-                    "(default: rgb, or plain where the file has none)")
+                    "(default: rgb; where the file has none, its intensity in grey; or plain)")
         ->group(group);
     command.add_option("--zoom", options.zoom, "So many times as near as the whole cloud needs")
         ->check(within(0.01, 1000))
@@ -143,7 +143,7 @@ Camera camera_for(const PictureOptions& options, std::span<const float> position
 ColorBy parse_color(const std::string& text) {
     ColorBy by;
     if (text.empty() || text == "rgb") {
-        by.kind = ColorBy::Kind::rgb;
+        by.kind = ColorBy::Kind::own;
     } else if (text == "plain") {
         by.kind = ColorBy::Kind::plain;
     } else if (text == "height") {

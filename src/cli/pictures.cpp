@@ -59,7 +59,7 @@ struct PictureMaker::State {
 // The camera, and what stays the same from picture to picture. Neighbours are those of the shape as opened,
 // so that what only touches when posed stays apart.
 void PictureMaker::State::begin(const PictureShape& shape, Progress& progress) {
-    if (options.color == "rgb" && !has_colors(shape.cloud))
+    if (options.color == "rgb" && own_colors(shape.cloud) != OwnColors::rgb)
         throw Error(Trouble::usage, "",
                     "--color rgb: the cloud has no colours of its own; leave it out to see the shape alone");
     camera = camera_for(options, shape.positions, shape.opened, viewport);

@@ -24,7 +24,7 @@ struct PictureOptions {
     std::string size = "1280x800";
     std::string view;        // a side, or azimuth and elevation; empty: chosen
     std::string up = "auto"; // what the cloud stands on tells; or z, y, -y
-    std::string color;       // rgb, plain, height, normal, displacement, or a column; empty: rgb, or plain
+    std::string color;       // rgb, plain, height, normal, displacement, or a column; empty: the file's own
     std::string background;  // "#rrggbb"; empty: a dark gradient
     double point_size = 0;   // pixels; 0: by distance
     double zoom = 1;

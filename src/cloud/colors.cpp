@@ -21,6 +21,13 @@ std::optional<std::array<std::size_t, 3>> find_colors(const PointCloud& cloud) {
     return std::nullopt;
 }
 
+std::optional<std::size_t> find_intensity(const PointCloud& cloud) {
+    for (const char* name : {"intensity", "Intensity", "scalar_Intensity", "reflectance"})
+        if (const auto column = find_attribute(cloud, name); column && !cloud.attributes[*column].is_list())
+            return column;
+    return std::nullopt;
+}
+
 double brightest_value(const PointCloud& cloud, const std::array<std::size_t, 3>& columns) {
     double most = 0;
     bool fractions = true;

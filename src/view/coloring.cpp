@@ -48,6 +48,9 @@ void color_as_in_file(const PointsToColor& points, const std::array<std::size_t,
 
 // --- Values by colour ---
 
+// Of intensities: not from black to white, which no light could change.
+constexpr double darkest_grey = 0.35, lightest_grey = 0.97;
+
 // Tenths of the scale, from the authors' table (BIDS/colormap, CC0).
 constexpr std::array<std::array<double, 3>, 11> viridis_tenths = {{{0.267004, 0.004874, 0.329415},
                                                                    {0.282623, 0.140926, 0.457517},
@@ -61,36 +64,60 @@ constexpr std::array<std::array<double, 3>, 11> viridis_tenths = {{{0.267004, 0.
                                                                    {0.741388, 0.873449, 0.149561},
                                                                    {0.993248, 0.906157, 0.143936}}};
 
-// From the 1st to the 99th percentile, told from an even spread of the values.
-ValueRange usual_range(std::span<const float> values) {
+// An even spread of those that are finite, large enough to tell percentiles.
+std::vector<float> some_of(std::span<const float> values) {
     constexpr std::size_t looked_at = 200'000;
     const std::size_t step = (values.size() + looked_at - 1) / looked_at;
     std::vector<float> some;
     for (std::size_t i = 0; i < values.size(); i += step)
         if (std::isfinite(values[i])) some.push_back(values[i]);
-    if (some.empty()) return {};
-    const auto percentile = [&some](std::size_t hundredths) {
-        const auto place = some.begin() + static_cast<std::ptrdiff_t>((some.size() - 1) * hundredths / 100);
-        std::ranges::nth_element(some, place);
-        return static_cast<double>(*place);
-    };
-    return {percentile(1), percentile(99)};
+    return some;
 }
 
-ValueRange color_values(std::span<const float> values, const std::optional<ValueRange>& given,
-                        std::span<std::uint32_t> colors, Workers& workers) {
-    const ValueRange range = given ? *given : usual_range(values);
+// Of at least one value, whose order it changes.
+double percentile(std::span<float> values, std::size_t hundredths) {
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * hundredths / 100);
+    std::ranges::nth_element(values, place);
+    return static_cast<double>(*place);
+}
+
+ValueRange usual_range(std::span<float> values) {
+    if (values.empty()) return {};
+    return {percentile(values, 1), percentile(values, 99)};
+}
+
+// The colour at `at`, 0 … 1, of a scale, in fine steps.
+template<typename ColorAt>
+std::array<std::uint32_t, 1024> scale_of(ColorAt&& color_at) {
     std::array<std::uint32_t, 1024> scale{};
     for (std::size_t i = 0; i < scale.size(); ++i)
-        scale[i] = packed(viridis(static_cast<double>(i) / static_cast<double>(scale.size() - 1)));
-    // All values equal: the middle of the scale.
+        scale[i] = packed(color_at(static_cast<double>(i) / static_cast<double>(scale.size() - 1)));
+    return scale;
+}
+
+// Where all values are equal, `middle` of the scale, 0 … 1.
+void color_values(std::span<const float> values, const ValueRange& range, double middle,
+                  const std::array<std::uint32_t, 1024>& scale, std::span<std::uint32_t> colors,
+                  Workers& workers) {
     const double width = range.high - range.low;
-    const double factor = width != 0 ? 1 / width : 0, offset = width != 0 ? 0 : 0.5;
+    const double factor = width != 0 ? 1 / width : 0, offset = width != 0 ? 0 : middle;
     workers.for_each(colors.size(), grain, [&](std::size_t i) {
         const double value = values[i];
         const double at = std::clamp((value - range.low) * factor + offset, 0.0, 1.0);
         colors[i] = std::isfinite(value) ? scale[rounded(at * 1023)] : not_a_value;
     });
+}
+
+ValueRange color_values(std::span<const float> values, const std::optional<ValueRange>& given,
+                        std::span<std::uint32_t> colors, Workers& workers) {
+    ValueRange range;
+    if (given) {
+        range = *given;
+    } else {
+        std::vector<float> some = some_of(values);
+        range = usual_range(some);
+    }
+    color_values(values, range, 0.5, scale_of(viridis), colors, workers);
     return range;
 }
 
@@ -102,21 +129,41 @@ std::vector<float> heights(const PointsToColor& points, const Upward& up) {
     return values;
 }
 
-std::vector<float> column_values(const PointsToColor& points, const std::string& name, Workers& workers) {
-    const PointCloud& cloud = *points.cloud;
+std::size_t column_called(const PointCloud& cloud, const std::string& name) {
     const std::optional<std::size_t> column = find_attribute(cloud, name);
-    if (!column || cloud.attributes[*column].is_list()) {
-        std::string others;
-        for (const std::string& other : scalar_columns(cloud)) others += (others.empty() ? "" : ", ") + other;
-        throw Error(Trouble::usage, "",
-                    "the cloud has no column of numbers called " + quoted(name) +
-                        (others.empty() ? "" : "; it has " + others));
-    }
+    if (column && !cloud.attributes[*column].is_list()) return *column;
+    std::string others;
+    for (const std::string& other : scalar_columns(cloud)) others += (others.empty() ? "" : ", ") + other;
+    throw Error(Trouble::usage, "",
+                "the cloud has no column of numbers called " + quoted(name) +
+                    (others.empty() ? "" : "; it has " + others));
+}
+
+std::vector<float> column_values(const PointsToColor& points, std::size_t column, Workers& workers) {
     std::vector<float> values(points.file_index.size());
     workers.for_each(values.size(), grain, [&](std::size_t i) {
-        values[i] = static_cast<float>(value_at(cloud.attributes[*column], points.file_index[i]));
+        values[i] = static_cast<float>(value_at(points.cloud->attributes[column], points.file_index[i]));
     });
     return values;
+}
+
+// From the 1st to the 99th percentile, half of the points darker than the middle: most are dark, and a few
+// mirrors are very bright. Where all are equal, as bright as `plain`.
+void color_by_intensity(const PointsToColor& points, std::size_t column, const glm::vec3& plain,
+                        std::span<std::uint32_t> colors, Workers& workers) {
+    const std::vector<float> values = column_values(points, column, workers);
+    std::vector<float> some = some_of(values);
+    const ValueRange range = usual_range(some);
+    double middle = 0.5;
+    if (range.high > range.low)
+        middle = std::clamp((percentile(some, 50) - range.low) / (range.high - range.low), 0.05, 0.95);
+    const double bend = std::log(0.5) / std::log(middle);
+    const auto grey = scale_of([bend](double at) {
+        return glm::vec3(
+            static_cast<float>(darkest_grey + (lightest_grey - darkest_grey) * std::pow(at, bend)));
+    });
+    const double as_plain = (static_cast<double>(plain.g) - darkest_grey) / (lightest_grey - darkest_grey);
+    color_values(values, range, as_plain, grey, colors, workers);
 }
 
 void color_by_normal(const PointsToColor& points, std::span<std::uint32_t> colors, Workers& workers) {
@@ -152,8 +199,9 @@ glm::vec3 viridis(double at) {
     return color;
 }
 
-bool has_colors(const PointCloud& cloud) {
-    return find_colors(cloud).has_value();
+OwnColors own_colors(const PointCloud& cloud) {
+    if (find_colors(cloud)) return OwnColors::rgb;
+    return find_intensity(cloud) ? OwnColors::intensity : OwnColors::none;
 }
 
 std::vector<std::string> scalar_columns(const PointCloud& cloud) {
@@ -171,9 +219,13 @@ Legend color_points(const ColorBy& by, const PointsToColor& points, std::span<st
                 points.positions.size() == 3 * colors.size(),
             "a place and three coordinates a colour");
     switch (by.kind) {
-    case ColorBy::Kind::rgb:
+    case ColorBy::Kind::own:
         if (const auto columns = find_colors(*points.cloud)) {
             color_as_in_file(points, *columns, colors, workers);
+            return {};
+        }
+        if (const auto column = find_intensity(*points.cloud)) {
+            color_by_intensity(points, *column, by.plain, colors, workers);
             return {};
         }
         break;
@@ -187,7 +239,8 @@ Legend color_points(const ColorBy& by, const PointsToColor& points, std::span<st
         return {"normal", std::nullopt};
     case ColorBy::Kind::attribute:
         return {by.attribute,
-                color_values(column_values(points, by.attribute, workers), by.range, colors, workers)};
+                color_values(column_values(points, column_called(*points.cloud, by.attribute), workers),
+                             by.range, colors, workers)};
     case ColorBy::Kind::values:
         require(points.values.size() == colors.size(), "a value a colour");
         return {by.title, color_values(points.values, by.range, colors, workers)};

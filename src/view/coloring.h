@@ -25,13 +25,13 @@ struct ValueRange {
 // What the colours tell.
 struct ColorBy {
     enum class Kind {
-        rgb,       // the file's own colours; where it has none, `plain`
+        own,       // the file's own, see OwnColors; where it has none, `plain`
         plain,     // `plain` for all
         height,    // along `up`, in the file's coordinates: -y where y points down
         normal,    // the direction of the normal: x, y, z as red, green, blue; where there are none, `plain`
         attribute, // the file's column called `attribute`
         values     // numbers that the caller computed (displacement, stretch)
-    } kind = Kind::rgb;
+    } kind = Kind::own;
     glm::vec3 plain{0.72f, 0.71f, 0.69f};
     std::string attribute;
     UpAxis up = UpAxis::z;           // of heights
@@ -61,9 +61,10 @@ struct Legend {
 Legend color_points(const ColorBy& by, const PointsToColor& points, std::span<std::uint32_t> colors,
                     Workers& workers);
 
-// Whether the cloud has colours of its own: columns red green blue, diffuse_red … or r g b, of any
-// type.
-bool has_colors(const PointCloud& cloud);
+// What a file says of how its points look: colours (columns red green blue, diffuse_red … or r g b), or else
+// an intensity, which is shown in grey; of any type.
+enum class OwnColors { none, intensity, rgb };
+OwnColors own_colors(const PointCloud& cloud);
 
 // The columns that points can be coloured by: every one of scalars but the coordinates.
 std::vector<std::string> scalar_columns(const PointCloud& cloud);

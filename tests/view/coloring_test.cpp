@@ -51,7 +51,7 @@ TEST(Coloring, takes_the_files_bytes_in_the_order_asked_for) {
     add_attribute(it.cloud, "green", std::vector<std::uint8_t>{10, 20, 30});
     add_attribute(it.cloud, "blue", std::vector<std::uint8_t>{100, 200, 255});
     it.file_index = {2, 0};
-    EXPECT_TRUE(has_colors(it.cloud));
+    EXPECT_EQ(own_colors(it.cloud), OwnColors::rgb);
     EXPECT_EQ(it.colors({}), (std::vector{rgb(3, 30, 255), rgb(1, 10, 100)}));
     EXPECT_TRUE(it.legend.title.empty());
 }
@@ -65,12 +65,40 @@ TEST(Coloring, takes_colours_as_fractions_bytes_or_16_bits_in_floats) {
     }
 }
 
+TEST(Coloring, shows_an_intensity_in_grey_where_there_are_no_colours) {
+    Colored it(5);
+    add_attribute(it.cloud, "Intensity", std::vector<float>{0, 200, 100, 4000, 150});
+    EXPECT_EQ(own_colors(it.cloud), OwnColors::intensity);
+    const auto greys = it.colors({});
+    std::vector<unsigned> brightness;
+    for (const std::uint32_t grey : greys) {
+        brightness.push_back(grey & 0xffU);
+        EXPECT_EQ(grey, rgb(brightness.back(), brightness.back(), brightness.back()));
+    }
+    EXPECT_LT(brightness[0], brightness[2]);
+    EXPECT_LT(brightness[2], brightness[1]);
+    EXPECT_LE(brightness[1], brightness[3]);
+    EXPECT_NEAR(brightness[4], 0.5 * (brightness[0] + brightness[3]), 3); // of the middle one, by number
+    EXPECT_GT(brightness[0], 30U); // neither black nor white, which light could not change
+    EXPECT_LT(brightness[3], 250U);
+    EXPECT_FALSE(it.legend.range);
+    for (const char* name : {"red", "green", "blue"})
+        add_attribute(it.cloud, name, std::vector<std::uint8_t>{1, 2, 3, 4, 5});
+    EXPECT_EQ(it.colors({})[0], rgb(1, 1, 1));
+}
+
+TEST(Coloring, an_intensity_that_tells_nothing_is_about_as_bright_as_the_plain_colour) {
+    Colored it(2);
+    add_attribute(it.cloud, "intensity", std::vector<float>{7, 7});
+    EXPECT_NEAR(it.colors({})[0] & 0xffU, 255 * ColorBy().plain.g, 1);
+}
+
 TEST(Coloring, falls_back_on_the_plain_colour) {
     Colored it(2);
     ColorBy by;
     by.plain = {1, 0, 0};
-    EXPECT_FALSE(has_colors(it.cloud));
-    for (const auto kind : {ColorBy::Kind::rgb, ColorBy::Kind::plain, ColorBy::Kind::normal}) {
+    EXPECT_EQ(own_colors(it.cloud), OwnColors::none);
+    for (const auto kind : {ColorBy::Kind::own, ColorBy::Kind::plain, ColorBy::Kind::normal}) {
         by.kind = kind;
         EXPECT_EQ(it.colors(by), std::vector(2, rgb(255, 0, 0)));
         EXPECT_FALSE(it.legend.range);
@@ -152,7 +180,7 @@ TEST(Coloring, stays_sane_with_values_that_are_equal_or_not_finite) {
 
 TEST(Coloring, of_no_points_is_nothing) {
     Colored it(0);
-    for (const auto kind : {ColorBy::Kind::rgb, ColorBy::Kind::height, ColorBy::Kind::values}) {
+    for (const auto kind : {ColorBy::Kind::own, ColorBy::Kind::height, ColorBy::Kind::values}) {
         ColorBy by;
         by.kind = kind;
         EXPECT_TRUE(it.colors(by).empty());

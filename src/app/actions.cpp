@@ -34,6 +34,9 @@ bool moving_handle_is_chosen(const Ui& ui) {
     const Handle* handle = chosen_handle(ui.editor);
     return handle && handle->role == HandleRole::moving;
 }
+bool moving_handle_and_selection_are_there(const Ui& ui) {
+    return moving_handle_is_chosen(ui) && ui.editor.selected > 0;
+}
 bool something_is_posed(const Ui& ui) {
     return ui.has_cloud() && ui.editor.document->posed;
 }
@@ -265,11 +268,15 @@ const Action handle_actions[] = {
      [](const Ui& ui) { ui.wish(WishLocalAxes{!ui.editor.local_axes}); }, cloud_is_open,
      [](const Ui& ui) { return ui.editor.local_axes; }, true},
     {"Handles", "Move the pivot", ".",
-     "The gizmo's arrows and G move the point that the handle turns about, and not the handle", on('.'),
-     [](const Ui& ui) { ui.wish(WishMovePivot{!ui.editor.tools.move_pivot}); }, moving_handle_is_chosen,
-     [](const Ui& ui) { return ui.editor.tools.move_pivot; }},
+     "Moves the point that the handle turns about, and not the handle: a click puts it inside of what is "
+     "there; the gizmo's arrows and G move it",
+     on('.'), [](const Ui& ui) { ui.wish(WishMovePivot{!ui.editor.tools.move_pivot}); },
+     moving_handle_is_chosen, [](const Ui& ui) { return ui.editor.tools.move_pivot; }},
     {"Handles", "Pivot to the middle", "Alt+.", "Puts the pivot into the middle of the handle", on('.', alt),
      [](const Ui& ui) { ui.tell(SetPivot{}); }, moving_handle_is_chosen},
+    {"Handles", "Pivot to the selection", "Ctrl+.", "Puts the pivot into the middle of the selected points",
+     on('.', ctrl), [](const Ui& ui) { ui.tell(SetPivotToSelection{}); },
+     moving_handle_and_selection_are_there},
     {"Handles", "Next handle", "Tab", "Chooses the next handle of the list", on(Key::tab),
      choose_next_handle<1>, handles_are_there, nullptr, true},
     {"Handles", "Previous handle", "Shift+Tab", "Chooses the handle before it", on(Key::tab, shift),

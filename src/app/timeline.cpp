@@ -12,8 +12,14 @@ namespace knead {
 
 namespace {
 
-// Rest after each step, in seconds at a speed of 1.
-constexpr double between_steps = 0.45;
+// Rest after a step, in seconds at a speed of 1: where something moved, and where nothing did (handles were
+// made, settings changed).
+constexpr double after_motion = 0.45, after_others = 0.12;
+
+double rest_of_step(const Ui& ui) {
+    const bool moved = ui.editor.document && ui.editor.document->last_frames > 0;
+    return (moved ? after_motion : after_others) / ui.state.playback.speed;
+}
 
 bool is_of_document(const EditorStep& step) {
     return step.document != 0;
@@ -136,7 +142,7 @@ void toggle_playing(const Ui& ui) {
     if (!can_play(ui.editor)) return;
     begin_where_left(ui);
     playback.playing = true;
-    playback.next_at = ImGui::GetTime() + between_steps;
+    playback.rests_since = ImGui::GetTime();
     ui.tell(PacePlaying{playback.speed, false});
     const bool again = is_played_out(playback) && !ui.editor.status.playing;
     if (again) playback.wanted = 0;
@@ -189,13 +195,12 @@ void play_on(const Ui& ui) {
         if (!go_back(ui, *playback.wanted)) go_to(ui, *playback.wanted);
         playback.position = *playback.wanted;
         playback.wanted.reset();
-        playback.next_at = std::max(playback.next_at, now + between_steps / playback.speed);
+        playback.rests_since = now;
         return;
     }
     if (!playback.playing) return;
-    if (ui.editor.status.busy)
-        playback.next_at = std::max(playback.next_at, now + between_steps / playback.speed);
-    if (ui.editor.status.playing || now < playback.next_at) return;
+    if (ui.editor.status.busy) playback.rests_since = now;
+    if (ui.editor.status.playing || now < playback.rests_since + rest_of_step(ui)) return;
     if (playback.position == playback.end) {
         playback.playing = false;
         (void)go_back(ui, playback.position);

@@ -19,7 +19,7 @@ struct Playback {
     bool shown = false; // the bar
     bool playing = false;
     double speed = 1;                  // 1: as it was recorded
-    double next_at = 0;                // ImGui's time of the next step
+    double rests_since = 0;            // ImGui's time when the last step had been played
     std::size_t steps = 0;             // there were when it last moved; others mean that the user went on
     std::size_t position = 0;          // it has led to; another means the same
     std::size_t origin = 0;            // the position when it was shown, where looking ends

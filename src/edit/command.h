@@ -98,6 +98,10 @@ struct SetPivot { // of the chosen handle's gizmo; nothing: the handle's middle
     // The hand is still moving it; or has given up, and it is where it was.
     enum class Stage { set, moving, given_up } stage = Stage::set;
 };
+struct SetPivotInside { // a click: into the middle of the limb under the cursor
+    glm::dvec2 pixel{0.0};
+};
+struct SetPivotToSelection {}; // the middle of the points that are selected
 
 // --- The document ---
 
@@ -143,7 +147,8 @@ using Command =
     std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, DropChoice,
                  ChangeHidden, MakeHandle, ChooseHandle, RenameHandle, AssignPoints, ChangeRole, ChangeHold,
                  ColorHandle, DeleteHandle, ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag,
-                 RefuseTransform, SetPivot, ChangeSettings, ChooseSamples, CommitPose, UndoStep, RedoStep,
-                 PlayStep, PacePlaying, AdvancePlaying, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
+                 RefuseTransform, SetPivot, SetPivotInside, SetPivotToSelection, ChangeSettings,
+                 ChooseSamples, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying, AdvancePlaying,
+                 MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
 
 } // namespace knead

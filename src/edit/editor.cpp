@@ -115,14 +115,15 @@ bool is_one_of(const Command& command) {
 bool is_act(const Command& command) {
     return is_one_of<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
                      MakeHandle, RenameHandle, AssignPoints, ChangeRole, ChangeHold, ColorHandle,
-                     DeleteHandle, ResetPose, MirrorHandle, BeginDrag, SetPivot, ChangeSettings,
-                     ChooseSamples, CommitPose>(command);
+                     DeleteHandle, ResetPose, MirrorHandle, BeginDrag, SetPivot, SetPivotInside,
+                     SetPivotToSelection, ChangeSettings, ChooseSamples, CommitPose>(command);
 }
 
 // Whether it goes on from the pose as it is, or makes it the rest shape, or may.
 bool goes_on_from_pose(const Command& command) {
     return is_one_of<MakeHandle, AssignPoints, ChangeRole, ChangeHold, DeleteHandle, ResetPose, MirrorHandle,
-                     BeginDrag, SetPivot, ChangeSettings, CommitPose>(command);
+                     BeginDrag, SetPivot, SetPivotInside, SetPivotToSelection, ChangeSettings, CommitPose>(
+        command);
 }
 
 void decline(Editor& editor, const char* words) {

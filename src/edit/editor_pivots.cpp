@@ -2,6 +2,9 @@
 // which goes with it.
 
 #include "edit/editor_steps.h"
+#include "view/middle_along.h"
+
+#include <cmath>
 
 namespace knead {
 
@@ -59,6 +62,27 @@ void carry_out(Editor& editor, const SetPivot& command) {
         add_step(editor, std::move(step));
     }
     editor.moved_pivot.reset();
+}
+
+void carry_out(Editor& editor, const SetPivotInside& command) {
+    if (!needs_document(editor)) return;
+    const Ray ray = ray_through(editor.camera, editor.viewport, command.pixel);
+    const auto middle = middle_along(ray, editor.camera.orthographic, editor.frame.positions(),
+                                     hidden_points(editor), editor.opened.spacing, editor.workers);
+    if (middle) carry_out(editor, SetPivot{middle});
+}
+
+void carry_out(Editor& editor, const SetPivotToSelection& /*command*/) {
+    if (!needs_document(editor) || editor.selected == 0) return;
+    glm::dvec3 sum(0.0);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < editor.marks.size(); ++i) {
+        const float* const p = editor.frame.positions().data() + 3 * i;
+        if (!(editor.marks[i] & mark_selected) || !std::isfinite(p[0] + p[1] + p[2])) continue;
+        sum += glm::dvec3(p[0], p[1], p[2]);
+        ++count;
+    }
+    if (count > 0) carry_out(editor, SetPivot{sum / static_cast<double>(count)});
 }
 
 } // namespace knead

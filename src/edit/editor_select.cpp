@@ -11,16 +11,6 @@ namespace knead {
 
 namespace {
 
-// The hidden bits as bytes of their own; empty where nothing is hidden.
-std::vector<std::uint8_t> hidden_points(const Editor& editor) {
-    std::vector<std::uint8_t> hidden;
-    if (editor.hidden == 0) return hidden;
-    hidden.resize(editor.marks.size());
-    std::ranges::transform(editor.marks, hidden.begin(),
-                           [](std::uint8_t mark) { return (mark & mark_hidden) ? 1 : 0; });
-    return hidden;
-}
-
 // The handle that a point of the file follows: the last one that holds it, and a region only where no other
 // does; null: none.
 const Handle* handle_of(const Editor& editor, Index point) {
@@ -39,6 +29,15 @@ const Handle* handle_of(const Editor& editor, Index point) {
 constexpr double click_radius = 8; // pixels
 
 } // namespace
+
+std::vector<std::uint8_t> hidden_points(const Editor& editor) {
+    std::vector<std::uint8_t> hidden;
+    if (editor.hidden == 0) return hidden;
+    hidden.resize(editor.marks.size());
+    std::ranges::transform(editor.marks, hidden.begin(),
+                           [](std::uint8_t mark) { return (mark & mark_hidden) ? 1 : 0; });
+    return hidden;
+}
 
 Index point_clicked(Editor& editor, glm::dvec2 pixel) {
     return point_under(editor.camera, editor.viewport, editor.frame.positions(), hidden_points(editor), pixel,

@@ -291,7 +291,8 @@ std::string next_step(const Editor& editor) {
     if (followers_of(editor, *chosen_handle(editor)) == 0)
         return quoted(editor.chosen) + " moves nothing: handles that were made later hold all of its points.";
     if (editor.tools.move_pivot)
-        return "Dragging the gizmo's arrows moves its pivot alone; press . to move the handle again.";
+        return "Click where the joint is: the pivot goes inside. Or drag the gizmo's arrows. Press . to move "
+               "the handle again.";
     if (!editor.document->posed) return "Drag the gizmo, or press G to move, R to turn, S to scale.";
     return "Enter keeps the pose as the new shape.";
 }

@@ -65,6 +65,9 @@ std::vector<Index> followed_handles(const Editor& editor);
 // The bits that say which handle a point belongs to, from the document's handles.
 void mark_handles(Editor& editor);
 
+// The hidden bits as bytes of their own; empty where nothing is hidden.
+std::vector<std::uint8_t> hidden_points(const Editor& editor);
+
 // The point that a click on the picture means, in the order of the edit, as it is now; no_index: none.
 Index point_clicked(Editor& editor, glm::dvec2 pixel);
 
@@ -117,5 +120,7 @@ void carry_out(Editor& editor, const EndDrag& command);
 void carry_out(Editor& editor, const CancelDrag& command);
 void carry_out(Editor& editor, const RefuseTransform& command);
 void carry_out(Editor& editor, const SetPivot& command);
+void carry_out(Editor& editor, const SetPivotInside& command);
+void carry_out(Editor& editor, const SetPivotToSelection& command);
 
 } // namespace knead

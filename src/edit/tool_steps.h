@@ -17,6 +17,8 @@ struct Hand {
 bool moves_camera(const Tools& tools);
 // Whether the corners of a polygon are being clicked.
 bool draws_polygon(const Tools& tools);
+// Whether a click that selects nothing else puts the pivot there.
+bool clicks_place_pivot(const Hand& hand);
 
 // --- tools_transform.cpp ---
 

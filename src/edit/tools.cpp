@@ -103,6 +103,8 @@ void press_left(const Hand& hand, const MousePress& press) {
     tools.moved = false;
     if (tools.hovered)
         begin_drag(hand, GizmoPart(*tools.hovered), false);
+    else if (tools.select == SelectTool::polygon && clicks_place_pivot(hand))
+        hand.tell(SetPivotInside{tools.cursor});
     else
         begin_band(hand, press.held);
 }
@@ -141,6 +143,13 @@ bool take(const Hand& hand, const MousePress& press) {
     return true;
 }
 
+// Of the gizmo. A click on it that moved nothing means what lies behind, where the pivot is to go.
+void let_go(const Hand& hand) {
+    const bool clicked = does_nothing(hand.tools.sent) && clicks_place_pivot(hand);
+    end_drag(hand.tools, hand.commands);
+    if (clicked) hand.tell(SetPivotInside{hand.tools.cursor});
+}
+
 bool take(const Hand& hand, const MouseRelease& release) {
     Tools& tools = hand.tools;
     move_to(hand, release.cursor, release.held);
@@ -148,7 +157,7 @@ bool take(const Hand& hand, const MouseRelease& release) {
     if (moves_camera(tools) && release.button == tools.button) {
         end_camera(hand);
     } else if (release.button == MouseButton::left && transforms(tools)) {
-        if (!tools.modal) end_drag(tools, hand.commands);
+        if (!tools.modal) let_go(hand);
     } else if (release.button == MouseButton::left && tools.doing == Doing::selecting &&
                !draws_polygon(tools)) {
         end_band(hand);

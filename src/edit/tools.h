@@ -16,7 +16,7 @@
 //   shrink, L connected, V hides (Shift: the others, Alt: shows all). Tools: C click, B box, Q lasso, P
 //   polygon, K brush, [ ] (as Characters) its size, T through.
 // Handles. H makes a moving one, Shift+H a fixed one, Ctrl+H the region of interest. Where the pivot is moved
-//   (move_pivot), Esc ends that first.
+//   (move_pivot), a click puts it inside of the limb there, with the polygon as well, and Esc ends that first.
 // Moving. A press on the gizmo drags its part until the release, but with Shift, by which a selection that
 //   begins there is added: a slow drag instead would hardly be seen. G, R, S follow the hand until a click
 //   or Enter. X, Y, Z constrain (press_axis() in view/transform_drag.h), Ctrl snaps, Shift slows, digits and

@@ -22,6 +22,10 @@ void select_region(const Hand& hand, ScreenRegion region) {
 
 } // namespace
 
+bool clicks_place_pivot(const Hand& hand) {
+    return hand.tools.move_pivot && hand.context.gizmo;
+}
+
 bool draws_polygon(const Tools& tools) {
     return tools.doing == Tools::Doing::selecting && tools.select == SelectTool::polygon;
 }
@@ -50,6 +54,8 @@ void end_band(const Hand& hand) {
         hand.tell(SetPivotUnder{tools.pressed});
     else if (tools.moved && tools.select == SelectTool::brush)
         select_region(hand, ScreenStroke{tools.band, tools.brush_radius});
+    else if (tools.band_mode == SelectMode::replace && clicks_place_pivot(hand))
+        hand.tell(SetPivotInside{tools.pressed});
     else if (tools.select == SelectTool::brush)
         hand.tell(SelectPointUnder{tools.pressed, tools.band_mode, tools.brush_radius, tools.through});
     else

@@ -21,6 +21,30 @@ bool open_saved_in(Editor& again, Editor& editor, const std::filesystem::path& s
 
 } // namespace
 
+TEST_F(BarEditor, APivotGoesInsideOfWhatIsClickedOrSelected) {
+    make_handles();
+    calm();
+    apply(editor_, ChooseHandle{"high"});
+    apply(editor_, LookAtSide{Side::front});
+    const auto pivot = [&] { return pivot_of(editor_, "high").value_or(glm::dvec3(99)); };
+    // The bar is 1 wide and deep, and hollow: its middle is half way through.
+    const glm::dvec3 on_front(0.1, -0.5, 1.2);
+    apply(editor_, SetPivotInside{project(editor_.camera, editor_.viewport, on_front)->pixel});
+    EXPECT_NEAR(pivot().y, 0, 0.02);
+    EXPECT_NEAR(pivot().z, 1.2, 0.3);
+    const glm::dvec3 clicked = pivot();
+    apply(editor_, SetPivotInside{{1, 1}}); // beside it
+    EXPECT_EQ(pivot(), clicked);
+    select_heights(0.4, 0.9);
+    apply(editor_, SetPivotToSelection{});
+    EXPECT_LT(glm::distance(pivot(), glm::dvec3(0, 0, 0.65)), 0.1);
+    apply(editor_, UndoStep{});
+    EXPECT_EQ(pivot(), clicked);
+    apply(editor_, UndoStep{}); // the selection
+    apply(editor_, UndoStep{});
+    EXPECT_FALSE(pivot_of(editor_, "high"));
+}
+
 TEST_F(BarEditor, EveryHandleKeepsItsPivotAndTakesItAlong) {
     make_handles();
     select_heights(-0.5, 0.5);

@@ -262,6 +262,33 @@ TEST(MoveTools, TheArrowsCanMoveThePivot) {
     EXPECT_TRUE(bench.all<BeginDrag>().empty());
 }
 
+TEST(MoveTools, AClickPutsThePivotThereWhereItIsMoved) {
+    for (const SelectTool select :
+         {SelectTool::click, SelectTool::lasso, SelectTool::polygon, SelectTool::brush}) {
+        Bench bench;
+        bench.tools.select = select;
+        const glm::dvec2 joint(120, 80);
+        const auto click = [&](glm::dvec2 at) {
+            bench.commands.clear();
+            bench.click(at);
+        };
+        bench.tools.move_pivot = true; // but there is no handle
+        click(joint);
+        EXPECT_TRUE(bench.all<SetPivotInside>().empty());
+        bench.hit(Key::escape);
+        bench.add_gizmo();
+        bench.tools.move_pivot = true;
+        click(joint);
+        EXPECT_EQ(bench.only<SetPivotInside>().pixel, joint);
+        EXPECT_EQ(bench.commands.size(), 1U) << "and selects nothing";
+        click(middle + glm::dvec2(85, 2)); // on an arrow
+        EXPECT_EQ(bench.only<SetPivotInside>().pixel, middle + glm::dvec2(85, 2));
+        bench.tools.move_pivot = false;
+        click(joint);
+        EXPECT_TRUE(bench.all<SetPivotInside>().empty());
+    }
+}
+
 TEST(MoveTools, TheKeyMovesThePivotWhereTheArrowsDo) {
     Bench bench;
     bench.add_gizmo();

@@ -21,7 +21,8 @@ namespace {
 constexpr double few_samples = 300, many_samples = 4000;
 
 // Where so many or fewer points stand for a sample links are as near on average, and less uneven, and the
-// energy fades at once.
+// energy fades at once: of many samples, and of few as well where nearly every point is one, and there is
+// nothing between them.
 constexpr double enough_points = 15, too_few_points = 5, many_samples_of_them = 450;
 
 constexpr std::size_t points_a_sample = 12, fewest_points = 8192;
@@ -324,8 +325,9 @@ PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
 double share_of_points(std::size_t samples, std::size_t vertices) {
     if (samples == 0) return 0;
     const auto count = static_cast<double>(samples);
-    const double between = ramp(static_cast<double>(vertices) / count, too_few_points, enough_points);
-    const double soon = ramp(count, many_samples_of_them, few_samples);
+    const double points = static_cast<double>(vertices) / count; // a sample
+    const double between = ramp(points, too_few_points, enough_points);
+    const double soon = ramp(count, many_samples_of_them, few_samples) * ramp(points, 1, 5);
     return ramp(count, many_samples, few_samples) * std::max(between, soon);
 }
 

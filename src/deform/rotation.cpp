@@ -13,9 +13,10 @@ namespace knead {
 
 namespace {
 
-// How strongly `near` is preferred, of the size of A: enough to decide what A leaves open, too little to be
-// seen.
-constexpr double preference = 1e-10;
+// How strongly `near` is preferred, of the size of A: too little to be seen, and enough to decide what A
+// leaves open. Positions are floats: of points on a line, a relative 1e-7 of noise seems to tell how they
+// turn about it.
+constexpr double preference = 1e-6;
 
 Vec3d axial(const Mat3d& b) {
     return {b(2, 1) - b(1, 2), b(0, 2) - b(2, 0), b(1, 0) - b(0, 1)};
@@ -129,6 +130,34 @@ Quatd search(const Mat3d& a, double size, const Quatd& near) {
     return Quatd(q[0], q[1], q[2], q[3]).normalized();
 }
 
+struct Sought {
+    Reals sizes; // of the matrices
+    Turns turns;
+    Truths found;
+
+    // One that was found; what did not turn stays to the last bit.
+    void take(std::size_t lane, Quatd& to) const {
+        const Quatd turned(turns.w[lane], turns.x[lane], turns.y[lane], turns.z[lane]);
+        if (turned.coeffs() != to.coeffs()) to = turned.normalized();
+    }
+};
+
+// The first of these, from close by; lanes beyond the end do the last one again.
+Sought climbed(std::span<const Mat3d> a, std::span<const Quatd> near) {
+    Sought sought;
+    Matrices matrices;
+    for (std::size_t k = 0; k < lanes; ++k) {
+        const std::size_t at = std::min(k, near.size() - 1);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) matrices.of[i][j][k] = a[at](i, j);
+        sought.turns.w[k] = near[at].w(), sought.turns.x[k] = near[at].x();
+        sought.turns.y[k] = near[at].y(), sought.turns.z[k] = near[at].z();
+        sought.sizes[k] = a[at].norm();
+    }
+    climb(matrices, sought.sizes, sought.turns, sought.found);
+    return sought;
+}
+
 } // namespace
 
 Mat3d turn_of(const Quatd& q) {
@@ -143,28 +172,18 @@ Mat3d turn_of(const Quatd& q) {
 void nearest_rotations(std::span<const Mat3d> a, std::span<Quatd> near) {
     require(a.size() == near.size(), "every matrix has a rotation that its own is to be near to");
     for (std::size_t first = 0; first < near.size(); first += lanes) {
-        Matrices matrices;
-        Turns turns;
-        Reals sizes;
-        for (std::size_t k = 0; k < lanes; ++k) {
-            const std::size_t at =
-                std::min(first + k, near.size() - 1); // lanes beyond the end do the last again
-            for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j) matrices.of[i][j][k] = a[at](i, j);
-            turns.w[k] = near[at].w(), turns.x[k] = near[at].x();
-            turns.y[k] = near[at].y(), turns.z[k] = near[at].z();
-            sizes[k] = a[at].norm();
-        }
-        Truths found;
-        climb(matrices, sizes, turns, found);
+        const Sought sought = climbed(a.subspan(first), near.subspan(first));
         for (std::size_t k = 0; k < std::min(lanes, near.size() - first); ++k) {
             Quatd& one = near[first + k];
-            if (!(sizes[k] > 0 && std::isfinite(sizes[k]))) continue; // says nothing of a turn
-            const Quatd climbed(turns.w[k], turns.x[k], turns.y[k], turns.z[k]);
-            if (!found[k])
-                one = search(a[first + k], sizes[k], one);
-            else if (climbed.coeffs() != one.coeffs())
-                one = climbed.normalized();
+            if (!(sought.sizes[k] > 0 && std::isfinite(sought.sizes[k]))) continue; // says nothing of a turn
+            if (sought.found[k]) {
+                sought.take(k, one);
+                continue;
+            }
+            one = search(a[first + k], sought.sizes[k], one);
+            // What was preferred moved it a little from where A says.
+            const Sought closer = climbed(a.subspan(first + k, 1), {&one, 1});
+            if (closer.found[0]) closer.take(0, one);
         }
     }
 }

@@ -311,8 +311,7 @@ std::string words_about_swallowed(const Document& document, const std::string& h
 std::string words_about_loose(const Document& document, const std::string& handle) {
     const std::vector<Handle>& handles = document.handles();
     const auto found = std::ranges::find(handles, handle, &Handle::name);
-    const auto stays = [](const Handle& one) { return one.role != HandleRole::moving; };
-    if (found == handles.end() || std::ranges::none_of(handles, stays) ||
+    if (found == handles.end() ||
         !document.pipeline().is_on_loose_part(static_cast<Index>(found - handles.begin())))
         return {};
     return "the part of the cloud that " + quoted(handle) +

@@ -167,8 +167,9 @@ public:
     // Whether a handle of the list moves any point: not where others that were declared later hold all that
     // it holds. Of what is prepared.
     bool moves_points(Index handle) const;
-    // Whether nothing of the part of the cloud stays that it moves (of several the largest): no fixed handle
-    // is there, nor what lies outside a region of interest. Of what is prepared.
+    // Whether nothing of the part of the cloud stays that it moves (of several the largest), and something
+    // does elsewhere: points of a fixed handle, or what lies outside a region of interest. Of what is
+    // prepared.
     bool is_on_loose_part(Index handle) const;
 
     const StageSeconds& seconds() const { return seconds_; }
@@ -193,6 +194,7 @@ private:
     void label_vertices();
     void label_hanging();
     void find_standing_points();
+    void note_single_places();
     void count_strays();
     struct MoverNumbers {
         std::size_t first_handle = 0; // where every part holds one; 0: else, or there are no movers
@@ -260,6 +262,7 @@ private:
     std::optional<Numbering> standing_; // standing_points(), where they are not all the first ones
     LooseParts strays_;
     std::vector<bool> held_component_;
+    std::vector<bool> holds_one_place_; // of the handles, by label: one vertex, and no more
     SampleGraph sample_graph_;
     std::vector<double> link_weights_; // of the links of that
     PointEnergy energy_;               // of the points between these samples, where they are few

@@ -63,13 +63,14 @@ double Pipeline::follow_coarsely(const std::vector<HandleMotion>& motions, unsig
                                   workers_);
 }
 
-// A single point that may turn has the place of its handle, and the turn of its surroundings.
+// A single place that may turn, be it of several points, has the place of its handle, and the turn of its
+// surroundings.
 template<typename Visit>
 void Pipeline::for_lone_pegs(Visit&& visit) const {
     for (Index s = 0; s < samples_.size(); ++s) {
         const Index handle = system_.rest.handle[s];
         if (handle >= slots_.handles.size() || system_.unknown[s] == no_index) continue;
-        if (slots_.handles[handle].points->size() == 1) visit(s, handle);
+        if (holds_one_place_[handle]) visit(s, handle);
     }
 }
 

@@ -153,8 +153,18 @@ void Pipeline::label_vertices() {
         for (const HeldPart& part : block.parts) held[part.component] = true;
     stale_.contacts |= held != held_component_;
     held_component_ = std::move(held);
+    note_single_places();
     count_strays();
     find_standing_points();
+}
+
+void Pipeline::note_single_places() {
+    std::vector<std::size_t> count(slots_.handles.size(), 0);
+    for (const HeldBlock& block : held_blocks_)
+        for (const HeldExtent& extent : block.extents)
+            if (extent.label < count.size()) count[extent.label] += extent.count;
+    holds_one_place_.assign(count.size(), false);
+    for (std::size_t label = 0; label < count.size(); ++label) holds_one_place_[label] = count[label] == 1;
 }
 
 void Pipeline::find_standing_points() {
@@ -212,14 +222,15 @@ bool Pipeline::is_on_loose_part(Index handle) const {
             if (held.label == label &&
                 (part == no_index || components_->size[held.component] > components_->size[part]))
                 part = held.component;
-    const auto stays = [&](const HeldPart& held) {
-        const bool is_fixed =
-            held.label == labels_.outside || slots_.handles[held.label].role == HandleRole::fixed;
-        return held.component == part && is_fixed;
+    const auto is_fixed = [&](const HeldPart& held) {
+        return held.label == labels_.outside || slots_.handles[held.label].role == HandleRole::fixed;
     };
-    return part != no_index && std::ranges::none_of(held_blocks_, [&](const HeldBlock& block) {
-               return std::ranges::any_of(block.parts, stays);
-           });
+    const auto stays_here = [&](const HeldPart& held) { return held.component == part && is_fixed(held); };
+    const auto is_anywhere = [&](const auto& held) {
+        return std::ranges::any_of(
+            held_blocks_, [&](const HeldBlock& block) { return std::ranges::any_of(block.parts, held); });
+    };
+    return part != no_index && is_anywhere(is_fixed) && !is_anywhere(stays_here);
 }
 
 // The handle that moves a point alone, or no_index. Beside what a handle holds itself, that is what is right

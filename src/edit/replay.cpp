@@ -87,6 +87,7 @@ public:
         take_device_warning(); // of shapes that were made again at the end
         const bool writes = options_.out || options_.record_checks || options_.add_outputs;
         if (writes && !options_.rehearse) report_.write = clock.lap();
+        if (is_undone_) document.prepare_ahead(progress_); // what is told is of the shape that is left
         fill_report(document, device_seconds);
         return std::move(report_);
     }
@@ -184,7 +185,7 @@ private:
     }
     void act(Document& document, const DragLine& line, std::size_t number, const std::string& place) {
         document.drag(line, place, progress_);
-        checked_ = false;
+        checked_ = is_undone_ = false;
         if (options_.rehearse) return;
         warn_of_strays(document);
         for (const std::string& words :
@@ -217,10 +218,12 @@ private:
     }
     void act(Document& document, const UndoLine& /*line*/, std::size_t /*number*/, const std::string& place) {
         document.undo(place);
+        is_undone_ = true;
         if (document.is_posed()) checked_ = false;
     }
     void act(Document& document, const RedoLine& /*line*/, std::size_t /*number*/, const std::string& place) {
         document.redo(place);
+        is_undone_ = true;
         if (document.is_posed()) checked_ = false;
     }
 
@@ -405,7 +408,8 @@ private:
     Upsampler* upsampler_ = nullptr;
     ReplayReport report_;
     std::vector<RecordedCheck> recorded_;
-    bool checked_ = true; // whether the shape now was recorded already, or nothing changed it since
+    bool checked_ = true;    // whether the shape now was recorded already, or nothing changed it since
+    bool is_undone_ = false; // whether the last shape was not made by the last drag
 };
 
 } // namespace

@@ -46,11 +46,14 @@ Links links_to(std::size_t vertices, OtherEnd&& other_end, Workers& workers) {
 // below `bodies`.
 Links find_bridges_once(const GroupTree& tree, std::size_t bodies, std::span<const float> reach,
                         Workers& workers) {
-    // The largest body need not ask: the others do.
+    // The largest body need not ask: the others do. Of two that are as large both ask, or the order of the
+    // points would decide.
     std::vector<std::size_t> size(bodies, 0);
     for (const Index body : tree.group)
         if (body != no_index) ++size[body];
-    const auto largest = static_cast<Index>(std::ranges::max_element(size) - size.begin());
+    const auto found = std::ranges::max_element(size);
+    const bool is_only_one = bodies > 0 && std::ranges::count(size, *found) == 1;
+    const Index largest = is_only_one ? static_cast<Index>(found - size.begin()) : no_index;
     const auto across = [&](std::size_t v) {
         if (tree.group[v] == no_index || tree.group[v] == largest) return no_index;
         return nearest_within_both(tree, v, reach).vertex;

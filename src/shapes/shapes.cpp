@@ -95,8 +95,9 @@ void check(const ShapeOptions& options) {
     if (options.points < 1) refuse("--points must be at least 1");
     if (options.points >= no_index) refuse("--points must be below 4294967295");
     const double noise = options.noise.value_or(0);
-    if (!(noise >= 0) || !std::isfinite(noise))
-        refuse("--noise must be 0 or more: a fraction of the point spacing");
+    constexpr double most_noise = 1e6;
+    if (!(noise >= 0 && noise <= most_noise))
+        refuse("--noise must be between 0 and a million: so many times the point spacing");
     const double outliers = options.outliers.value_or(0);
     if (!(outliers >= 0 && outliers < 1))
         refuse("--outliers must be at least 0 and below 1: a fraction of the points");

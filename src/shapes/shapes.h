@@ -43,7 +43,7 @@ struct ShapeOptions {
 
     // Standard deviation of a gaussian displacement, as a fraction of the mean spacing √(area / points):
     // along the normal on surfaces, along the ray for the creature; in a solid in each of the three
-    // coordinates, of ∛(volume / points). Default 0; the creature's 0.3.
+    // coordinates, of ∛(volume / points). 0 … a million; default 0; the creature's 0.3.
     std::optional<double> noise;
 
     // The fraction of the points that are strays, 0 ≤ outliers < 1, rounded down to whole points. They come

@@ -240,7 +240,7 @@ TEST(PointEnergy, KnowsNothingOfOutliersThatHang) {
 
 TEST(PointEnergy, HasLessOfAShareTheMoreSamplesThereAre) {
     EXPECT_EQ(share_of_points(0, 0), 0);
-    for (const std::size_t vertices : {1000U, 10'000U, 100'000U}) {
+    for (const std::size_t vertices : {2000U, 10'000U, 100'000U}) {
         EXPECT_EQ(share_of_points(300, vertices), 1);
         EXPECT_EQ(share_of_points(4000, vertices), 0);
         double before = 1;
@@ -253,6 +253,9 @@ TEST(PointEnergy, HasLessOfAShareTheMoreSamplesThereAre) {
         }
     }
     EXPECT_EQ(share_of_points(500, 2500), 0); // five points a sample
+    EXPECT_EQ(share_of_points(300, 300), 0);  // nothing lies between them
+    EXPECT_EQ(share_of_points(40, 40), 0);
+    EXPECT_EQ(share_of_points(40, 200), 1);
 }
 
 TEST(PointEnergy, IsTheSameForAnyNumberOfWorkers) {

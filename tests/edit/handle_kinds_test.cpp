@@ -296,6 +296,28 @@ TEST(HandleKinds, AFixedPegOfOnePointKeepsItsBits) {
     }
 }
 
+// A place is one whether the file has it once or twice.
+TEST(HandleKinds, APegOfTwinsTurnsWithItsSurroundings) {
+    std::vector<std::vector<float>> shapes;
+    for (const char* points : {"[1000]", "[1000,2000]"}) {
+        std::vector<float> positions = made(Shape::plane, 2000).positions;
+        const std::vector<float> twice(positions.begin() + 3000, positions.begin() + 3003);
+        positions.insert(positions.end(), twice.begin(),
+                         twice.end()); // point 2000 lies where point 1000 does
+        Desk desk(make_cloud(positions));
+        desk.play(R"({"op":"handle","name":"rim","role":"fixed","region":{"halfspace":{"point":[-0.4,0,0],)"
+                  R"("normal":[-1,0,0]}}})"
+                  "\n"
+                  R"({"op":"handle","name":"peg","role":"moving","rotation":"free","points":)" +
+                  std::string(points) + "}\n" + drag(turn('y', 90), "peg") + settle(5));
+        shapes.push_back(desk.shape());
+    }
+    double apart = 0;
+    for (std::size_t i = 0; i < shapes[0].size() / 3; ++i)
+        apart = std::max(apart, (at(shapes[0], i) - at(shapes[1], i)).norm());
+    EXPECT_LT(apart, 1e-6);
+}
+
 TEST(HandleKinds, APegLeavesWhatOthersHoldInItsPlace) {
     std::vector<float> positions = bar(700).positions;
     const std::vector<float> twice(positions.begin() + 21, positions.begin() + 24);

@@ -208,6 +208,15 @@ TEST(Replay, WarnsOfADragThatMovesNothing) {
         EXPECT_EQ(words.find("moves nothing"), std::string::npos) << words; // some points are left to it
 }
 
+TEST(Replay, ReportsOfTheShapeThatAnUndoLeaves) {
+    const ScratchFolder folder;
+    const std::string posed = ends + drag(lift) + commit;
+    const Told before = told(session_in(folder, posed));
+    const Told undone = told(session_in(folder, posed + set(R"("samples":100)") + drag(lift) + undo + undo));
+    EXPECT_EQ(undone.report.samples, before.report.samples);
+    EXPECT_EQ(undone.report.components, before.report.components);
+}
+
 TEST(Replay, SettingsGivenFromOutsideWinOverHeaderAndLines) {
     const ScratchFolder folder;
     const Session session = session_in(folder, set(R"("samples":100)") + ends + drag(lift) +

@@ -83,6 +83,19 @@ TEST(LooseParts, AreNoneWhereTheyAreJoinedOrARegionEndsOnThem) {
     EXPECT_EQ(words_about_loose(region.document(), "ball"), "");
 }
 
+TEST(LooseParts, AreNoneWhereNothingStaysAnywhere) {
+    // Neither what a region that holds everything leaves out, nor a fixed handle of which others took all.
+    Desk desk(made(Shape::bar, 700));
+    desk.play(R"({"op":"handle","name":"some","role":"roi","region":"all"})"
+              "\n"
+              R"({"op":"handle","name":"gone","role":"fixed","points":[9]})"
+              "\n"
+              R"({"op":"handle","name":"top","role":"moving","points":[[0,99]]})"
+              "\n" +
+              drag(lift));
+    EXPECT_EQ(words_about_loose(desk.document(), "top"), "");
+}
+
 // --- Carry
 
 TEST(CarriedParts, MoveRigidlyWithWhatIsNearest) {

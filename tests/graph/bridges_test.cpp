@@ -8,6 +8,8 @@
 #include "graph/symmetric_graph.h"
 
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace knead {
 namespace {
@@ -57,6 +59,25 @@ TEST(Bridges, JudgeTheGapByTheDenserSide) {
     const Cloud dense_above = cloud_of(plates(6, 0.45)); // 13 of its spacings
     ASSERT_EQ(dense_above.components.size.size(), 2U);
     EXPECT_EQ(parts(bridged_of(dense_above).graph), 2U);
+}
+
+TEST(Bridges, OfPartsThatAreAsLargeDoNotDependOnTheirOrder) {
+    const std::vector<float> one = plates(2.3);
+    std::vector<float> other(one.begin() + static_cast<std::ptrdiff_t>(one.size() / 2), one.end());
+    other.insert(other.end(), one.begin(), one.begin() + static_cast<std::ptrdiff_t>(one.size() / 2));
+    const auto links = [](const std::vector<float>& positions) {
+        const Cloud cloud = test::cloud_of(positions);
+        std::set<std::pair<float, float>> found; // by heights and places that tell them apart
+        const Graph graph = bridged_of(cloud).graph;
+        for (Index v = 0; v < graph.size(); ++v)
+            for (const Index u : graph.row(v))
+                if (cloud.positions[3 * v + 2] < cloud.positions[3 * u + 2])
+                    found.insert({40 * cloud.positions[3 * v] + cloud.positions[3 * v + 1],
+                                  40 * cloud.positions[3 * u] + cloud.positions[3 * u + 1]});
+        return found;
+    };
+    EXPECT_FALSE(links(one).empty());
+    EXPECT_EQ(links(one), links(other));
 }
 
 TEST(Bridges, JoinWhatEachHasANearerPartBeside) {

@@ -24,6 +24,7 @@ struct Display {
     bool axes = true;
     bool samples = false; // of the solver, once it has chosen some
     bool sample_graph = false;
+    bool handles = true; // the colours and patterns of their points
     bool names = true;
 };
 

@@ -140,9 +140,12 @@ void overlays(const Ui& ui) {
                 ? "Lights the points. This file has no normals: they are estimated, for looking at only"
                 : "Lights the points by their normals");
     second_column();
-    ImGui::Checkbox("Handle names", &display.names);
     ImGui::Checkbox("Ground grid", &display.grid);
+    ImGui::Checkbox("Handles", &display.handles);
+    explain(
+        "The colours and patterns of what handles hold; without them a saved picture shows the cloud alone");
     second_column();
+    ImGui::Checkbox("Handle names", &display.names);
     ImGui::Checkbox("Axes", &display.axes);
     sample_overlays(ui);
 }

@@ -237,6 +237,7 @@ void bottom_row(const Ui& ui, bool hears_keys) {
                          (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
                           ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false));
     if (confirmed || entered || pressed) choose(ui);
+    if (entered) browser.focus_name = true; // where that was no name to choose, the next is typed
     // Whatever was clicked, what is typed next is the name, unless another one is asked for; but taking the
     // focus would close what dropped down.
     if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive() && popup_has_keys() &&

@@ -1,6 +1,7 @@
 // The names of the handles in the view, each with its sign and colour, and a line to its handle where there
 // was no room beside it.
 
+#include "app/axes_corner.h"
 #include "app/icons.h"
 #include "app/overlay.h"
 #include "view/label_layout.h"

@@ -4,6 +4,7 @@
 #include "app/overlay.h"
 #include "app/widgets.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace knead {
@@ -40,7 +41,8 @@ void draw_legend(const Ui& ui) {
     const float line = ImGui::GetTextLineHeight();
     const ImVec2 size(width + text_width + ui.scaled(8) + 2 * margin,
                       height + line + ui.scaled(10) + 2 * margin);
-    const ImVec2 corner(view.x + ui.scaled(16), view.y + ui.scaled(16));
+    // Below the card that offers to restore, where that is.
+    const ImVec2 corner(view.x + ui.scaled(16), std::max(view.y, ui.state.recovery_end) + ui.scaled(16));
     ui.state.legend_place = {corner.x, corner.y, size.x, size.y};
     list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, palette::rgb(0x15171a, 170),
                        ui.scaled(7));

@@ -1,7 +1,9 @@
 // Where the hand's events go.
 
 #include "app/actions.h"
+#include "app/axes_corner.h"
 #include "app/loop.h"
+#include "app/overlay.h"
 #include "app/timeline.h"
 
 #include <imgui_internal.h>
@@ -85,9 +87,12 @@ void take(Loop& loop, MousePress event) {
     }
     send_slid_settings(loop.ui);
     carry_out_commands(loop);
+    event.cursor = in_view(loop, event.cursor);
+    if (event.button == MouseButton::left && !holds_button(loop) && !hand_is_full(loop))
+        if (const auto axis = axis_at(loop.ui, in_window(loop.ui, event.cursor)))
+            return apply(loop.editor, LookAtSide{side_of_axis(loop.editor.camera, *axis)});
     press_of(loop, event.button) = true;
     loop.press_is_hands |= hand_is_full(loop);
-    event.cursor = in_view(loop, event.cursor);
     handle_input(loop.editor, event);
 }
 

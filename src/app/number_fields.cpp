@@ -2,15 +2,17 @@
 
 #include "app/theme.h"
 #include "app/widgets.h"
+#include "base/arithmetic.h"
 
 #include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <cstring>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 
 namespace knead {
 
@@ -138,32 +140,52 @@ std::string as_words(const char* format, Number value) {
     return words;
 }
 
-// The number that stands in the field that is typed into, be there a unit behind it; nothing where it is
-// none, or the text is the one that stood there at first.
+// The number, or sum, that stands in the field that is typed into, be there a unit behind it; nothing where
+// it is none, or the text is the one that stood there at first.
 std::optional<double> typed_number() {
     const ImGuiInputTextState& field = ImGui::GetCurrentContext()->InputTextState;
     std::string text(4 * static_cast<std::size_t>(field.CurLenW) + 1, 0);
     text.resize(static_cast<std::size_t>(ImTextStrToUtf8(
         text.data(), static_cast<int>(text.size()), field.TextW.Data, field.TextW.Data + field.CurLenW)));
     if (text == field.InitialTextA.Data) return std::nullopt;
-    char* end = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    const std::string_view unit(end);
-    const bool is_one = unit.find_first_of("0123456789.,+-*/") == std::string_view::npos;
-    return end != text.c_str() && is_one && std::isfinite(number) ? std::optional(number) : std::nullopt;
+    text.resize(std::strlen(text.c_str()));
+    const std::optional<Sum> sum = sum_of(text);
+    const bool is_one = sum && sum->rest.find_first_of("0123456789.,+-*/") == std::string_view::npos;
+    return is_one ? std::optional(sum->value) : std::nullopt;
 }
+
+// Esc puts the text back.
+std::optional<double> number_not_given_up() {
+    return ImGui::IsKeyPressedMap(ImGuiKey_Escape) ? std::nullopt : typed_number();
+}
+
+// Of a slider, where what is typed may not go beyond them.
+template<typename Number>
+struct Limits {
+    Number lowest, highest;
+    bool hold;
+
+    Number clamped(double number) const {
+        const double least = hold ? static_cast<double>(lowest) : -1e9,
+                     most = hold ? static_cast<double>(highest) : 1e9;
+        number = std::clamp(number, least, most);
+        return static_cast<Number>(std::is_integral_v<Number> ? std::round(number) : number);
+    }
+};
 
 // What is being typed into a slider counts once it is done, and not at all if it is given up (Esc puts the
 // text back) or no number. Returns whether `value` became what was typed.
 template<typename Number>
-bool take_typed(const char* id, bool is_typed, Number before, const char* format, Number& value) {
+bool take_typed(const char* id, bool is_typed, Number before, const Limits<Number>& limits,
+                const char* format, Number& value) {
     ImGuiStorage& storage = *ImGui::GetStateStorage();
     const ImGuiID typing = ImGui::GetID((std::string(id) + " typing").c_str());
     const ImGuiID typed = ImGui::GetID((std::string(id) + " typed").c_str());
     const bool was_typed = storage.GetBool(typing, false);
     storage.SetBool(typing, is_typed);
     if (is_typed) {
-        storage.SetFloat(typed, static_cast<float>(typed_number() ? value : before));
+        const std::optional<double> number = number_not_given_up();
+        storage.SetFloat(typed, static_cast<float>(number ? limits.clamped(*number) : before));
         value = before;
         return false;
     }
@@ -195,8 +217,11 @@ bool slide(const char* name, ImGuiDataType type, Number& value, Number lowest, N
     const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id.c_str()));
     const Number before = value;
     const bool slid = bar_slider_of(name, type, &value, &lowest, &highest, format, flags);
-    const bool changed = take_typed(id.c_str(), typed, before, format, value) || (slid && !typed);
-    if (typed && (flags & ImGuiSliderFlags_AlwaysClamp) != 0) tell_limits(lowest, highest, format);
+    const bool holds = (flags & ImGuiSliderFlags_AlwaysClamp) != 0;
+    const bool changed =
+        take_typed(id.c_str(), typed, before, Limits<Number>{lowest, highest, holds}, format, value) ||
+        (slid && !typed);
+    if (typed && holds) tell_limits(lowest, highest, format);
     if (typed) leave_by_tab();
     if (typed) return false;
     const std::string words = as_words(format, value);
@@ -242,8 +267,7 @@ NumberEdit number_field(const char* id, double& value, double speed, const char*
     const bool slid = ImGui::DragScalar(id, ImGuiDataType_Double, &number, static_cast<float>(speed), &lowest,
                                         nullptr, format);
     if (types) {
-        const bool given_up = ImGui::IsKeyPressedMap(ImGuiKey_Escape);
-        const std::optional<double> typed = given_up ? std::nullopt : typed_number();
+        const std::optional<double> typed = number_not_given_up();
         editing = {field, typed.value_or(value), true, typed.has_value(), false, frame};
         leave_by_tab();
         return NumberEdit::none;

@@ -3,6 +3,7 @@
 
 #include "app/overlay.h"
 
+#include "app/axes_corner.h"
 #include "app/icons.h"
 #include "app/widgets.h"
 #include "edit/selecting.h"
@@ -17,11 +18,6 @@ namespace knead {
 ImVec2 in_window(const Ui& ui, glm::dvec2 pixel) {
     return {ui.state.view.x + static_cast<float>(pixel.x) / ui.state.pixel_ratio,
             ui.state.view.y + static_cast<float>(pixel.y) / ui.state.pixel_ratio};
-}
-
-Rectangle axes_place(const Ui& ui) {
-    const Rectangle& view = ui.state.view;
-    return {view.x + ui.scaled(10), view.y + view.height - ui.scaled(94), ui.scaled(84), ui.scaled(84)};
 }
 
 namespace {
@@ -205,40 +201,6 @@ void draw_few_selected(const Ui& ui, ImDrawList& list) {
         list.AddCircle(at, ui.scaled(7), palette::rgb(0x101114, 150), 0, ui.scaled(3.6f));
         list.AddCircle(at, ui.scaled(7), palette::accent, 0, ui.scaled(1.8f));
     }
-}
-
-// --- The axes in the corner ---
-
-void draw_axes(const Ui& ui, ImDrawList& list) {
-    if (!ui.state.display.axes) return;
-    const Rectangle place = axes_place(ui);
-    const ImVec2 middle(place.x + place.width / 2, place.y + place.height / 2);
-    const float length = ui.scaled(30);
-    struct Tip {
-        glm::dvec3 direction;
-        std::size_t axis;
-    };
-    std::array<Tip, 3> tips{};
-    const glm::dquat to_screen = glm::conjugate(ui.editor.camera.orientation);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        glm::dvec3 along(0.0);
-        along[static_cast<glm::length_t>(axis)] = 1;
-        tips[axis] = {to_screen * along, axis};
-    }
-    std::sort(tips.begin(), tips.end(),
-              [](const Tip& a, const Tip& b) { return a.direction.z < b.direction.z; });
-    ImGui::PushFont(ui.state.fonts.small);
-    for (const Tip& tip : tips) {
-        const ImVec2 end(middle.x + length * static_cast<float>(tip.direction.x),
-                         middle.y - length * static_cast<float>(tip.direction.y));
-        const ImU32 color = with_alpha(palette::axes[tip.axis], tip.direction.z < -0.3 ? 0.5f : 0.95f);
-        list.AddLine(middle, end, color, ui.scaled(2));
-        list.AddCircleFilled(end, ui.scaled(8.5f), color);
-        const char letter[2] = {static_cast<char>('X' + tip.axis), 0};
-        const ImVec2 size = ImGui::CalcTextSize(letter);
-        list.AddText({end.x - size.x / 2, end.y - size.y / 2}, palette::rgb(0x14161a), letter);
-    }
-    ImGui::PopFont();
 }
 
 } // namespace

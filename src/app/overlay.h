@@ -10,9 +10,6 @@ namespace knead {
 // A pixel of the view, as the camera and the tools count them, in ImGui's coordinates.
 ImVec2 in_window(const Ui& ui, glm::dvec2 pixel);
 
-// Where the axes stand in the corner, if they are shown.
-Rectangle axes_place(const Ui& ui);
-
 // The names of the handles, beside them and off each other.
 void draw_handle_names(const Ui& ui, ImDrawList& list);
 

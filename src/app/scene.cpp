@@ -89,7 +89,10 @@ std::vector<HandleLook> looks_of(const Editor& editor, const UiState& state) {
     for (const Handle& handle : editor.document->handles) {
         const ImVec4 color = as_vector(handle_color(state.handle_colors, handle));
         const HandleLook look{{color.x, color.y, color.z}, pattern_of(handle.role)};
-        looks.push_back(tells_value ? without_tint(look) : look);
+        if (!state.display.handles)
+            looks.push_back({look.color, HandleLook::Pattern::solid, 0});
+        else
+            looks.push_back(tells_value ? without_tint(look) : look);
     }
     return looks;
 }

@@ -76,7 +76,8 @@ void transform_buttons(const Ui& ui, const Sizes& sizes) {
                           : "The gizmo has the world's axes; click for the handle's own (,)"))
         ui.wish(WishLocalAxes{!local});
     if (icon_button("pivot", Icon::pivot, side, ui.editor.tools.move_pivot,
-                    "Move the pivot (.), the point that the handle turns about: click where the joint is, or drag the arrows"))
+                    "Move the pivot (.), the point that the handle turns about: click where the joint is, or "
+                    "drag the arrows"))
         ui.wish(WishMovePivot{!ui.editor.tools.move_pivot});
     ImGui::EndDisabled();
 }

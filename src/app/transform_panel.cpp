@@ -69,6 +69,15 @@ Transform transform_for(const Ui& ui, const ChosenPose& base, Field field, doubl
                         value - origin_of(ui, field.row, field.axis));
 }
 
+// The angles that were typed or slid tell a turn about x from one about z where the pose does not: where y is
+// a right angle.
+void keep_angles(const Ui& ui, const ChosenPose& base, Field field, double value) {
+    if (field.row != PoseRow::turned) return;
+    Vec3d& turned = ui.state.pose_fields.turned;
+    turned = base.motion.turned;
+    turned[field.axis] = value * std::numbers::pi / 180;
+}
+
 void slide(const Ui& ui, const ChosenPose& pose, Field field, double value) {
     PoseFields& fields = ui.state.pose_fields;
     if (!fields.base) {
@@ -77,6 +86,7 @@ void slide(const Ui& ui, const ChosenPose& pose, Field field, double value) {
         if (!fields.slides_pivot) ui.tell(BeginDrag{pose.pivot});
     }
     fields.slid = transform_for(ui, *fields.base, field, value);
+    keep_angles(ui, *fields.base, field, value);
     if (fields.slides_pivot)
         ui.tell(SetPivot{transformed(fields.slid, fields.base->pivot), SetPivot::Stage::moving});
     else
@@ -111,6 +121,7 @@ void type(const Ui& ui, const ChosenPose& pose, Field field, double value) {
         return refuse(ui, "At once a handle turns by %.0f° at most.", most_turned * 180 / std::numbers::pi);
     if (does_nothing(transform)) return;
     if (moves_pivot(ui, field)) return ui.tell(SetPivot{transformed(transform, pose.pivot)});
+    keep_angles(ui, pose, field, value);
     ui.tell(BeginDrag{pose.pivot});
     ui.tell(DragTo{transform});
     ui.tell(EndDrag{});
@@ -198,12 +209,13 @@ void transform_panel(const Ui& ui) {
         return;
     }
     PoseFields& fields = ui.state.pose_fields;
-    const std::optional<ChosenPose> pose = pose_of_chosen(ui.editor);
+    std::optional<ChosenPose> pose = pose_of_chosen(ui.editor);
     if (fields.handle != ui.editor.chosen || !pose) {
         end_slide(ui, true);
         fields = {};
         fields.handle = ui.editor.chosen;
     }
+    if (pose && are_one_turn(fields.turned, pose->motion.turned)) pose->motion.turned = fields.turned;
     if (pose) return pose_rows(ui, *pose);
     // As high as the rows of a pose, or all below would jump when a handle is chosen.
     const float end = ImGui::GetCursorPosY() +

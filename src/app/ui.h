@@ -128,6 +128,7 @@ struct PoseFields {
     std::optional<ChosenPose> base = {}; // of what is being slid, when that began
     bool slides_pivot = false;           // and not the handle
     Transform slid = {};                 // since then
+    Vec3d turned = Vec3d::Zero();        // how the handle is turned, in the angles that were typed last
 };
 
 // How large is what is selected, or all, and of which marks and points that was measured.

@@ -145,7 +145,7 @@ bool may_act(Editor& editor) {
     if (looks_back(editor)) {
         decline(editor,
                 "This is an earlier step, and what was done later would be lost. Esc goes back to where you "
-                "were. To go on from an earlier one, undo to it (Ctrl+Z).");
+                "were; Ctrl+Z undoes to here, to go on from this one.");
         return false;
     }
     return true;

@@ -89,6 +89,8 @@ void begin_looking(Editor& editor) {
 } // namespace
 
 void carry_out(Editor& editor, const UndoStep& command) {
+    // Whoever looks back undoes to what they look at.
+    if (!command.to_look && looks_back(editor)) carry_out(editor, RedoStep{.to_look = true});
     if (!can_undo(editor)) return;
     editor.just_made.clear();
     if (command.to_look)

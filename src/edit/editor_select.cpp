@@ -69,8 +69,10 @@ void carry_out(Editor& editor, const SelectPointUnder& command) {
         if (const Handle* handle = handle_of(editor, editor.opened.order->file_index[hit]))
             return carry_out(editor, ChooseHandle{handle->name});
     if (command.radius > 0)
-        return carry_out(editor, SelectRegion{ScreenStroke{{command.pixel}, command.radius}, command.mode,
-                                              command.through});
+        return carry_out(editor,
+                         SelectRegion{ScreenStroke{{command.pixel}, command.radius},
+                                      command.mode == SelectMode::replace ? SelectMode::add : command.mode,
+                                      command.through});
     std::vector<std::uint8_t> inside(editor.marks.size());
     if (hit != no_index) inside[hit] = 1;
     change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });

@@ -71,6 +71,15 @@ PoseNumbers numbers_of(const HandleMotion& motion, const Vec3d& pivot) {
     return numbers;
 }
 
+bool are_one_turn(const Vec3d& some, const Vec3d& others) {
+    constexpr double alike = 1e-6; // radians
+    const Vec3d apart = some - others;
+    if (std::abs(apart.y()) > alike) return false;
+    if (std::abs(std::cos(some.y())) > alike) return apart.cwiseAbs().maxCoeff() <= alike;
+    return std::abs(apart.x() - std::sin(some.y()) * apart.z()) <=
+           alike; // they turn against each other, or along
+}
+
 double number_in(const PoseNumbers& numbers, PoseRow row, int axis) {
     switch (row) {
     case PoseRow::place:

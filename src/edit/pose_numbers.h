@@ -16,6 +16,10 @@ struct PoseNumbers {
 };
 PoseNumbers numbers_of(const HandleMotion& motion, const Vec3d& pivot);
 
+// Whether these angles, as HandleMotion::turned has them, make the same rotation with the same whole turns:
+// they are equal, or y is a right angle, where x and z are one turn.
+bool are_one_turn(const Vec3d& some, const Vec3d& others);
+
 enum class PoseRow { place, moved, turned, scaled };
 double number_in(const PoseNumbers& numbers, PoseRow row, int axis); // axis: 0 x, 1 y, 2 z
 

@@ -10,20 +10,22 @@
 //   all.
 // Choosing. A press and release without motion chooses the handle under the cursor, or the point, or what is
 //   in the brush's circle, with every tool but the polygon's, whose clicks add corners (double click, Enter
-//   or right click closes, Backspace or Ctrl+Z takes the last back). Shift adds, Ctrl takes away. Esc or
-//   right click drops a band, and so does Ctrl+Z any but a polygon. One SelectRegion a gesture. A double
-//   click sets the camera's pivot. A all, Alt+A none (Esc too), Ctrl+I invert, Ctrl+plus/minus grow and
-//   shrink, L connected, V hides (Shift: the others, Alt: shows all). Tools: C click, B box, Q lasso, P
-//   polygon, K brush, [ ] (as Characters) its size, T through.
+//   or right click closes, Backspace or Ctrl+Z takes the last back). Shift adds, Ctrl takes away; strokes of
+//   the brush add by themselves. Esc or right click drops a band, and so does Ctrl+Z any but a polygon. One
+//   SelectRegion a gesture. A double click sets the camera's pivot. A all, Alt+A none (Esc too), Ctrl+I
+//   invert, Ctrl+plus/minus grow and shrink, L connected, V hides (Shift: the others, Alt: shows all). Tools:
+//   C click, B box, Q lasso, P polygon, K brush, [ ] (as Characters) its size, T through.
 // Handles. H makes a moving one, Shift+H a fixed one, Ctrl+H the region of interest. Where the pivot is moved
-//   (move_pivot), a click puts it inside of the limb there, with the polygon as well, and Esc ends that first.
+//   (move_pivot), a click puts it inside of the limb there, with the polygon as well, and Esc ends that
+//   first.
 // Moving. A press on the gizmo drags its part until the release, but with Shift, by which a selection that
 //   begins there is added: a slow drag instead would hardly be seen. G, R, S follow the hand until a click
 //   or Enter. X, Y, Z constrain (press_axis() in view/transform_drag.h), Ctrl snaps, Shift slows, digits and
-//   . - arrive as Characters, Tab goes to the next length. Esc, Ctrl+Z or right click cancels; another of G,
-//   R, S goes on as that. R and S of what they would not change are refused, and all three without a gizmo;
-//   an amount that is typed on then means nothing. No other key is taken in a drag, which is BeginDrag,
-//   DragTo whenever the transform changed, and EndDrag; or CancelDrag, also where it ends with nothing moved.
+//   . - + * / arrive as Characters, Tab goes to the next length. Esc, Ctrl+Z or right click cancels; another
+//   of G, R, S goes on as that. R and S of what they would not change are refused, and all three without a
+//   gizmo; an amount that is typed on then means nothing. No other key is taken in a drag, which is
+//   BeginDrag, DragTo whenever the transform changed, and EndDrag; or CancelDrag, also where it ends with
+//   nothing moved.
 // Enter commits the pose; Ctrl+Z undoes, Ctrl+Shift+Z and Ctrl+Y redo.
 
 #include "edit/command.h"

@@ -20,6 +20,13 @@ void select_region(const Hand& hand, ScreenRegion region) {
     hand.tell(SelectRegion{std::move(region), hand.tools.band_mode, hand.tools.through});
 }
 
+// A stroke adds to those before.
+void paint(const Hand& hand) {
+    Tools& tools = hand.tools;
+    if (tools.band_mode == SelectMode::replace) tools.band_mode = SelectMode::add;
+    select_region(hand, ScreenStroke{tools.band, tools.brush_radius});
+}
+
 } // namespace
 
 bool clicks_place_pivot(const Hand& hand) {
@@ -53,7 +60,7 @@ void end_band(const Hand& hand) {
     else if (!tools.moved && tools.clicks == 2)
         hand.tell(SetPivotUnder{tools.pressed});
     else if (tools.moved && tools.select == SelectTool::brush)
-        select_region(hand, ScreenStroke{tools.band, tools.brush_radius});
+        paint(hand);
     else if (tools.band_mode == SelectMode::replace && clicks_place_pivot(hand))
         hand.tell(SetPivotInside{tools.pressed});
     else if (tools.select == SelectTool::brush)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace knead {
 
@@ -216,7 +217,9 @@ std::vector<GizmoShape> gizmo_shapes(const Gizmo& gizmo, const Camera& camera, V
         const TransformKind kind = gizmo.translate ? TransformKind::translate : TransformKind::scale;
         add_circle(drawing, {kind, {}}, center_radius, true, disc_corners, seen->depth - size);
     }
-    std::ranges::stable_sort(drawing.shapes, std::ranges::greater(), &GizmoShape::depth);
+    std::ranges::stable_sort(drawing.shapes, std::ranges::greater(), [](const GizmoShape& shape) {
+        return std::pair(shape.part.kind == TransformKind::rotate, shape.depth);
+    });
     return std::move(drawing.shapes);
 }
 

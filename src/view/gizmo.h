@@ -38,12 +38,14 @@ struct GizmoShape {
     std::vector<glm::dvec2> outline; // filled ones are convex
     bool filled = false;
     bool closed = false;
-    int color_axis = 0;  // 0 red x, 1 green y, 2 blue z, 3 white (screen); of a plane that of its normal
-    double depth = 0;    // draw the farthest first
+    int color_axis = 0; // 0 red x, 1 green y, 2 blue z, 3 white (screen); of a plane that of its normal
+    double depth = 0;
     bool behind = false; // the half of a ring that faces away: drawn faint
 };
 
-// Nothing when the centre is behind the eye. Parts seen end-on are left out, since they could not be dragged.
+// In the order in which to draw them: rings first, which seen from their sides lie on arrows, then what is
+// farther from the eye. Nothing when the centre is behind the eye. Parts seen end-on are left out, since they
+// could not be dragged.
 std::vector<GizmoShape> gizmo_shapes(const Gizmo& gizmo, const Camera& camera, Viewport viewport);
 
 // The part under the cursor, within `reach` pixels; the nearest to the eye wins, arrows and boxes before

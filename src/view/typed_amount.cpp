@@ -1,8 +1,9 @@
 #include "view/typed_amount.h"
 
+#include "base/arithmetic.h"
+
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <span>
 #include <string>
 #include <utility>
@@ -11,7 +12,7 @@ namespace knead {
 
 namespace {
 
-constexpr std::size_t longest_number = 12; // characters
+constexpr std::size_t longest_sum = 24; // characters
 
 // What is held to one axis is free again, and its number that of this axis.
 void leave_axis(TransformDrag& drag) {
@@ -44,9 +45,8 @@ bool is_typed(const TransformDrag& drag) {
 }
 
 std::optional<double> typed_number(const TransformDrag& drag, std::size_t field) {
-    const std::string& typed = drag.typed[field];
-    if (typed.find_first_of("0123456789") == std::string::npos) return {};
-    return std::strtod(typed.c_str(), nullptr);
+    const auto sum = sum_of(drag.typed[field]);
+    return sum ? std::optional(sum->value) : std::nullopt;
 }
 
 int field_of(const TransformDrag& drag) {
@@ -58,7 +58,9 @@ bool type_character(TransformDrag& drag, char character) {
     std::string& typed = drag.typed[static_cast<std::size_t>(drag.field)];
     const bool digit = character >= '0' && character <= '9';
     const bool point = character == '.' || character == ',';
-    if (character == '-') {
+    const std::size_t operation = typed.find_last_of("+*/");
+    const bool is_sum = operation != std::string::npos;
+    if (character == '-' && !is_sum) {
         if (typed.starts_with('-'))
             typed.erase(0, 1);
         else
@@ -66,8 +68,14 @@ bool type_character(TransformDrag& drag, char character) {
     } else if (character == '\b') {
         if (!typed.empty()) typed.pop_back();
     } else if (digit || point) {
-        const bool second_point = point && typed.find('.') != std::string::npos;
-        if (typed.size() < longest_number && !second_point) typed.push_back(point ? '.' : character);
+        const std::size_t begin = is_sum ? operation : 0; // of the number that is being typed
+        const bool second_point = point && typed.find('.', begin) != std::string::npos;
+        if (typed.size() < longest_sum && !second_point) typed.push_back(point ? '.' : character);
+    } else if (character == '+' || character == '*' || character == '/' || character == '-') {
+        // Behind a number; the sign of the next one may stand behind another.
+        const bool behind_number =
+            !typed.empty() && typed.find_first_of("+*/-", typed.size() - 1) == std::string::npos;
+        if (typed.size() < longest_sum && (behind_number || character == '-')) typed.push_back(character);
     } else {
         return false;
     }

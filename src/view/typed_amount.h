@@ -8,9 +8,10 @@
 
 namespace knead {
 
-// A character of a number: digits, '.' or ',', '-' (turns the sign round); '\b' takes the last back. Others
-// are not taken: returns false. Degrees in rotation, a factor in scale; in translation a length along the
-// axis, and first along x where it is free, along the first of a plane's two axes.
+// A character of a number: digits, '.' or ',', '-' (turns the sign round), or of a sum (base/arithmetic.h): +
+// * /, and '-' behind these; '\b' takes the last back. Others are not taken: returns false. Degrees in
+// rotation, a factor in scale; in translation a length along the axis, and first along x where it is free,
+// along the first of a plane's two axes.
 bool type_character(TransformDrag& drag, char character);
 // The key Tab: the next of these lengths, or the one before; what is typed at that becomes it. Likewise of
 // factors, of which there is one for each axis from there on. What is held to one axis, and has its number
@@ -25,7 +26,7 @@ int fields_of(const TransformDrag& drag);
 int field_of(const TransformDrag& drag);
 // Whether a number drives, and not the cursor.
 bool is_typed(const TransformDrag& drag);
-// A number as far as it is typed: "-" and "." are none yet.
+// A number, or what a sum comes to, as far as it is typed: "-" and "." are none yet.
 std::optional<double> typed_number(const TransformDrag& drag, std::size_t field = 0);
 
 } // namespace knead

@@ -287,6 +287,31 @@ TEST_F(BarEditor, ALaterStepIsNoEarlierOne) {
     calm();
 }
 
+TEST_F(BarEditor, WhoeverLooksBackUndoesToWhatTheyLookAt) {
+    make_handles();
+    turn_chosen("40");
+    turn_chosen("20");
+    turn_chosen("10");
+    for (int step = 0; step < 2; ++step) apply(editor_, UndoStep{.to_look = true});
+    calm();
+    const std::size_t seen = editor_.past.size();
+    const LineArray<float> shape = editor_.frame.positions();
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(editor_.past.size(), seen);
+    EXPECT_FALSE(looks_back(editor_));
+    EXPECT_EQ(editor_.frame.positions(), shape);
+    turn_chosen("5"); // and goes on from there
+    EXPECT_EQ(editor_.past.size(), seen + 1);
+    EXPECT_FALSE(can_redo(editor_));
+
+    while (can_undo(editor_)) apply(editor_, UndoStep{.to_look = true}); // to the cloud as it was opened
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_TRUE(editor_.past.empty());
+    EXPECT_FALSE(looks_back(editor_));
+}
+
 TEST_F(BarEditor, PlayingAStepIsDoingItAgain) {
     make_handles();
     transform_chosen('R', 'Z', "90");

@@ -167,6 +167,26 @@ TEST(Angles, OfWhatIsNoNumberAreLeftAlone) {
     EXPECT_EQ(carried({}, turn(1, std::numeric_limits<double>::infinity())).turned, Vec3d::Zero());
 }
 
+TEST(Angles, AreOneTurnOnlyIfTheyMakeTheSameRotation) {
+    const auto rotation = [](const Vec3d& angles) {
+        return Mat3d(Eigen::AngleAxisd(angles.z(), Vec3d::UnitZ()) *
+                     Eigen::AngleAxisd(angles.y(), Vec3d::UnitY()) *
+                     Eigen::AngleAxisd(angles.x(), Vec3d::UnitX()));
+    };
+    const double right = std::numbers::pi / 2, turn = 2 * std::numbers::pi;
+    const Vec3d some(0.3, right, 0.1), others(0.5, right, 0.3), below(0.3, -right, 0.1),
+        back(0.1, -right, 0.3);
+    EXPECT_LT((rotation(some) - rotation(others)).norm(), 1e-12);
+    EXPECT_TRUE(are_one_turn(some, others));
+    EXPECT_LT((rotation(below) - rotation(back)).norm(), 1e-12);
+    EXPECT_TRUE(are_one_turn(below, back));
+    EXPECT_FALSE(are_one_turn(some, back));
+    EXPECT_FALSE(are_one_turn(some, {0.5, right, 0.1}));
+    EXPECT_FALSE(are_one_turn(some, {0.3 + turn, right, 0.1})) << "a whole turn more";
+    EXPECT_TRUE(are_one_turn({0.3, 0.2, 0.1}, {0.3, 0.2, 0.1}));
+    EXPECT_FALSE(are_one_turn({0.3, 0.2, 0.1}, {0.5, 0.2, 0.3}));
+}
+
 TEST(PoseNumbers, AreThoseOfTheDragsThatMadeThem) {
     Transform size, move;
     size.scale = {1.5, 2, 0.5};

@@ -99,6 +99,9 @@ TEST(SelectTools, BrushPaintsOneStroke) {
     const std::vector<glm::dvec2> way{{100, 50}, {120, 50}, {140, 70}};
     EXPECT_EQ(std::get<ScreenStroke>(select.region).path, way);
     EXPECT_EQ(std::get<ScreenStroke>(select.region).radius, bench.tools.brush_radius);
+    EXPECT_EQ(select.mode, SelectMode::add) << "to the strokes before";
+    bench.drag({{100, 50}, {120, 50}}, ctrl);
+    EXPECT_EQ(bench.all<SelectRegion>().back().mode, SelectMode::remove);
     for (int i = 0; i < 100; ++i) bench.take(Character{U'['});
     EXPECT_GE(bench.tools.brush_radius, 1);
     for (int i = 0; i < 100; ++i) bench.take(Character{U']'});

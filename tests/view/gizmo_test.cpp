@@ -136,9 +136,14 @@ TEST(Gizmo, RingsPartWhereTheyTurnAway) {
     }
 }
 
-TEST(Gizmo, ComesFarthestFirst) {
+TEST(Gizmo, ComesFarthestFirstWithRingsUnderArrows) {
     const auto shapes = gizmo_shapes({}, oblique(), screen);
-    EXPECT_TRUE(std::ranges::is_sorted(shapes, std::ranges::greater(), &GizmoShape::depth));
+    const auto is_ring = [](const GizmoShape& shape) { return shape.part.kind == TransformKind::rotate; };
+    const auto rings_end = std::ranges::find_if_not(shapes, is_ring);
+    EXPECT_TRUE(std::none_of(rings_end, shapes.end(), is_ring));
+    EXPECT_TRUE(
+        std::ranges::is_sorted(shapes.begin(), rings_end, std::ranges::greater(), &GizmoShape::depth));
+    EXPECT_TRUE(std::ranges::is_sorted(rings_end, shapes.end(), std::ranges::greater(), &GizmoShape::depth));
     for (const GizmoShape& shape : shapes) EXPECT_GE(shape.outline.size(), 2U);
 }
 

@@ -371,6 +371,24 @@ TEST(TransformDrag, AnyLengthOfTypingIsANumber) {
     EXPECT_EQ(scene.now().shift.x, 1.23) << "the second point is left out";
 }
 
+TEST(TransformDrag, SumsAreNumbersAsFarAsTheyAreTyped) {
+    Scene scene(TransformKind::translate);
+    scene.type("10");
+    scene.type("/");
+    EXPECT_EQ(scene.now().shift.x, 10);
+    scene.type("4");
+    EXPECT_EQ(scene.now().shift.x, 2.5);
+    scene.type("-1,5");
+    EXPECT_EQ(scene.now().shift.x, 1) << "a minus behind an operator is one";
+    scene.type("**2");
+    EXPECT_EQ(scene.now().shift.x, -0.5) << "the second star is left out";
+    for (int i = 0; i < 20; ++i) scene.type("\b");
+    scene.type("*3-");
+    EXPECT_EQ(scene.now().shift.x, -3) << "with no number before it a star is none";
+    scene.type("/0");
+    EXPECT_TRUE(std::isfinite(scene.now().shift.x));
+}
+
 TEST(TransformDrag, AxisKeysGoThroughWorldOwnAndFree) {
     Scene scene(TransformKind::translate);
     const auto kind = [&] { return scene.drag.constraint; };

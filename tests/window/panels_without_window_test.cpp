@@ -165,6 +165,12 @@ TEST_F(NumberSlider, WhatIsTypedCountsOnceWhenReturnIsPressed) {
     EXPECT_EQ(changes_, 1);
 }
 
+TEST_F(NumberSlider, TakesSums) {
+    type("1/8");
+    press(ImGuiKey_Enter);
+    EXPECT_EQ(value_, 0.125f);
+}
+
 TEST_F(NumberSlider, ACommaIsADecimalPoint) {
     type("0,125");
     press(ImGuiKey_Enter);

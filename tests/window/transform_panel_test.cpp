@@ -99,6 +99,39 @@ TEST_F(TransformFields, TakeANumberAsADragOfTheHandle) {
     EXPECT_NEAR(told_drag().scale.y, 1.5, 1e-12);
 }
 
+TEST_F(TransformFields, TakeSums) {
+    frames(2);
+    enter(field(1, 0), "0.25*3");
+    EXPECT_NEAR(told_drag().shift.x, 0.25, 1e-12);
+    enter(field(2, 2), "-90/4+2.5");
+    EXPECT_NEAR(told_drag().angle, -20 * std::numbers::pi / 180, 1e-9);
+}
+
+// Where y is a right angle, turns about x and z are one to the pose, but not to who types them.
+TEST_F(TransformFields, TellXFromZWhereYIsARightAngle) {
+    constexpr double degree = std::numbers::pi / 180;
+    const auto turn_to = [&](const Vec3d& turned) { // what the document answers
+        auto document = std::make_shared<DocumentView>(*editor_.document);
+        HandleMotion& motion = document->motions[0];
+        motion.turned = turned * degree;
+        motion.rotation = Eigen::AngleAxisd(motion.turned.z(), Vec3d::UnitZ()) *
+                          Eigen::AngleAxisd(motion.turned.y(), Vec3d::UnitY()) *
+                          Eigen::AngleAxisd(motion.turned.x(), Vec3d::UnitX());
+        motion.linear = motion.rotation.toRotationMatrix();
+        editor_.document = std::move(document);
+        frames(2);
+    };
+    turn_to({0, 90, 0});
+    enter(field(2, 0), "30");
+    EXPECT_NEAR(told_drag().angle, 30 * degree, 1e-9);
+    turn_to({0, 90, -30}); // the same, in the angles of the pose
+    enter(field(2, 0), "40");
+    EXPECT_NEAR(told_drag().angle, 10 * degree, 1e-9) << "from 30, and not from 0";
+    turn_to({0, 90, -40});
+    enter(field(2, 2), "5");
+    EXPECT_NEAR(told_drag().angle, 5 * degree, 1e-9);
+}
+
 TEST_F(TransformFields, GoOnByTab) {
     frames(2);
     enter(field(1, 0), "0.75", ImGuiKey_Tab);

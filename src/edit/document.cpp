@@ -162,7 +162,7 @@ double Document::handle_error(Progress& progress) {
 HandleDemand Document::demand(Progress& progress) {
     if (mode_ == Mode::rehearsal || !is_posed()) return {};
     shape(progress); // the pipeline is prepared for this state
-    return pipeline_.demand(*samples_of(now(), progress));
+    return pipeline_.demand(motions_, *samples_of(now(), progress));
 }
 
 Index Document::find_handle(const std::string& name, const std::string& place) const {

@@ -78,6 +78,13 @@ std::string words_about_demand(const HandleDemand& demand) {
         words += "the cloud tears between " + demand.one + " and " + demand.other +
                  ", which touch and are moved apart; leave some of it free between them";
     }
+    for (const LostTurn& turn : demand.lost) {
+        if (!words.empty()) words += "; ";
+        words += "the cloud does not keep the " + with_digits("%.0f", turn.asked) + "° by which " +
+                 turn.handle + " is turned: it has slipped back by whole turns, to about " +
+                 with_digits("%.0f", turn.kept) +
+                 "°; a slimmer part, or one that is twisted in several edits (Enter), keeps more";
+    }
     if (demand.rounded > most_rounded) {
         if (!words.empty()) words += "; ";
         words += "the handles send the cloud so far away that its points there are rounded to " +

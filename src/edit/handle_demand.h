@@ -11,6 +11,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace knead {
 
@@ -26,11 +27,19 @@ struct Parting {
 Parting parting_of(const Graph& graph, const HandleLabels& labels, const Numbering& point,
                    std::span<const float> rest, std::span<const float> posed);
 
+// A handle that was turned by more than the cloud between it and what stays has kept: it slipped back by
+// whole turns.
+struct LostTurn {
+    std::string handle;         // its name
+    double asked = 0, kept = 0; // degrees
+};
+
 struct HandleDemand {
     Strain strain;
     double parted = 1;      // the factor of a Parting
     std::string one, other; // the names of its handles
     double rounded = 0;     // of rounding_of()
+    std::vector<LostTurn> lost;
 };
 
 // By how much of the cloud's size (cloud_size(), > 0) the positions (3 floats a point) are rounded where they
@@ -40,8 +49,9 @@ double rounding_of(std::span<const float> posed, double size);
 
 // What the user should hear about it; empty as long as the shape can follow: no more than one link of a
 // hundred is pulled to more than 2.5 times its length, or pressed to less than a third of it, no two handles
-// that touch part by more than that, and nothing is rounded by more than 10⁻⁵ of the cloud's size. (In the
-// sessions of data/regression that ask for nothing impossible, links stay within 0.6 … 1.7 times theirs.)
+// that touch part by more than that, no turns are lost, and nothing is rounded by more than 10⁻⁵ of the
+// cloud's size. (In the sessions of data/regression that ask for nothing impossible, links stay within 0.6
+// … 1.7 times theirs.)
 std::string words_about_demand(const HandleDemand& demand);
 
 } // namespace knead

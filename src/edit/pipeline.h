@@ -121,7 +121,7 @@ public:
     std::span<const std::uint64_t> written() const { return written_; }
 
     // Whether the handles ask for too much. Of the shape that was upsampled last, from this state.
-    HandleDemand demand(const SampleState& state) const;
+    HandleDemand demand(const std::vector<HandleMotion>& motions, const SampleState& state) const;
 
     // How each point turned from the shape as opened to posed(), 4n, w x y z, for the state that upsample()
     // was called with last: for points with a direction of their own, when the shape is committed or saved.
@@ -196,6 +196,8 @@ private:
     void find_standing_points();
     void note_single_places();
     void count_strays();
+    std::vector<LostTurn> lost_turns(const std::vector<HandleMotion>& motions,
+                                     const SampleState& state) const;
     struct MoverNumbers {
         std::size_t first_handle = 0; // where every part holds one; 0: else, or there are no movers
         std::vector<bool> turning;    // at each place, whether its handle leaves rotation free

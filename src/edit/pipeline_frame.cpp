@@ -2,9 +2,12 @@
 
 #include "base/quoted.h"
 #include "base/require.h"
+#include "deform/least_turn.h"
 #include "deform/rotation.h"
 #include "edit/pipeline.h"
 #include "upsample/point_rotations.h"
+
+#include <numbers>
 
 namespace knead {
 
@@ -137,12 +140,35 @@ void Pipeline::put_exactly(Index sample, const Vec3d& displacement, RestShape& p
     }
 }
 
-HandleDemand Pipeline::demand(const SampleState& state) const {
+// Of handles that turned by more than what one cannot tell from the other way round.
+std::vector<LostTurn> Pipeline::lost_turns(const std::vector<HandleMotion>& motions,
+                                           const SampleState& state) const {
+    constexpr double degree = std::numbers::pi / 180, least_asked = 300, least_lost = 180;
+    std::vector<LostTurn> lost;
+    std::vector<std::uint8_t> ends(samples_.size());
+    for (std::size_t handle = 0; handle < motions.size(); ++handle) {
+        const double asked = motions[handle].turned.cwiseAbs().maxCoeff() / degree;
+        if (asked < least_asked) continue;
+        for (std::size_t s = 0; s < samples_.size(); ++s) {
+            const Index label = system_.rest.handle[s];
+            const bool stays = label != no_index &&
+                               (label == labels_.outside || slots_.handles[label].role == HandleRole::fixed);
+            ends[s] = stays ? 1 : handle_of(label) == handle ? 2 : 0;
+        }
+        const std::optional<double> kept = least_turn(system_, state, ends);
+        if (kept && *kept / degree < asked - least_lost)
+            lost.push_back({quoted(input_.handles[handle].name), asked, *kept / degree});
+    }
+    return lost;
+}
+
+HandleDemand Pipeline::demand(const std::vector<HandleMotion>& motions, const SampleState& state) const {
     const RestShape& rest = rest_shape();
     const Parting parting =
         parting_of(*graph_, labels_, standing_points(), rest.positions, posed().positions);
     HandleDemand demand{
-        strain_of(system_, state), parting.factor, {}, {}, rounding_of(posed().positions, cloud_size_)};
+        strain_of(system_, state), parting.factor, {}, {}, rounding_of(posed().positions, cloud_size_),
+        lost_turns(motions, state)};
     const auto name_of = [&](Index label) {
         const Index handle = handle_of(label);
         return handle < input_.handles.size() ? quoted(input_.handles[handle].name)

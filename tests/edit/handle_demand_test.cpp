@@ -22,6 +22,24 @@ HandleDemand demand_of(const std::string& lines) {
     return desk.document().demand(progress);
 }
 
+TEST(HandleDemand, TellsOfTurnsThatAreNotKept) {
+    const auto turned = [](int degrees) {
+        std::string frames;
+        for (int angle = 10; angle <= degrees; angle += 10)
+            frames += (frames.empty() ? "" : ",") + turn('z', angle);
+        Desk desk(made(Shape::bar, 6000));
+        desk.play(ends + R"({"op":"drag","handle":"top","frames":[)" + frames + "]}\n" + settle(1000));
+        SilentProgress progress;
+        return desk.document().demand(progress);
+    };
+    EXPECT_TRUE(turned(360).lost.empty()) << "a bar keeps that";
+    const HandleDemand lost = turned(700);
+    ASSERT_EQ(lost.lost.size(), 1U);
+    EXPECT_NEAR(lost.lost[0].asked, 700, 1e-3);
+    EXPECT_LT(lost.lost[0].kept, 90);
+    EXPECT_SAYS(words_about_demand(lost), "the cloud does not keep the 700° by which \"top\" is turned");
+}
+
 TEST(HandleDemand, IsSilentAsLongAsTheShapeCanFollow) {
     for (const std::string& frame :
          {turn('y', 90, "[-1,0,-1]"), turn('z', 135), turn('x', 60),

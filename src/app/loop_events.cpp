@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <string_view>
 
 namespace knead {
@@ -80,6 +81,14 @@ void take(Loop& loop, MouseMove event) {
     handle_input(loop.editor, event);
 }
 
+// Of those in the corner, where the hand does nothing else and the gizmo does not lie over them.
+std::optional<int> axis_clicked(const Loop& loop, const MousePress& press) {
+    const bool is_click = press.button == MouseButton::left && press.held == Modifiers{};
+    if (!is_click || holds_button(loop) || hand_is_full(loop) || loop.editor.tools.hovered)
+        return std::nullopt;
+    return axis_at(loop.ui, in_window(loop.ui, press.cursor));
+}
+
 void take(Loop& loop, MousePress event) {
     if (!over_cloud(loop, event.cursor) && !holds_button(loop) && !hand_is_full(loop)) {
         loop.editor.tools.refused = Tools::Refused::no; // the hand works on a panel
@@ -88,9 +97,8 @@ void take(Loop& loop, MousePress event) {
     send_slid_settings(loop.ui);
     carry_out_commands(loop);
     event.cursor = in_view(loop, event.cursor);
-    if (event.button == MouseButton::left && !holds_button(loop) && !hand_is_full(loop))
-        if (const auto axis = axis_at(loop.ui, in_window(loop.ui, event.cursor)))
-            return apply(loop.editor, LookAtSide{side_of_axis(loop.editor.camera, *axis)});
+    if (const auto axis = axis_clicked(loop, event))
+        return apply(loop.editor, LookAtSide{side_of_axis(loop.editor.camera, *axis)});
     press_of(loop, event.button) = true;
     loop.press_is_hands |= hand_is_full(loop);
     handle_input(loop.editor, event);

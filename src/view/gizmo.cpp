@@ -27,7 +27,8 @@ constexpr double center_radius = 0.1;
 // that can still be dragged across.
 constexpr double arrow_end_on = 0.97;
 constexpr double plane_edge_on = 0.15;
-constexpr double ring_faces = 0.98; // no half of it faces away
+constexpr double ring_faces = 0.98;  // no half of it faces away
+constexpr double ring_edge_on = 0.1; // it is a line, which lies on arrows
 
 constexpr int ring_corners = 96;
 constexpr int disc_corners = 24;
@@ -112,7 +113,8 @@ void add_ring(Drawing& drawing, int i) {
     const glm::dvec3 normal = drawing.axis(i);
     // u is where the ring is nearest to the eye, so that the halves part where it turns away.
     const glm::dvec3 flat = drawing.to_eye - glm::dot(drawing.to_eye, normal) * normal;
-    const bool faces = std::abs(glm::dot(drawing.to_eye, normal)) > ring_faces;
+    const double facing = std::abs(glm::dot(drawing.to_eye, normal));
+    const bool faces = facing > ring_faces, is_line = facing < ring_edge_on;
     const glm::dvec3 start = faces ? drawing.axis((i + 1) % 3) : glm::normalize(flat);
     const glm::dvec3 u = ring_radius * start;
     const glm::dvec3 v = ring_radius * glm::cross(normal, start);
@@ -123,7 +125,7 @@ void add_ring(Drawing& drawing, int i) {
         return;
     }
     drawing.add(part, arc(u, v, 0.5 * pi, 1.5 * pi, ring_corners / 2), false, false, i, true);
-    drawing.add(part, arc(u, v, -0.5 * pi, 0.5 * pi, ring_corners / 2), false, false, i);
+    drawing.add(part, arc(u, v, -0.5 * pi, 0.5 * pi, ring_corners / 2), false, false, i, is_line);
 }
 
 // A circle about the centre that is round on the screen.

@@ -40,7 +40,7 @@ struct GizmoShape {
     bool closed = false;
     int color_axis = 0; // 0 red x, 1 green y, 2 blue z, 3 white (screen); of a plane that of its normal
     double depth = 0;
-    bool behind = false; // the half of a ring that faces away: drawn faint
+    bool behind = false; // the half of a ring that faces away, or one that is seen as a line: drawn faint
 };
 
 // In the order in which to draw them: rings first, which seen from their sides lie on arrows, then what is

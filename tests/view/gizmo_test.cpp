@@ -136,6 +136,14 @@ TEST(Gizmo, RingsPartWhereTheyTurnAway) {
     }
 }
 
+TEST(Gizmo, RingsSeenAsLinesAreFaintForTheyLieOnArrows) {
+    for (const GizmoShape& shape : gizmo_shapes({}, camera_from(Side::front), screen)) {
+        const bool is_line =
+            shape.part == along(TransformKind::rotate, 0) || shape.part == along(TransformKind::rotate, 2);
+        EXPECT_EQ(shape.behind, is_line);
+    }
+}
+
 TEST(Gizmo, ComesFarthestFirstWithRingsUnderArrows) {
     const auto shapes = gizmo_shapes({}, oblique(), screen);
     const auto is_ring = [](const GizmoShape& shape) { return shape.part.kind == TransformKind::rotate; };

@@ -71,7 +71,7 @@ TEST(Iterate, PutsHandlesExactlyWhereTheyAre) {
 
 void expect_same_state(const SampleSystem& system, const SampleState& state,
                        const test::ReferenceIteration& reference) {
-    // Rounding, and the 1e-10 by which the local step prefers the rotation before.
+    // Rounding, and what is left of the local step's preference for the rotation before.
     for (std::size_t s = 0; s < state.rotation.size(); ++s) {
         ASSERT_LT((posed(system, state, s) - reference.position[s]).norm(), 1e-9 * system.rest.cloud_size);
         ASSERT_LT((state.rotation[s].coeffs() - reference.rotation[s].coeffs()).norm(), 1e-8);

@@ -48,13 +48,13 @@ void expect_unit_and_near(const Quatd& found, const Quatd& near) {
     EXPECT_GE(found.dot(near), -1e-15);  // at 180° rounding decides
 }
 
-// The preference for `near` is 1e-10 of A: where the maximum is as firm as 1e-3, that moves it by 1e-7.
-constexpr double preferred = 1e-6;
+// Newton's method ends with a step of less than 1e-7.
+constexpr double close_enough = 1e-6;
 
 void expect_as_svd(const Mat3d& a, const Quatd& near) {
     const Quatd found = nearest_rotation(a, near);
     expect_unit_and_near(found, near);
-    EXPECT_LT((found.toRotationMatrix() - by_svd(a)).norm(), preferred) << a;
+    EXPECT_LT((found.toRotationMatrix() - by_svd(a)).norm(), close_enough) << a;
 }
 
 TEST(NearestRotation, IsThatOfTheSingularValues) {
@@ -80,7 +80,7 @@ TEST(NearestRotation, IsFoundFromCloseBy) {
         spread = spread * spread.transpose() + 0.1 * Mat3d::Identity();
         const Quatd found = nearest_rotation(target.toRotationMatrix() * spread, near);
         expect_unit_and_near(found, near);
-        EXPECT_LT(found.angularDistance(target), preferred);
+        EXPECT_LT(found.angularDistance(target), close_enough);
     }
 }
 
@@ -121,7 +121,7 @@ TEST(NearestRotation, LeavesTheTurnAboutALineAsItWas) {
         const Quatd found = nearest_rotation(now * before.transpose(), near);
         expect_unit_and_near(found, near);
         // A line is turned onto a line, on the shortest way from `near`.
-        EXPECT_LT((found * before.normalized() - now.normalized()).norm(), preferred);
+        EXPECT_LT((found * before.normalized() - now.normalized()).norm(), close_enough);
         const Quatd shortest = Quatd::FromTwoVectors(near * before, now) * near;
         const double turn =
             std::acos(std::clamp((near * before.normalized()).dot(now.normalized()), -1.0, 1.0));
@@ -177,7 +177,7 @@ TEST(NearestRotation, DoesNotDependOnTheUnit) {
         if (firmness(a) < 1e-3) continue;
         const Quatd near = random_rotation(random);
         for (const double unit : {1e-60, 1e60})
-            EXPECT_LT((nearest_rotation(unit * a, near).toRotationMatrix() - by_svd(a)).norm(), preferred);
+            EXPECT_LT((nearest_rotation(unit * a, near).toRotationMatrix() - by_svd(a)).norm(), close_enough);
     }
 }
 

@@ -13,8 +13,7 @@ void main() {
     float fall = dot(splat_slope, vec2(from_middle.x, -from_middle.y));
     float squared = dot(from_middle, from_middle) + 0.5 * fall * fall;
     if (squared > 1.0) discard;
-    const float tilt_over_bulge = 0.5 / 0.16;
-    gl_FragDepth = splat_depth.x + splat_depth.y * (squared + tilt_over_bulge * fall);
+    gl_FragDepth = splat_depth.x + splat_depth.y * (squared + TILT_OVER_BULGE * fall);
 #endif
     pixel = splat_color;
 }

@@ -23,10 +23,9 @@ flat out vec2 splat_slope;
 
 // How steeply the surface falls away to the right and upwards (slope_of() in src/render/splats.h).
 vec2 slope_of(vec2 place) {
-    const float steepest = 3.0;
     vec2 across = vec2(dot(normal, right), dot(normal, up));
     float along = dot(normal, forward) + dot(half_field * place, across); // the ray to the splat
-    float least = max(length(across) / steepest, 1e-6);
+    float least = max(length(across) / STEEPEST, 1e-6);
     return across / (along > 0.0 ? -max(along, least) : max(-along, least));
 }
 #endif
@@ -46,8 +45,7 @@ void main() {
     splat_color = color;
 #endif
 #ifdef DISCS
-    // The rim of a splat lies a third of its radius behind its middle.
-    float back = 0.16 * diameter * pixel_size * gl_Position.w;
+    float back = BULGE_OVER_DIAMETER * diameter * pixel_size * gl_Position.w;
     vec4 rim = to_clip * vec4(position + forward * back, 1.0);
     float middle = gl_Position.z / gl_Position.w;
     splat_depth = 0.5 * vec2(middle + 1.0, rim.z / rim.w - middle);

@@ -327,7 +327,7 @@ double share_of_points(std::size_t samples, std::size_t vertices) {
     const auto count = static_cast<double>(samples);
     const double points = static_cast<double>(vertices) / count; // a sample
     const double between = ramp(points, too_few_points, enough_points);
-    const double soon = ramp(count, many_samples_of_them, few_samples) * ramp(points, 1, 5);
+    const double soon = ramp(count, many_samples_of_them, few_samples) * ramp(points, 1, too_few_points);
     return ramp(count, many_samples, few_samples) * std::max(between, soon);
 }
 

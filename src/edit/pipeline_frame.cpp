@@ -145,7 +145,7 @@ std::vector<LostTurn> Pipeline::lost_turns(const std::vector<HandleMotion>& moti
                                            const SampleState& state) const {
     constexpr double degree = std::numbers::pi / 180, least_asked = 300, least_lost = 180;
     std::vector<LostTurn> lost;
-    std::vector<std::uint8_t> ends(samples_.size());
+    std::vector<WayEnd> ends(samples_.size());
     for (std::size_t handle = 0; handle < motions.size(); ++handle) {
         const double asked = motions[handle].turned.cwiseAbs().maxCoeff() / degree;
         if (asked < least_asked) continue;
@@ -153,7 +153,7 @@ std::vector<LostTurn> Pipeline::lost_turns(const std::vector<HandleMotion>& moti
             const Index label = system_.rest.handle[s];
             const bool stays = label != no_index &&
                                (label == labels_.outside || slots_.handles[label].role == HandleRole::fixed);
-            ends[s] = stays ? 1 : handle_of(label) == handle ? 2 : 0;
+            ends[s] = stays ? WayEnd::from : handle_of(label) == handle ? WayEnd::to : WayEnd::neither;
         }
         const std::optional<double> kept = least_turn(system_, state, ends);
         if (kept && *kept / degree < asked - least_lost)

@@ -21,6 +21,12 @@ PointProgram make_point_program(bool shaded, bool discs) {
     std::string defines;
     if (shaded) defines += "#define SHADED\n";
     if (discs) defines += "#define DISCS\n";
+    const auto define = [&defines](const char* name, float value) {
+        defines += std::string("#define ") + name + ' ' + std::to_string(value) + '\n';
+    };
+    define("BULGE_OVER_DIAMETER", bulge_over_diameter);
+    define("TILT_OVER_BULGE", tilt_over_bulge);
+    define("STEEPEST", steepest);
     GlProgram program = make_program(embedded::points_vert, embedded::points_frag, defines.c_str());
     const auto find = [&](const char* name) { return glGetUniformLocation(program, name); };
     const GLint to_clip = find("to_clip"), size = find("size"), growth = find("growth"),

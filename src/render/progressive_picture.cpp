@@ -16,8 +16,6 @@ constexpr double closing_factor = 2.0;
 // lie far closer together than pixels, a surface of a few of them would be full of holes.)
 constexpr double largest_enlargement = 4, widest_enlarged = 5;
 constexpr float largest_splat = 96; // pixels
-// The rim of the steepest disc lies so many radii behind its middle, see splats.h.
-constexpr double rim_depth = 1.6;
 
 // Where the light comes from, in the camera's axes: from above the left shoulder.
 constexpr glm::vec3 key_light(-0.35f, 0.55f, 0.9f);

@@ -46,6 +46,8 @@ inline constexpr float widest_square = 3; // pixels
 inline constexpr float bulge_over_diameter = 0.16F, tilt_over_bulge = 0.5F / bulge_over_diameter;
 // Steeper ones are drawn as if they were not: normals are not that exact.
 inline constexpr float steepest = 3;
+// Their rim lies so many radii behind the middle: s·t = 3/√5.5, and the bulge.
+inline constexpr double rim_depth = 1.6;
 
 // s of a splat at this place of clip space, -1 … 1.
 inline glm::vec2 slope_of(const SplatView& view, const glm::vec3& normal, float x, float y) {

@@ -155,7 +155,7 @@ void color_by_intensity(const PointsToColor& points, std::size_t column, const g
     std::vector<float> some = some_of(values);
     const ValueRange range = usual_range(some);
     double middle = 0.5;
-    if (range.high > range.low)
+    if (!some.empty() && range.high > range.low)
         middle = std::clamp((percentile(some, 50) - range.low) / (range.high - range.low), 0.05, 0.95);
     const double bend = std::log(0.5) / std::log(middle);
     const auto grey = scale_of([bend](double at) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace knead::test {
@@ -91,6 +92,14 @@ TEST(Coloring, an_intensity_that_tells_nothing_is_about_as_bright_as_the_plain_c
     Colored it(2);
     add_attribute(it.cloud, "intensity", std::vector<float>{7, 7});
     EXPECT_NEAR(it.colors({})[0] & 0xffU, 255 * ColorBy().plain.g, 1);
+}
+
+TEST(Coloring, an_intensity_without_a_number_is_dark_grey) {
+    Colored it(2);
+    add_attribute(it.cloud, "intensity", std::vector<float>(2, std::numeric_limits<float>::quiet_NaN()));
+    const auto greys = it.colors({});
+    EXPECT_EQ(greys[0], greys[1]);
+    EXPECT_LT(greys[0] & 0xffU, 100U);
 }
 
 TEST(Coloring, falls_back_on_the_plain_colour) {

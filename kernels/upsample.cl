@@ -20,6 +20,7 @@
 #define VECTOR_OF(type, lanes) CONCATENATED(type, lanes)
 typedef VECTOR_OF(float, LANES) real;
 typedef VECTOR_OF(int, LANES) truth;
+typedef VECTOR_OF(ushort, LANES) shares;
 
 #if LANES == 16
 #define POINTS_PER_ITEM POINTS_IN_BLOCK
@@ -72,12 +73,16 @@ __attribute__((always_inline)) inline void write_whole(const real* m, __global f
 }
 
 // The shares of an entry in the points of its group.
-__attribute__((always_inline)) inline truth share_of(__global const ushort* share, size_t entry, size_t lane) {
-    return convert_int16(vload16(entry, share));
+__attribute__((always_inline)) inline shares share_of(__global const ushort* share, size_t entry, uint lane) {
+    return vload16(entry, share);
 }
 
-__attribute__((always_inline)) inline real as_real(truth whole) {
-    return convert_float16(whole);
+__attribute__((always_inline)) inline real as_real(shares whole) {
+    return convert_float16(convert_int16(whole));
+}
+
+__attribute__((always_inline)) inline shares without(shares all, shares some) {
+    return all - some;
 }
 #else
 // What is read and written at once lies at multiples of its size.
@@ -103,35 +108,43 @@ inline void write_whole(const real* m, __global float* to, bool streamed) {
     t[0] = m[0], t[1] = m[1], t[2] = m[2];
 }
 
-inline truth share_of(__global const ushort* share, size_t entry, size_t lane) {
-    return convert_int4(*(__global const ushort4*)(share + POINTS_IN_GROUP * entry + lane));
+inline shares share_of(__global const ushort* share, size_t entry, uint lane) {
+    return *(__global const ushort4*)(share + POINTS_IN_GROUP * entry + lane);
 }
 
-inline real as_real(truth whole) {
+inline real as_real(shares whole) {
     return convert_float4(whole);
+}
+
+// Two at a time: none has less than it is to lose.
+inline shares without(shares all, shares some) {
+    return as_ushort4(as_uint2(all) - as_uint2(some));
 }
 #endif
 
 // Floats as they lie in memory: those of `count` points, and zeros.
-__attribute__((always_inline)) inline vector load(__global const float* from, size_t count) {
+__attribute__((always_inline)) inline vector load(__global const float* from, uint count) {
     real whole[3];
     if (count == LANES) {
         read_whole(from, whole);
     } else {
         float* const some = (float*)whole;
-        for (size_t i = 0; i < 3 * LANES; ++i) some[i] = i < 3 * count ? from[i] : 0.0f;
+#pragma unroll
+        for (uint i = 0; i < 3 * LANES; ++i) some[i] = i < 3 * count ? from[i] : 0.0f;
     }
     return apart(whole);
 }
 
-__attribute__((always_inline)) inline void store(vector v, __global float* to, size_t count, bool streamed) {
+__attribute__((always_inline)) inline void store(vector v, __global float* to, uint count, bool streamed) {
     real whole[3];
     together(v, whole);
     if (count == LANES) {
         write_whole(whole, to, streamed);
     } else {
         const float* const all = (const float*)whole;
-        for (size_t i = 0; i < 3 * count; ++i) to[i] = all[i];
+#pragma unroll
+        for (uint i = 0; i < 3 * LANES; ++i)
+            if (i < 3 * count) to[i] = all[i];
     }
 }
 
@@ -150,8 +163,8 @@ typedef struct {
     __global const float* motions;
 } reading;
 
-// So many are read before the first of them is used: a GPU waits for them together. (Two gain 8 %, more cost registers:
-// fewer items then run at once.)
+// So many are read before the first of them is used: a GPU waits for them together. More cost registers, and so does
+// whatever else is kept while motions are added: fewer items then run at once.
 #if LANES == 16
 #define ENTRIES_AT_ONCE 1
 #else
@@ -179,6 +192,10 @@ __attribute__((always_inline)) inline void add_motion(__global const float* moti
 #endif
 }
 
+inline real weight_of(shares share) {
+    return as_real(share) * (1.0f / WHOLE_SHARE);
+}
+
 // Adds what a handle has for a place: the points themselves.
 __attribute__((always_inline)) inline void add_place(__global const float* motion, real weight, vector p,
                                                      real* blend) {
@@ -192,21 +209,29 @@ __attribute__((always_inline)) inline void add_place(__global const float* motio
             motion[row] * half_way.x + motion[4 + row] * half_way.y + motion[8 + row] * half_way.z;
 }
 
-inline real weight_of(truth share) {
-    return as_real(share) * (1.0f / WHOLE_SHARE);
+// Those of a group's handles, which come last.
+__attribute__((always_inline)) inline void add_places(reading how, influence_group own, uint lane,
+                                                      __global const float* points, uint count, real* blend) {
+    uint entry = own.first_entry + own.entries;
+    if ((own.entries > 0 ? how.motion[entry - 1] : own.motion) < how.first_handle) return;
+    const vector p = load(points, count);
+    shares left = WHOLE_SHARE;
+    for (; entry > own.first_entry && how.motion[entry - 1] >= how.first_handle; --entry) {
+        const shares share = share_of(how.share, entry - 1, lane);
+        left = without(left, share);
+        add_place(how.motions + 16 * (size_t)how.motion[entry - 1], weight_of(share), p, blend);
+    }
+    if (own.motion >= how.first_handle)
+        add_place(how.motions + 16 * (size_t)own.motion, weight_of(left), p, blend);
 }
 
-// Σ_s w_s [A_s | d_s] at the points p, and Σ_s w_s c_s.
-__attribute__((always_inline)) inline void blend_motions(reading how, size_t group, size_t lane, vector p,
-                                                         real* blend) {
-    const influence_group own = how.group[group];
+// Adds Σ_s w_s [A_s | d_s], and Σ_s w_s c_s.
+__attribute__((always_inline)) inline void add_motions(reading how, influence_group own, uint lane, real* blend) {
     const uint end = own.first_entry + own.entries;
-    truth left = WHOLE_SHARE;
-#pragma unroll
-    for (int c = 0; c < 16; ++c) blend[c] = 0.0f;
+    shares left = WHOLE_SHARE;
     for (uint entry = own.first_entry; entry < end; entry += ENTRIES_AT_ONCE) {
         uint motion[ENTRIES_AT_ONCE];
-        truth share[ENTRIES_AT_ONCE];
+        shares share[ENTRIES_AT_ONCE];
 #pragma unroll
         for (uint k = 0; k < ENTRIES_AT_ONCE; ++k)
             if (k == 0 || entry + k < end) {
@@ -216,17 +241,11 @@ __attribute__((always_inline)) inline void blend_motions(reading how, size_t gro
 #pragma unroll
         for (uint k = 0; k < ENTRIES_AT_ONCE; ++k)
             if (k == 0 || entry + k < end) {
-                left -= share[k];
+                left = without(left, share[k]);
                 add_motion(how.motions + 16 * (size_t)motion[k], weight_of(share[k]), blend);
             }
     }
-    __global const float* const others_leave = how.motions + 16 * (size_t)own.motion;
-    add_motion(others_leave, weight_of(left), blend);
-    // Handles come last.
-    for (uint entry = end; entry-- > own.first_entry && how.motion[entry] >= how.first_handle;)
-        add_place(how.motions + 16 * (size_t)how.motion[entry], weight_of(share_of(how.share, entry, lane)), p,
-                  blend);
-    if (own.motion >= how.first_handle) add_place(others_leave, weight_of(left), p, blend);
+    add_motion(how.motions + 16 * (size_t)own.motion, weight_of(left), blend);
 }
 
 // Where nothing is added, the coordinate is kept to the last bit, the sign of a zero included.
@@ -276,23 +295,61 @@ inline vector turned(vector n, const real* blend) {
     return result;
 }
 
+#if LANES == 4
+// A GPU's item waits for memory more than it computes: what it will read is asked for at the start. (NVIDIA's compiler
+// makes nothing of prefetch().)
+inline void ask_for(__global const void* from) {
+#ifdef __NV_CL_C_VERSION
+    asm volatile("prefetch.global.L2 [%0];" : : "l"(from));
+#else
+    prefetch((__global const char*)from, 1);
+#endif
+}
+
+// The shares of a group are asked for by the items that move its points, a line of memory each.
+#define SHARES_IN_LINE 64
+
+inline void ask_for_shares(reading how, influence_group own, uint lane) {
+    const size_t ahead = SHARES_IN_LINE * (lane / LANES);
+    if (ahead < POINTS_IN_GROUP * (size_t)own.entries)
+        ask_for(how.share + POINTS_IN_GROUP * (size_t)own.first_entry + ahead);
+}
+#endif
+
+// Moves `count` points from `first` on, at most as many as there are lanes.
+__attribute__((always_inline)) inline void
+move_points(uint first, uint count, bool streamed, __global const float* positions, reading how,
+            __global float* moved_positions, __global const float* normals, __global float* moved_normals) {
+    const size_t at = 3 * (size_t)first;
+    const uint lane = first % POINTS_IN_GROUP;
+    const influence_group own = how.group[first / POINTS_IN_GROUP];
+#if LANES == 4
+    ask_for_shares(how, own, lane);
+    ask_for(positions + at);
+    if (normals) ask_for(normals + at);
+#endif
+    real blend[16];
+#pragma unroll
+    for (int c = 0; c < 16; ++c) blend[c] = 0.0f;
+    add_places(how, own, lane, positions + at, count, blend);
+    add_motions(how, own, lane, blend);
+    const vector p = load(positions + at, count); // again: kept, it would take registers
+    const vector n = normals ? load(normals + at, count) : p; // no compiler moves a read across what is written
+    store(moved(p, blend), moved_positions + at, count, streamed);
+    if (normals) store(turned(n, blend), moved_normals + at, count, streamed);
+}
+
 // Moves this group's block of those listed. `normals` is null, or `moved_normals` has room for them.
 __attribute__((always_inline)) inline void
 upsample(ulong points, __global const uint* block, __global const float* positions, reading how,
          __global float* moved_positions, __global const float* normals, __global float* moved_normals) {
-    const size_t begin =
-        POINTS_IN_BLOCK * (size_t)block[get_group_id(0)] + POINTS_PER_ITEM * get_local_id(0);
-    const size_t end = min(begin + POINTS_PER_ITEM, (size_t)points);
+    const uint begin = POINTS_IN_BLOCK * block[get_group_id(0)] + POINTS_PER_ITEM * (uint)get_local_id(0);
+    if (begin >= points) return;
+    const uint count = min((ulong)POINTS_PER_ITEM, points - begin);
     const bool streamed = points >= STREAMED_POINTS;
-    for (size_t first = begin; first < end; first += LANES) {
-        const size_t count = min((size_t)LANES, end - first);
-        const vector p = load(positions + 3 * first, count);
-        real blend[16];
-        blend_motions(how, first / POINTS_IN_GROUP, first % POINTS_IN_GROUP, p, blend);
-        store(moved(p, blend), moved_positions + 3 * first, count, streamed);
-        if (normals)
-            store(turned(load(normals + 3 * first, count), blend), moved_normals + 3 * first, count, streamed);
-    }
+    for (uint done = 0; done < count; done += LANES)
+        move_points(begin + done, min((uint)LANES, count - done), streamed, positions, how, moved_positions,
+                    normals, moved_normals);
 }
 
 __kernel void upsample_positions(const ulong points, __global const uint* block,

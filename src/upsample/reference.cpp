@@ -80,24 +80,47 @@ void add_place(float weight, const PackedMotion& motion, Vector p, Blend& sum) {
     sum.b += turned;
 }
 
-// Σ_s w_s [A_s | d_s] of one point of a group, and Σ_s w_s c_s.
-Blend blended(const InfluenceGroups& influences, const InfluenceGroup& group, std::size_t lane,
-              Index first_handle, std::span<const PackedMotion> motions, Vector p) {
-    const auto own = influences.motion().subspan(group.first, group.count);
-    const std::uint16_t* const shares = influences.share().data() + points_in_group * group.first + lane;
-    const auto weight_of = [](int share) { return static_cast<float>(share) * (1.0F / whole_share); };
-    Blend sum = {};
+float weight_of(int share) {
+    return static_cast<float>(share) * (1.0F / whole_share);
+}
+
+// What moves one point of a group.
+struct OnePoint {
+    std::span<const Index> motion;        // of its group's entries
+    const std::uint16_t* share = nullptr; // of the first of them; of the next ones, points_in_group on
+    Index others_leave = 0;               // its motion has what these leave
+    int share_of(std::size_t entry) const { return share[points_in_group * entry]; }
+};
+
+OnePoint one_point(const InfluenceGroups& influences, std::size_t point) {
+    const InfluenceGroup& group = influences.groups()[point / points_in_group];
+    return {influences.motion().subspan(group.first, group.count),
+            influences.share().data() + points_in_group * group.first + point % points_in_group,
+            group.motion};
+}
+
+// Those of its handles, which come last.
+void add_places(const OnePoint& point, Index first_handle, std::span<const PackedMotion> motions, Vector p,
+                Blend& sum) {
+    std::size_t entry = point.motion.size();
     int left = whole_share;
-    for (std::size_t e = 0; e < own.size(); ++e) {
-        const int share = shares[points_in_group * e];
+    for (; entry > 0 && point.motion[entry - 1] >= first_handle; --entry) {
+        const int share = point.share_of(entry - 1);
         left -= share;
-        add(weight_of(share), motions[own[e]], sum);
+        add_place(weight_of(share), motions[point.motion[entry - 1]], p, sum);
     }
-    add(weight_of(left), motions[group.motion], sum);
-    for (std::size_t e = own.size(); e > 0 && own[e - 1] >= first_handle; --e) // handles come last
-        add_place(weight_of(shares[points_in_group * (e - 1)]), motions[own[e - 1]], p, sum);
-    if (group.motion >= first_handle) add_place(weight_of(left), motions[group.motion], p, sum);
-    return sum;
+    if (point.others_leave >= first_handle) add_place(weight_of(left), motions[point.others_leave], p, sum);
+}
+
+// Adds Σ_s w_s [A_s | d_s], and Σ_s w_s c_s.
+void add_motions(const OnePoint& point, std::span<const PackedMotion> motions, Blend& sum) {
+    int left = whole_share;
+    for (std::size_t e = 0; e < point.motion.size(); ++e) {
+        const int share = point.share_of(e);
+        left -= share;
+        add(weight_of(share), motions[point.motion[e]], sum);
+    }
+    add(weight_of(left), motions[point.others_leave], sum);
 }
 
 // Where nothing is added, the coordinate is kept to the last bit, the sign of a zero included.
@@ -170,8 +193,10 @@ private:
             const PointRange own = points_of(blocks[at], input_.mover.size());
             for (std::size_t i = own.first; i < own.end; ++i) {
                 const Vector p = load(&input_.positions[3 * i]);
-                const Blend blend = blended(influences_, influences_.groups()[i / points_in_group],
-                                            i % points_in_group, first_handle, packed_, p);
+                const OnePoint point = one_point(influences_, i);
+                Blend blend = {};
+                add_places(point, first_handle, packed_, p, blend);
+                add_motions(point, packed_, blend);
                 store(moved(p, blend), &positions[3 * i]);
                 if (!normals.empty()) store(turned(load(&input_.normals[3 * i]), blend), &normals[3 * i]);
             }

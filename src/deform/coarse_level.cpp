@@ -52,12 +52,14 @@ std::vector<SoftHold> pulled_together(const SampleRest& rest, const CoarseSample
         together.sample = nearest;
         together.handle = hold.handle;
         together.weight += hold.weight;
-        if (hold.turner == no_index) {
+        if (hold.bed == no_index) {
             together.anchor = place;
         } else if (together.turner == no_index ||
                    (hold.anchor - place).squaredNorm() < (together.anchor - place).squaredNorm()) {
             together.anchor = hold.anchor;
+            together.bed = hold.bed;
             together.turner = coarse_of_handle(rest, coarse, hold);
+            together.as_turner = hold.as_turner;
         }
     }
     std::vector<SoftHold> result;

@@ -296,12 +296,36 @@ void find_answers(SampleSystem& system, std::span<const HandleMotion> handles, c
     find_bodies(system, handles, state, workers);
 }
 
+// How beds lie, with the handles' samples where they are by now. Of anchors that are none of these the way
+// is told by what the handle does between them.
+void find_bed_turns(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state) {
+    const SampleRest& rest = system.rest;
+    for (Bed& bed : system.beds) bed.sum.setZero();
+    for (const SoftHold& hold : rest.pulled) {
+        if (hold.bed == no_index) continue;
+        const Vec3d from_turner = hold.anchor - rest.position[hold.turner];
+        const Vec3d anchor_way =
+            state.displacement[hold.turner] + (handles[hold.handle].linear - Mat3d::Identity()) * from_turner;
+        const Vec3d edge = rest.position[hold.sample] - hold.anchor;
+        const Vec3d moved = edge + state.displacement[hold.sample] - anchor_way;
+        system.beds[hold.bed].sum += hold.weight * moved * edge.transpose();
+    }
+    for (BedPart& part : system.bed_parts) {
+        const Bed& bed = system.beds[part.bed];
+        const Quatd& turner = state.rotation[part.turner];
+        const double as_turner = part.own + part.as_turner * bed.spread;
+        const Mat3d sum = (1 - part.as_turner) * bed.sum + as_turner * turner.toRotationMatrix();
+        part.turn = turn_of(nearest_rotation(sum, turner));
+    }
+}
+
 // What handles with a falloff add to the right-hand sides.
-void add_pulls(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state) {
-    for (const SoftHold& hold : system.rest.pulled) {
+void add_pulls(SampleSystem& system, std::span<const HandleMotion> handles) {
+    for (std::size_t k = 0; k < system.rest.pulled.size(); ++k) {
+        const SoftHold& hold = system.rest.pulled[k];
         Vec3d way = sent(handles[hold.handle], hold.anchor);
-        if (hold.turner != no_index)
-            way += turn_of(state.rotation[hold.turner]) * (system.rest.position[hold.sample] - hold.anchor);
+        if (const Index part = system.bed_part[k]; part != no_index)
+            way += system.bed_parts[part].turn * (system.rest.position[hold.sample] - hold.anchor);
         Eigen::Map<Vec3d>(system.sides.data() + 3 * system.unknown[hold.sample]) += hold.weight * way;
     }
 }
@@ -330,7 +354,7 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
         if (!rest.energy.first.empty()) given += force_of(bodies_around(rest.energy, system.body, i));
         Eigen::Map<Vec3d>(system.sides.data() + 3 * row) = given - 0.5 * turned; // p_i - p_j = -e
     });
-    add_pulls(system, handles, state);
+    add_pulls(system, handles);
     system.positions.solve({system.sides.data(), 3 * rows}, 3, workers);
 
     double longest = 0;
@@ -362,6 +386,7 @@ void follow_handles(SampleSystem& system, std::span<const HandleMotion> handles,
     find_stretches(system, state, !system.target.empty(),
                    workers); // before the handles leave the others behind
     turn_with_handles(system, handles, state, workers);
+    find_bed_turns(system, handles, state); // before handles go on, and all that they pull does
     place_handles(system, handles, state);
     solve_positions(system, handles, state, workers);
 }
@@ -388,6 +413,7 @@ double iterate(SampleSystem& system, std::span<const HandleMotion> handles, Samp
     for_solved_rotations(
         system, [&](Index s, const Quatd& rotation) { state.rotation[s] = rotation; }, workers);
     if (system.midway == 0) find_answers(system, handles, state, workers);
+    find_bed_turns(system, handles, state);
     return solve_positions(system, handles, state, workers);
 }
 

@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace knead {
 
@@ -193,6 +195,28 @@ void find_pull(SampleSystem& system) {
     }
 }
 
+void find_beds(SampleSystem& system, double square_length) {
+    system.beds.clear();
+    system.bed_parts.clear();
+    system.bed_part.assign(system.rest.pulled.size(), no_index);
+    std::map<std::pair<Index, Index>, Index> part_of; // bed, turner
+    for (std::size_t k = 0; k < system.rest.pulled.size(); ++k) {
+        const SoftHold& hold = system.rest.pulled[k];
+        if (hold.bed == no_index) continue;
+        if (hold.bed >= system.beds.size()) system.beds.resize(hold.bed + std::size_t{1});
+        system.beds[hold.bed].spread +=
+            hold.weight * (system.rest.position[hold.sample] - hold.anchor).squaredNorm();
+        const auto [known, is_new] =
+            part_of.try_emplace({hold.bed, hold.turner}, static_cast<Index>(system.bed_parts.size()));
+        system.bed_part[k] = known->second;
+        if (!is_new) continue;
+        const Index row = system.unknown[hold.turner];
+        require(row != no_index, "what others turn about turns by itself");
+        system.bed_parts.push_back(
+            {hold.bed, hold.turner, hold.as_turner, system.confidence[row] * square_length});
+    }
+}
+
 void find_confidence(SampleSystem& system, double square_length) {
     const SampleRest& rest = system.rest;
     system.confidence.assign(system.free_sample.size(), 0);
@@ -372,6 +396,7 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     system.sides.assign(4 * system.free_sample.size(), 0);
 
     find_pull(system);
+    find_beds(system, square_length);
     return factorize(system, of_moving, workers);
 }
 

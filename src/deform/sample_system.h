@@ -95,7 +95,27 @@ struct SoftHold {
     double weight = 0;            // μ, of the size of the weights of the links; > 0
     Vec3d anchor = Vec3d::Zero(); // it is to go as far as the handle sends this: its own rest position, or,
                                   // for a handle that leaves rotation free, what is held next to it
-    Index turner = no_index;      // about which it then turns as this sample of the handle does
+    // About which it then turns with its bed, which is numbered; or to so much, 0 … 1, as this sample of the
+    // handle does. no_index for other handles.
+    Index bed = no_index, turner = no_index;
+    double as_turner = 0;
+};
+
+// All that is pulled round a place that leaves rotation free turns as it was moved: by the least-squares
+// rotation about the anchors, of Σ μ |x - R e|². What only a sample there does would depend on how far apart
+// samples are, since a surface that is pulled at a point turns the more, the nearer one looks. Along a handle
+// that is larger than what it pulls, each sample of it has a rotation of its own.
+struct Bed {
+    double spread = 0;         // Σ μ |e|²
+    Mat3d sum = Mat3d::Zero(); // Σ μ x eᵀ
+};
+
+// What of a bed has one turner.
+struct BedPart {
+    Index bed = 0, turner = 0;
+    double as_turner = 0;
+    double own = 0;             // what the turner's rotation counts anyhow, where others leave it open
+    Mat3d turn = Mat3d::Zero(); // R - I
 };
 
 // What stays while an edit lasts.
@@ -138,6 +158,9 @@ struct SampleSystem {
                              // it hinges()
     bool has_increments = false;
     std::vector<double> pull; // Σ μ of each moving row; empty where nothing is pulled
+    std::vector<Bed> beds;
+    std::vector<BedPart> bed_parts;
+    std::vector<Index> bed_part; // of each of rest.pulled; no_index where it has no bed
     std::vector<Vec3d> shift; // τ of coarse_level.h, of each moving row: added to what step 3 finds; or empty
 
     std::vector<Vec3d> weighted_edge;       // w e of each link of the graph

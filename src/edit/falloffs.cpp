@@ -45,6 +45,48 @@ std::vector<std::vector<Index>> held_vertices(const std::vector<bool>& wanted,
     return vertices;
 }
 
+// Vertices of one handle each that hang together.
+struct Patches {
+    std::vector<Index> of; // of each vertex; no_index where it was not asked for
+    std::vector<HeldExtent> extents;
+};
+
+// Those of the handles that leave rotation free.
+Patches free_patches(const std::vector<Handle>& handles, const std::vector<std::vector<Index>>& held,
+                     std::span<const Index> label, const Graph& graph, std::span<const float> positions) {
+    Patches patches;
+    std::vector<Index> next;
+    for (std::size_t h = 0; h < handles.size(); ++h) {
+        if (!handles[h].free_rotation || held[h].empty()) continue;
+        patches.of.resize(label.size(), no_index);
+        for (const Index start : held[h]) {
+            if (patches.of[start] != no_index) continue;
+            const auto patch = static_cast<Index>(patches.extents.size());
+            HeldExtent& extent = patches.extents.emplace_back();
+            patches.of[start] = patch;
+            next.push_back(start);
+            while (!next.empty()) {
+                const Index vertex = next.back();
+                next.pop_back();
+                extent.add(point_at(positions, vertex) - point_at(positions, start));
+                for (const Index other : graph.row(vertex)) {
+                    if (label[other] != h || patches.of[other] != no_index) continue;
+                    patches.of[other] = patch;
+                    next.push_back(other);
+                }
+            }
+        }
+    }
+    return patches;
+}
+
+// How much of what a patch pulls turns as a sample of it does: all, where the patch is larger than its
+// falloff.
+double share_of_turner(double radius, double falloff) {
+    const double part = std::min(radius / falloff, 1.0);
+    return part * part;
+}
+
 // The handle's sample that is nearest to a vertex that it holds, told once for each vertex.
 class NearestOfHandle {
 public:
@@ -112,8 +154,7 @@ std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span
         for (const Reached& near : reached_within(graph, positions, held[h], falloff[h])) {
             const auto sample = sample_of.find(near.vertex);
             if (sample != sample_of.end() && near.distance < falloff[h])
-                pulled.push_back(
-                    {sample->second, h, near.distance / falloff[h], falloff[h], near.source, no_index});
+                pulled.push_back({sample->second, h, near.distance / falloff[h], falloff[h], near.source});
         }
         return pulled;
     };
@@ -129,9 +170,14 @@ std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span
         });
         for (std::size_t k = 0; k < count; ++k) pulled.insert(pulled.end(), some[k].begin(), some[k].end());
     }
+    const Patches patches = free_patches(handles, held, label, graph, positions);
     NearestOfHandle nearest_sample(label, samples, positions);
-    for (Pulled& one : pulled)
-        if (handles[one.handle].free_rotation) one.turner = nearest_sample.to(one.held);
+    for (Pulled& one : pulled) {
+        if (!handles[one.handle].free_rotation) continue;
+        one.bed = patches.of[one.held];
+        one.turner = nearest_sample.to(one.held);
+        one.as_turner = share_of_turner(patches.extents[one.bed].radius(), one.falloff);
+    }
     return pulled;
 }
 
@@ -147,7 +193,8 @@ std::vector<SoftHold> soft_holds(const std::vector<Handle>& handles, std::span<c
         const double weight = strength * share * share * spread_at(rest, each.sample);
         if (!(weight > 0)) continue;
         if (handles[each.handle].free_rotation)
-            holds.push_back({each.sample, each.handle, weight, held[k], each.turner});
+            holds.push_back(
+                {each.sample, each.handle, weight, held[k], each.bed, each.turner, each.as_turner});
         else
             holds.push_back({each.sample, each.handle, weight, rest.position[each.sample]});
     }

@@ -18,8 +18,10 @@ struct Pulled {
     Index handle = 0;
     double way = 0; // from the handle along the surface, as a part of the falloff: 0 … 1
     double falloff = 0;
-    Index held = 0;   // the vertex of the handle that this is the way from
-    Index turner = 0; // the handle's sample next to that
+    Index held = 0; // the vertex of the handle that this is the way from
+    // Of a handle that leaves rotation free: SoftHold's.
+    Index bed = no_index, turner = no_index;
+    double as_turner = 0;
 };
 
 // How far a handle that holds this pulls what is around it, whatever its own falloff is. One that is smaller
@@ -43,7 +45,8 @@ std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span
 //     μ_i = 4 ((1 - t)/d)² Σ_j w_ij |e_ij|²,  d = the distance, t = d / falloff.
 //
 // Around a handle that leaves rotation free, what is pulled goes with what is held next to it, and turns
-// about that as the surface does there. `held`: of each entry of `pulled` where its `held` is at rest.
+// about that: as all does that a patch of the handle pulls, or, the larger the patch is beside its falloff,
+// as the handle's sample there. `held`: of each entry of `pulled` where its `held` is at rest.
 std::vector<SoftHold> soft_holds(const std::vector<Handle>& handles, std::span<const Pulled> pulled,
                                  std::span<const Vec3d> held, const SampleRest& rest);
 

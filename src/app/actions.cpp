@@ -1,5 +1,7 @@
 #include "app/actions.h"
 
+#include "base/require.h"
+
 #include <array>
 
 namespace knead {
@@ -205,9 +207,11 @@ const Action file_actions[] = {
 
 const Action edit_actions[] = {
     {"Edit", "Undo", "Ctrl+Z", "Takes the last step back", repeating(on('Z', ctrl)),
-     [](const Ui& ui) { ui.tell(UndoStep{}); }, undo_is_possible},
+     [](const Ui& ui) { ui.tell(UndoStep{}); }, undo_is_possible, nullptr, false,
+     [](const Ui& ui) { return words_of_undo(ui.editor); }},
     {"Edit", "Redo", "Ctrl+Shift+Z", "Does the step taken back again (also Ctrl+Y)",
-     repeating(on('Z', ctrl_shift)), [](const Ui& ui) { ui.tell(RedoStep{}); }, redo_is_possible},
+     repeating(on('Z', ctrl_shift)), [](const Ui& ui) { ui.tell(RedoStep{}); }, redo_is_possible, nullptr,
+     false, [](const Ui& ui) { return words_of_redo(ui.editor); }},
     {"Edit", "Commit the pose", "Enter", "Makes the shape as it is now the new rest shape", on(Key::enter),
      [](const Ui& ui) { ui.tell(CommitPose{}); }, something_is_posed, nullptr, true},
 };
@@ -423,6 +427,13 @@ KeyPress usual_key(KeyPress press) {
 std::span<const Action> actions() {
     static const std::vector<Action> all = all_actions();
     return all;
+}
+
+const Action& action_called(std::string_view menu, std::string_view label) {
+    const auto found = std::ranges::find_if(
+        actions(), [&](const Action& action) { return menu == action.menu && label == action.label; });
+    require(found != actions().end(), "an action of the table");
+    return *found;
 }
 
 bool press_shortcut(const Ui& ui, const KeyPress& press) {

@@ -6,6 +6,8 @@
 
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 namespace knead {
 
@@ -23,12 +25,19 @@ struct Action {
     std::optional<Shortcut> shortcut; // none: the tools take that key themselves, or there is none
     void (*act)(const Ui& ui);
     bool (*possible)(const Ui& ui);
-    bool (*ticked)(const Ui& ui) = nullptr; // null: nothing to tick
-    bool line_before = false;               // a separator in the menu
+    bool (*ticked)(const Ui& ui) = nullptr;       // null: nothing to tick
+    bool line_before = false;                     // a separator in the menu
+    std::string (*about)(const Ui& ui) = nullptr; // what it would do now, told in the menu; or null
 };
 
 // In the order of the menus.
 std::span<const Action> actions();
+
+// The one of this menu with this label.
+const Action& action_called(std::string_view menu, std::string_view label);
+
+// An item of the menu that is open, in ImGui.
+void menu_item(const Ui& ui, const Action& action);
 
 // Does what a key stands for, if it stands for anything that is possible now. Keys that the tools take
 // themselves are not asked about here.

@@ -78,6 +78,7 @@ void draw_panels(Loop& loop) {
         draw_timeline(ui, {0, below, width, timeline_height(loop)});
         draw_status_line(ui, {0, height - status_height(loop), width, status_height(loop)});
     }
+    draw_view_menu(ui);
     draw_recovery(ui);
     draw_welcome(ui); // below that
     draw_opening(ui);

@@ -89,6 +89,13 @@ std::optional<int> axis_clicked(const Loop& loop, const MousePress& press) {
     return axis_at(loop.ui, in_window(loop.ui, press.cursor));
 }
 
+// Of the handle whose points lie there, which is chosen.
+void open_view_menu(Loop& loop, glm::dvec2 pixel) {
+    UiState::ViewMenu& menu = loop.state.view_menu;
+    menu = {true, handle_under(loop.editor, pixel)};
+    if (!menu.handle.empty()) apply(loop.editor, ChooseHandle{menu.handle});
+}
+
 void take(Loop& loop, MousePress event) {
     if (!over_cloud(loop, event.cursor) && !holds_button(loop) && !hand_is_full(loop)) {
         loop.editor.tools.refused = Tools::Refused::no; // the hand works on a panel
@@ -101,7 +108,8 @@ void take(Loop& loop, MousePress event) {
         return apply(loop.editor, LookAtSide{side_of_axis(loop.editor.camera, *axis)});
     press_of(loop, event.button) = true;
     loop.press_is_hands |= hand_is_full(loop);
-    handle_input(loop.editor, event);
+    const bool is_used = handle_input(loop.editor, event);
+    if (event.button == MouseButton::right && !is_used) open_view_menu(loop, event.cursor);
 }
 
 void take(Loop& loop, MouseRelease event) {

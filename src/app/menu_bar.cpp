@@ -29,13 +29,6 @@ void recent_menu(const Ui& ui) {
     ImGui::EndMenu();
 }
 
-void item(const Ui& ui, const Action& action) {
-    const bool possible = action.possible(ui);
-    const bool ticked = action.ticked && action.ticked(ui);
-    if (ImGui::MenuItem(action.label, *action.keys ? action.keys : nullptr, ticked, possible)) action.act(ui);
-    explain(action.words);
-}
-
 // The actions that belong to this menu; a menu within it is opened where its first action stands.
 void items(const Ui& ui, std::string_view menu) {
     std::string_view inner; // the one whose actions were all shown last
@@ -45,7 +38,7 @@ void items(const Ui& ui, std::string_view menu) {
         if (of != menu && of == inner) continue;
         if (action.line_before) ImGui::Separator();
         if (of == menu) {
-            item(ui, action);
+            menu_item(ui, action);
             if (action.label == std::string_view("Open…")) recent_menu(ui);
             if (action.label == std::string_view("Orthographic")) coloring_menu(ui);
         } else {
@@ -55,7 +48,7 @@ void items(const Ui& ui, std::string_view menu) {
             if (!open) ui.state.menus.at_submenu |= ImGui::IsItemFocused();
             if (!open) continue;
             for (const Action& within : actions())
-                if (within.menu == of) item(ui, within);
+                if (within.menu == of) menu_item(ui, within);
             ImGui::EndMenu();
         }
     }
@@ -89,6 +82,16 @@ void menus(const Ui& ui) {
 }
 
 } // namespace
+
+void menu_item(const Ui& ui, const Action& action) {
+    const bool possible = action.possible(ui);
+    const bool ticked = action.ticked && action.ticked(ui);
+    const std::string about = action.about ? action.about(ui) : std::string();
+    const std::string label = action.label + (about.empty() ? "" : ": " + about) + "###" + action.label;
+    if (ImGui::MenuItem(label.c_str(), *action.keys ? action.keys : nullptr, ticked, possible))
+        action.act(ui);
+    explain(action.words);
+}
 
 void draw_menu_bar(const Ui& ui) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.scaled(10), ui.scaled(7)});

@@ -37,7 +37,9 @@ std::string left_words(const Ui& ui) {
     if (tools.select == SelectTool::polygon && !tools.band.empty())
         return "Click corners · Enter or double click closes · Ctrl+Z takes one back · Esc gives up";
     const std::string playback = playback_words(ui);
-    return playback.empty() ? next_step(ui.editor) : playback;
+    if (!playback.empty()) return playback;
+    const std::string &done = ui.editor.just_done, next = next_step(ui.editor);
+    return done + (done.empty() || next.empty() ? "" : " · ") + next;
 }
 
 // Of less and less account.

@@ -223,6 +223,12 @@ struct UiState : UiOfDocument {
     Rectangle view;              // the part of the window that shows the cloud
     float pixel_ratio = 1;       // framebuffer pixels to one of ImGui's
     bool cursor_in_view = false; // over the cloud, and over no panel
+
+    // What the menu at the cursor is about, where the right button opened it.
+    struct ViewMenu {
+        bool opens = false;
+        std::string handle; // empty: what is selected, or the view
+    } view_menu;
 };
 
 // What a panel is given.
@@ -246,11 +252,12 @@ void draw_tool_column(const Ui& ui, Rectangle where);
 void draw_side_panels(const Ui& ui, Rectangle where); // Handles, Transform, Shape, Display
 void draw_timeline(const Ui& ui, Rectangle where);
 void draw_status_line(const Ui& ui, Rectangle where);
-void draw_overlay(const Ui& ui);  // gizmo, bands, names: over the cloud, under all panels
-void draw_legend(const Ui& ui);   // of the colours
-void draw_welcome(const Ui& ui);  // while nothing is open
-void draw_opening(const Ui& ui);  // progress of opening and of other long stages
-void draw_recovery(const Ui& ui); // work that a crash left
+void draw_overlay(const Ui& ui);   // gizmo, bands, names: over the cloud, under all panels
+void draw_legend(const Ui& ui);    // of the colours
+void draw_view_menu(const Ui& ui); // at the cursor
+void draw_welcome(const Ui& ui);   // while nothing is open
+void draw_opening(const Ui& ui);   // progress of opening and of other long stages
+void draw_recovery(const Ui& ui);  // work that a crash left
 void draw_toasts(const Ui& ui);
 void draw_help(const Ui& ui);
 void draw_about(const Ui& ui);

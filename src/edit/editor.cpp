@@ -102,6 +102,8 @@ void carry_out(Editor& editor, const SetPivotUnder& command) {
     if (hit == no_index) return;
     const float* p = editor.frame.positions().data() + 3 * std::size_t{hit};
     set_pivot(editor.camera, {p[0], p[1], p[2]});
+    if (std::exchange(editor.just_clicked, false))
+        forget_last_selection(editor); // by the first of two clicks
 }
 
 // --- Looking back ----------------------------------------------------------------------------------------
@@ -124,6 +126,11 @@ bool goes_on_from_pose(const Command& command) {
     return is_one_of<MakeHandle, AssignPoints, ChangeRole, ChangeHold, DeleteHandle, ResetPose, MirrorHandle,
                      BeginDrag, SetPivot, SetPivotInside, SetPivotToSelection, ChangeSettings, CommitPose>(
         command);
+}
+
+// Whether it only looks at what is there.
+bool only_looks(const Command& command) {
+    return is_one_of<MoveCamera, FrameView, LookAtSide>(command);
 }
 
 void decline(Editor& editor, const char* words) {
@@ -163,6 +170,10 @@ void apply(Editor& editor, const Command& command) {
     try {
         if (is_act(command) && !may_act(editor)) return;
         if (goes_on_from_pose(command) && !may_go_on_from_pose(editor)) return;
+        if (!only_looks(command)) {
+            editor.just_done.clear();
+            if (!is_one_of<SetPivotUnder>(command)) editor.just_clicked = false;
+        }
         std::visit([&](const auto& c) { carry_out(editor, c); }, command);
     } catch (const std::exception&) {
         say(editor, Notice::Kind::error, words_about_exception());

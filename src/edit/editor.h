@@ -121,6 +121,9 @@ struct Editor {
     // Names of handles that were posted and that the document has not shown yet.
     std::vector<std::pair<StepNumber, std::string>> posted_names;
     std::string just_made; // a handle, after which nothing was done or chosen; empty: none
+    // What was just taken back, done again or deleted, in a sentence, until something else is told; or empty.
+    std::string just_done;
+    bool just_clicked = false; // a click made the newest step, and nothing was told since
 
     std::vector<Notice> notices; // for the user, oldest first; the window takes them
     std::vector<HeldSave>
@@ -188,6 +191,11 @@ std::string free_name(const Editor& editor, HandleRole role); // for the next ha
 bool looks_back(const Editor& editor); // whether a step before where looking began is shown
 bool can_undo(const Editor& editor);
 bool can_redo(const Editor& editor);
+// What these would do, in a few words such as "head" moves; empty where nobody knows yet.
+std::string words_of_undo(const Editor& editor);
+std::string words_of_redo(const Editor& editor);
+// The handle whose point is seen there, in pixels; empty: none.
+std::string handle_under(Editor& editor, glm::dvec2 pixel);
 // What to do next, in a sentence, for the line at the bottom; empty when the artist is well under way.
 std::string next_step(const Editor& editor);
 // The displacement of every point from the opened shape, in the cloud's units, ordered.

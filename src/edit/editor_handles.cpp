@@ -187,6 +187,7 @@ void carry_out(Editor& editor, const DeleteHandle& command) {
     if (!number_of(editor, command.handle)) return;
     post_step(editor, {DeleteLine{command.handle}});
     put_pivot_with(editor.past.back(), editor, command.handle, std::nullopt);
+    editor.just_done = quoted(command.handle) + " is deleted, and its points stay; Ctrl+Z takes it back";
 }
 
 void carry_out(Editor& editor, const SelectHandlePoints& command) {

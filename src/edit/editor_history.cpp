@@ -1,5 +1,6 @@
 // The editor's steps: how they get on the history, and how they are taken back, done again and played.
 
+#include "base/quoted.h"
 #include "edit/editor_steps.h"
 #include "edit/selecting.h"
 
@@ -72,6 +73,11 @@ void restore_selection(Editor& editor, const KeptMarks& from) {
     marks_changed(editor);
 }
 
+void forget_last_selection(Editor& editor) {
+    restore_selection(editor, *editor.past.back().before);
+    editor.past.pop_back();
+}
+
 void marks_changed(Editor& editor) {
     const MarkCounts counts = count_marks(editor.marks);
     editor.selected = counts.selected;
@@ -81,6 +87,30 @@ void marks_changed(Editor& editor) {
 }
 
 namespace {
+
+std::string words_of(const EditorStep& step, const std::string& of_document) {
+    if (step.document != 0) return of_document;
+    if (!step.pivots.empty()) return "the pivot of " + quoted(step.pivots.front().handle) + " moved";
+    return step.before ? "other points selected or hidden" : std::string();
+}
+
+} // namespace
+
+std::string words_of_undo(const Editor& editor) {
+    if (!can_undo(editor) || editor.status.busy) return {};
+    return words_of(editor.past.back(), editor.document->last_words);
+}
+
+std::string words_of_redo(const Editor& editor) {
+    if (!can_redo(editor) || editor.status.busy) return {};
+    return words_of(editor.future.back(), editor.document->next_words);
+}
+
+namespace {
+
+std::string sentence(const char* what, const std::string& words) {
+    return words.empty() ? std::string() : what + words;
+}
 
 void begin_looking(Editor& editor) {
     if (!editor.looks_from) editor.looks_from = editor.past.size();
@@ -93,6 +123,7 @@ void carry_out(Editor& editor, const UndoStep& command) {
     if (!command.to_look && looks_back(editor)) carry_out(editor, RedoStep{.to_look = true});
     if (!can_undo(editor)) return;
     editor.just_made.clear();
+    if (!command.to_look) editor.just_done = sentence("Taken back: ", words_of_undo(editor));
     if (command.to_look)
         begin_looking(editor);
     else
@@ -130,6 +161,7 @@ void go_forward(Editor& editor, Redo&& redo) {
 void carry_out(Editor& editor, const RedoStep& command) {
     if (command.to_look && can_redo(editor)) begin_looking(editor);
     const bool to_look = command.to_look || looks_back(editor);
+    if (!to_look && can_redo(editor)) editor.just_done = sentence("Done again: ", words_of_redo(editor));
     go_forward(editor, [&](StepNumber step) { editor.live->redo(step, to_look); });
     if (!command.to_look && !looks_back(editor)) editor.looks_from.reset();
 }

@@ -39,6 +39,13 @@ std::vector<std::uint8_t> hidden_points(const Editor& editor) {
     return hidden;
 }
 
+std::string handle_under(Editor& editor, glm::dvec2 pixel) {
+    const Index hit = editor.document ? point_clicked(editor, pixel) : no_index;
+    if (hit == no_index || !(editor.marks[hit] & mark_handle)) return {};
+    const Handle* const handle = handle_of(editor, editor.opened.order->file_index[hit]);
+    return handle ? handle->name : std::string();
+}
+
 Index point_clicked(Editor& editor, glm::dvec2 pixel) {
     return point_under(editor.camera, editor.viewport, editor.frame.positions(), hidden_points(editor), pixel,
                        click_radius, editor.workers);
@@ -64,18 +71,20 @@ void carry_out(Editor& editor, const SelectRegion& command) {
 // it.
 void carry_out(Editor& editor, const SelectPointUnder& command) {
     if (!editor.document) return;
-    const Index hit = point_clicked(editor, command.pixel);
-    if (hit != no_index && command.mode == SelectMode::replace && (editor.marks[hit] & mark_handle))
-        if (const Handle* handle = handle_of(editor, editor.opened.order->file_index[hit]))
-            return carry_out(editor, ChooseHandle{handle->name});
+    if (command.mode == SelectMode::replace)
+        if (const std::string handle = handle_under(editor, command.pixel); !handle.empty())
+            return carry_out(editor, ChooseHandle{handle});
     if (command.radius > 0)
         return carry_out(editor,
                          SelectRegion{ScreenStroke{{command.pixel}, command.radius},
                                       command.mode == SelectMode::replace ? SelectMode::add : command.mode,
                                       command.through});
+    const Index hit = point_clicked(editor, command.pixel);
     std::vector<std::uint8_t> inside(editor.marks.size());
     if (hit != no_index) inside[hit] = 1;
+    const std::size_t steps = editor.past.size();
     change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });
+    editor.just_clicked = editor.past.size() > steps;
 }
 
 void carry_out(Editor& editor, const ChangeSelection& command) {

@@ -70,6 +70,8 @@ std::vector<std::uint8_t> hidden_points(const Editor& editor);
 
 // The point that a click on the picture means, in the order of the edit, as it is now; no_index: none.
 Index point_clicked(Editor& editor, glm::dvec2 pixel);
+// Takes the newest step back, which is one of selection alone, as if it had never been.
+void forget_last_selection(Editor& editor);
 
 // How a tool selects a part: "draw a lasso round".
 std::string way_to_select(SelectTool tool);

@@ -47,6 +47,7 @@ struct DocumentView {
     std::uint64_t state = 0;     // names what the acts so far make; undone and done again it is the same
     StepNumber last_step = 0;    // the newest that was carried out
     std::string last_words;      // what the newest act does, such as "pose committed"; empty at the beginning
+    std::string next_words;      // and what would be redone next; empty where nothing is undone
     std::size_t last_frames = 0; // of the drag that the newest step began with; 0: it is none
     std::size_t undoable_steps = 0, redoable_steps = 0;
     std::size_t samples = 0;      // 0: not chosen yet

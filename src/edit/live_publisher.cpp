@@ -73,6 +73,7 @@ void LivePublisher::view(const Document& document, const LiveRecording& recordin
     view->state = recording.state();
     view->last_step = facts.last_step;
     view->last_words = recording.last_words();
+    view->next_words = recording.next_words();
     view->last_frames = recording.last_frames();
     view->undoable_steps = recording.undoable_steps();
     view->redoable_steps = recording.redoable_steps();

@@ -202,6 +202,15 @@ bool LiveRecording::last_is_settings() const {
     return !past_.empty() && past_.back().of_settings;
 }
 
+std::string LiveRecording::next_words() const {
+    std::string words;
+    for (auto act = future_.rbegin(); act != future_.rend(); ++act) {
+        if (act != future_.rbegin() && !act->joins) break;
+        words = act->words;
+    }
+    return words;
+}
+
 std::size_t LiveRecording::last_frames() const {
     const auto first = std::find_if(past_.rbegin(), past_.rend(), [](const Act& act) { return !act.joins; });
     return first == past_.rend() ? 0 : first->frames;

@@ -69,6 +69,9 @@ public:
     // What the newest act does that was not undone, in a few words; empty at the beginning.
     std::string last_words() const { return past_.empty() ? std::string() : past_.back().words; }
 
+    // And the step that would be redone next.
+    std::string next_words() const;
+
     // How many frames the drag has that the newest step began with; 0: it is none.
     std::size_t last_frames() const;
 

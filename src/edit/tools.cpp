@@ -62,13 +62,17 @@ void end_camera(const Hand& hand) {
     }
 }
 
+// Where a press beside them begins a stroke, rings are taken by what is seen of them.
+constexpr GizmoReach among_strokes{.rings = 4};
+
 // With Shift or Ctrl held a press would select.
 void hover(const Hand& hand, Modifiers held) {
     const ToolContext& context = hand.context;
     hand.tools.hovered.reset();
     if (context.gizmo && !held.shift && !held.ctrl)
         hand.tools.hovered =
-            gizmo_part_under(*context.gizmo, context.camera, context.viewport, hand.tools.cursor);
+            gizmo_part_under(*context.gizmo, context.camera, context.viewport, hand.tools.cursor,
+                             hand.tools.select == SelectTool::click ? GizmoReach{} : among_strokes);
 }
 
 bool move_to(const Hand& hand, glm::dvec2 cursor, Modifiers held) {

@@ -226,12 +226,13 @@ std::vector<GizmoShape> gizmo_shapes(const Gizmo& gizmo, const Camera& camera, V
 }
 
 std::optional<GizmoPart> gizmo_part_under(const Gizmo& gizmo, const Camera& camera, Viewport viewport,
-                                          glm::dvec2 cursor, double reach) {
+                                          glm::dvec2 cursor, GizmoReach reach) {
     std::optional<GizmoPart> best;
     int best_rank = 0;
     double best_depth = 0;
     for (const GizmoShape& shape : gizmo_shapes(gizmo, camera, viewport)) {
-        if (distance_to(shape, cursor) > reach) continue;
+        const bool is_ring = shape.part.kind == TransformKind::rotate;
+        if (distance_to(shape, cursor) > (is_ring ? reach.rings : reach.others)) continue;
         const int rank = rank_of(shape.part);
         if (best && (rank > best_rank || (rank == best_rank && shape.depth >= best_depth))) continue;
         best = shape.part;

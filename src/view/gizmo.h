@@ -48,9 +48,12 @@ struct GizmoShape {
 // could not be dragged.
 std::vector<GizmoShape> gizmo_shapes(const Gizmo& gizmo, const Camera& camera, Viewport viewport);
 
-// The part under the cursor, within `reach` pixels; the nearest to the eye wins, arrows and boxes before
-// rings.
+// The part under the cursor, within so many pixels; the nearest to the eye wins, arrows and boxes before
+// rings, which go round much and lie in the way of other things.
+struct GizmoReach {
+    double rings = 8, others = 8;
+};
 std::optional<GizmoPart> gizmo_part_under(const Gizmo& gizmo, const Camera& camera, Viewport viewport,
-                                          glm::dvec2 cursor, double reach = 8);
+                                          glm::dvec2 cursor, GizmoReach reach = {});
 
 } // namespace knead

@@ -37,6 +37,30 @@ TEST_F(BarEditor, UndoAndRedoBringTheChosenHandleBack) {
     EXPECT_EQ(chosen_handle(editor_)->name, "belt");
 }
 
+TEST_F(BarEditor, SaysWhatIsTakenBackAndDoneAgain) {
+    make_handles();
+    const std::string high = R"(moving handle "high")";
+    EXPECT_EQ(words_of_undo(editor_), high);
+    EXPECT_EQ(words_of_redo(editor_), "");
+    apply(editor_, UndoStep{});
+    EXPECT_EQ(editor_.just_done, "Taken back: " + high);
+    calm();
+    EXPECT_EQ(words_of_redo(editor_), high);
+    apply(editor_, LookAtSide{Side::right});
+    EXPECT_NE(editor_.just_done, "") << "who only looks round has told nothing else";
+    apply(editor_, RedoStep{});
+    EXPECT_EQ(editor_.just_done, "Done again: " + high);
+    calm();
+    select_heights(-1, 1);
+    EXPECT_EQ(editor_.just_done, "");
+    EXPECT_EQ(words_of_undo(editor_), "other points selected or hidden");
+    apply(editor_, DeleteHandle{"high"});
+    EXPECT_EQ(editor_.just_done, R"("high" is deleted, and its points stay; Ctrl+Z takes it back)");
+    calm();
+    apply(editor_, UndoStep{});
+    EXPECT_EQ(editor_.just_done, R"(Taken back: "high" deleted)");
+}
+
 TEST_F(BarEditor, UndoingADragChoosesTheHandleThatWasDragged) {
     make_handles();
     turn_chosen("40");

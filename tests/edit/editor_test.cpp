@@ -52,6 +52,33 @@ TEST_F(BarEditor, UndoAndRedoGoOverSelectionsToo) {
     EXPECT_FALSE(can_undo(editor_));
 }
 
+TEST_F(BarEditor, ADoubleClickLeavesTheSelectionAlone) {
+    select_heights(1, 2);
+    const std::vector<std::uint8_t> marks = editor_.marks;
+    const std::size_t steps = editor_.past.size();
+    const glm::dvec2 low = pixel_of({0, 0, -2});
+    const double before = editor_.camera.pivot.z;
+    apply(editor_, SelectPointUnder{low});
+    EXPECT_NE(editor_.marks, marks) << "the first of the two is a click";
+    apply(editor_, SetPivotUnder{low});
+    EXPECT_EQ(editor_.marks, marks);
+    EXPECT_EQ(editor_.past.size(), steps);
+    EXPECT_LT(editor_.camera.pivot.z, before - 1);
+    // A click of long ago stays.
+    apply(editor_, SelectPointUnder{low});
+    apply(editor_, ChangeSelection{SelectionStep::grow});
+    const std::vector<std::uint8_t> grown = editor_.marks;
+    apply(editor_, SetPivotUnder{low});
+    EXPECT_EQ(editor_.marks, grown);
+}
+
+TEST_F(BarEditor, TellsWhichHandleIsUnderTheCursor) {
+    make_handles();
+    EXPECT_EQ(handle_under(editor_, pixel_of({0, 0, 2.4})), "high");
+    EXPECT_EQ(handle_under(editor_, pixel_of({0, 0, 0})), "");
+    EXPECT_EQ(handle_under(editor_, {5, 5}), "");
+}
+
 TEST_F(BarEditor, GrowingAndShrinkingGoAlongTheSurface) {
     editor_.camera.orthographic = true;
     select_heights(1, 3);

@@ -66,7 +66,7 @@ TEST(Gizmo, EveryPartIsUnderTheCursorWhereItIsDrawn) {
             orbit(camera, Orbiting::turntable, {turn, 110}, screen);
             camera.orthographic = orthographic;
             const auto under = [&](glm::dvec2 pixel) {
-                return gizmo_part_under(gizmo, camera, screen, pixel, 3);
+                return gizmo_part_under(gizmo, camera, screen, pixel, {3, 3});
             };
             for (int i = 0; i < 3; ++i) {
                 glm::dvec3 axis(0.0);
@@ -160,7 +160,7 @@ TEST(Gizmo, TurnsWithTheHandle) {
     gizmo.local = true;
     gizmo.axes = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3)));
     const Camera camera = oblique();
-    const auto part = gizmo_part_under(gizmo, camera, screen, pixel_at(gizmo, camera, {0, 0, 0.9}), 3);
+    const auto part = gizmo_part_under(gizmo, camera, screen, pixel_at(gizmo, camera, {0, 0, 0.9}), {3, 3});
     EXPECT_EQ(part, (GizmoPart{TransformKind::translate, {Constraint::Kind::axis, 2, true}}));
 }
 

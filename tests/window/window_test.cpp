@@ -318,6 +318,34 @@ TEST_F(WindowTest, MenusAndQuestionsGoByTheKeyboard) {
     EXPECT_TRUE(recording().empty());
 }
 
+TEST_F(WindowTest, TheRightButtonOpensAMenuOfWhatIsUnderTheCursor) {
+    open_cat();
+    desktop_->keys({"3", "Home", "t"});
+    desktop_->drag(1, round(-0.55, 0.55, 1.2, 1.85));
+    const auto [x, y] = round(-0.01, 0.01, 1.5, 1.52).front();
+    const auto take_from_menu = [&](std::initializer_list<const char*> keys) {
+        desktop_->move(x, y);
+        desktop_->press(3);
+        desktop_->release(3);
+        desktop_->move(640, 760); // off the menu
+        pause(0.5);
+        desktop_->keys(keys);
+    };
+    take_from_menu({"Down", "Up", "Return"}); // of the selection: "Moving handle"
+    EXPECT_TRUE(wait_for_act("handle", 1));
+    take_from_menu({"Up", "Return"}); // of the handle: "Delete"
+    EXPECT_TRUE(wait_for_act("delete", 1));
+    // In the middle of a move it takes that back, and no menu opens.
+    desktop_->keys({"ctrl+z"});
+    EXPECT_TRUE(wait_for_act("undo", 1));
+    desktop_->keys({"g"});
+    desktop_->move(x + 40, y);
+    desktop_->press(3);
+    desktop_->release(3);
+    desktop_->keys({"r", "3", "0", "Return"});
+    EXPECT_TRUE(wait_for_act("drag", 1));
+}
+
 TEST_F(WindowTest, SavesAPictureOfTheViewAndGoesOn) {
     open_cat();
     desktop_->keys({"3", "Home"});

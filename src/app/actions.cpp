@@ -454,6 +454,7 @@ std::span<const Gesture> gestures() {
         Gesture{"Look around", "Shift+Middle drag", "Pan"},
         Gesture{"Look around", "Wheel", "Zoom to the cursor"},
         Gesture{"Look around", "Double click", "Orbit about this point"},
+        Gesture{"Select", "Right click", "A menu of the handle there, of the selection, or of the view"},
         Gesture{"Select", "Left drag", "Draw with the select tool"},
         Gesture{"Select", "Shift+Left drag", "Add to the selection"},
         Gesture{"Select", "Ctrl+Left drag", "Take away from it"},

@@ -28,9 +28,14 @@ void name_field(const Ui& ui, const Handle& handle) {
     const bool left = !state.renaming_begins && ImGui::IsItemDeactivated();
     state.renaming_begins = false;
     if (!entered && !left) return;
-    if (!escaped && !state.name_text.empty() && state.name_text != handle.name)
-        ui.tell(RenameHandle{handle.name, state.name_text});
-    state.renaming.clear();
+    const bool is_other = !escaped && !state.name_text.empty() && state.name_text != handle.name;
+    if (is_other) ui.tell(RenameHandle{handle.name, state.name_text});
+    const bool is_taken = is_other && std::ranges::find(ui.editor.document->handles, state.name_text,
+                                                        &Handle::name) != ui.editor.document->handles.end();
+    if (entered && is_taken)
+        state.renaming_begins = true; // what was typed is there to be changed
+    else
+        state.renaming.clear();
 }
 
 std::string points_of(const Editor& editor, const Handle& handle) {

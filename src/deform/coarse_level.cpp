@@ -57,8 +57,8 @@ std::vector<SoftHold> pulled_together(const SampleRest& rest, const CoarseSample
         } else if (together.turner == no_index ||
                    (hold.anchor - place).squaredNorm() < (together.anchor - place).squaredNorm()) {
             together.anchor = hold.anchor;
-            together.bed = hold.bed;
             together.turner = coarse_of_handle(rest, coarse, hold);
+            together.bed = together.turner == no_index ? no_index : hold.bed;
             together.as_turner = hold.as_turner;
         }
     }

@@ -174,8 +174,9 @@ std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span
     NearestOfHandle nearest_sample(label, samples, positions);
     for (Pulled& one : pulled) {
         if (!handles[one.handle].free_rotation) continue;
-        one.bed = patches.of[one.held];
         one.turner = nearest_sample.to(one.held);
+        if (one.turner == no_index) continue; // nothing tells how it turns
+        one.bed = patches.of[one.held];
         one.as_turner = share_of_turner(patches.extents[one.bed].radius(), one.falloff);
     }
     return pulled;

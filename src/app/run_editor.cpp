@@ -46,7 +46,7 @@ void leave_session(const std::filesystem::path& session, const Camera& camera) {
 void look_at_opened(Loop& loop) {
     Editor& editor = loop.editor;
     // As the cloud stood before it was posed.
-    const auto standing = standing_axis(editor.opened.opened->positions);
+    const auto standing = standing_axis(editor.opened.opened->positions, editor.opened.cloud->origin);
     set_up(editor.camera, standing.value_or(loop.state.display.up));
     if (loop.state.opening_demonstration) face_creature(editor);
     apply(editor, FrameView{FrameWhat::everything});

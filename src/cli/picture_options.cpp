@@ -100,16 +100,16 @@ Viewport parse_size(const std::string& text, int largest) {
     return {size->first, size->second};
 }
 
-UpAxis parse_up(const std::string& text, std::span<const float> positions) {
+UpAxis parse_up(const std::string& text, std::span<const float> positions, const Vec3d& origin) {
     if (text == "z") return UpAxis::z;
     if (text == "y") return UpAxis::y;
     if (text == "-y") return UpAxis::minus_y;
-    if (text == "auto") return standing_axis(positions).value_or(UpAxis::z);
+    if (text == "auto") return standing_axis(positions, origin).value_or(UpAxis::z);
     refuse("--up", text, "z, y, -y or auto");
 }
 
 Camera camera_for(const PictureOptions& options, std::span<const float> positions,
-                  std::span<const float> opened, Viewport viewport) {
+                  std::span<const float> opened, const Vec3d& origin, Viewport viewport) {
     constexpr std::array<std::pair<const char*, Side>, 6> sides = {{{"front", Side::front},
                                                                     {"back", Side::back},
                                                                     {"right", Side::right},
@@ -134,7 +134,7 @@ Camera camera_for(const PictureOptions& options, std::span<const float> position
                    "front, back, left, right, top, bottom, or AZIMUTH,ELEVATION in degrees, as 30,20");
         }
     }
-    set_up(camera, parse_up(options.up, opened));
+    set_up(camera, parse_up(options.up, opened, origin));
     frame_points(camera, positions, viewport);
     camera.distance /= options.zoom;
     return camera;

@@ -35,7 +35,7 @@ struct PictureMaker::State {
     State(const PictureOptions& given, Workers& with, double farther)
         : options(given), workers(with), room(farther), viewport(parse_size(given.size, largest_picture)),
           color(parse_color(given.color)), look(look_of(given)) {
-        camera_for(given, {}, {}, viewport); // refuses a bad view before the work
+        camera_for(given, {}, {}, Vec3d::Zero(), viewport); // refuses a bad view before the work
     }
 
     static PointLook look_of(const PictureOptions& given) {
@@ -62,7 +62,7 @@ void PictureMaker::State::begin(const PictureShape& shape, Progress& progress) {
     if (options.color == "rgb" && own_colors(shape.cloud) != OwnColors::rgb)
         throw Error(Trouble::usage, "",
                     "--color rgb: the cloud has no colours of its own; leave it out to see the shape alone");
-    camera = camera_for(options, shape.positions, shape.opened, viewport);
+    camera = camera_for(options, shape.positions, shape.opened, shape.cloud.origin, viewport);
     camera->distance *= room;
     color.up = camera->up;
     graph =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@ namespace {
 constexpr std::size_t most_points = 50'000;
 constexpr double strays = 0.002; // of the points, at either end of an axis
 constexpr double lowest = 0.03;  // of the extent
+constexpr double surveyed = 100; // so many times farther away than it is large, and sideways
 constexpr double least_share = 0.2, least_share_above = 0.5, clearly = 1.5;
 
 using Place = glm::dvec3;
@@ -82,13 +84,21 @@ double support(UpAxis up, const std::array<Extent, 3>& extents, const std::vecto
     return area > 0 ? area_of_hull(std::move(lowest_of_all)) / area : 0;
 }
 
+bool is_of_survey(const std::array<Extent, 3>& extents, const Vec3d& origin) {
+    double size = 0;
+    for (const Extent& extent : extents) size = std::max(size, extent.high - extent.low);
+    const double sideways = std::max(std::abs(origin.x()), std::abs(origin.y()));
+    return sideways > surveyed * size && sideways > surveyed * std::abs(origin.z());
+}
+
 } // namespace
 
-std::optional<UpAxis> standing_axis(std::span<const float> positions) {
+std::optional<UpAxis> standing_axis(std::span<const float> positions, const Vec3d& origin) {
     const std::vector<Place> places = some_of(positions);
     if (places.empty()) return std::nullopt;
     const std::array<Extent, 3> extents = {extent_along(0, places), extent_along(1, places),
                                            extent_along(2, places)};
+    if (is_of_survey(extents, origin)) return UpAxis::z;
     const double y = support(UpAxis::y, extents, places), z = support(UpAxis::z, extents, places);
     if (z >= least_share && z >= clearly * y) return UpAxis::z;
     if (y >= least_share && y >= clearly * z) return UpAxis::y;

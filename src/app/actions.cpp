@@ -1,5 +1,6 @@
 #include "app/actions.h"
 
+#include "app/widgets.h"
 #include "base/require.h"
 
 #include <array>
@@ -434,6 +435,16 @@ const Action& action_called(std::string_view menu, std::string_view label) {
         actions(), [&](const Action& action) { return menu == action.menu && label == action.label; });
     require(found != actions().end(), "an action of the table");
     return *found;
+}
+
+void menu_item(const Ui& ui, const Action& action) {
+    const bool possible = action.possible(ui);
+    const bool ticked = action.ticked && action.ticked(ui);
+    const std::string about = action.about ? action.about(ui) : std::string();
+    const std::string label = action.label + (about.empty() ? "" : ": " + about) + "###" + action.label;
+    if (ImGui::MenuItem(label.c_str(), *action.keys ? action.keys : nullptr, ticked, possible))
+        action.act(ui);
+    explain(action.words);
 }
 
 bool press_shortcut(const Ui& ui, const KeyPress& press) {

@@ -83,16 +83,6 @@ void menus(const Ui& ui) {
 
 } // namespace
 
-void menu_item(const Ui& ui, const Action& action) {
-    const bool possible = action.possible(ui);
-    const bool ticked = action.ticked && action.ticked(ui);
-    const std::string about = action.about ? action.about(ui) : std::string();
-    const std::string label = action.label + (about.empty() ? "" : ": " + about) + "###" + action.label;
-    if (ImGui::MenuItem(label.c_str(), *action.keys ? action.keys : nullptr, ticked, possible))
-        action.act(ui);
-    explain(action.words);
-}
-
 void draw_menu_bar(const Ui& ui) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.scaled(10), ui.scaled(7)});
     if (!ImGui::BeginMainMenuBar()) {

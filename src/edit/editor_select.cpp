@@ -26,6 +26,12 @@ const Handle* handle_of(const Editor& editor, Index point) {
     return region;
 }
 
+// The same of a point in the order; no_index: none.
+const Handle* handle_that_holds(const Editor& editor, Index ordered) {
+    if (ordered == no_index || !(editor.marks[ordered] & mark_handle)) return nullptr;
+    return handle_of(editor, editor.opened.order->file_index[ordered]);
+}
+
 constexpr double click_radius = 8; // pixels
 
 } // namespace
@@ -40,9 +46,8 @@ std::vector<std::uint8_t> hidden_points(const Editor& editor) {
 }
 
 std::string handle_under(Editor& editor, glm::dvec2 pixel) {
-    const Index hit = editor.document ? point_clicked(editor, pixel) : no_index;
-    if (hit == no_index || !(editor.marks[hit] & mark_handle)) return {};
-    const Handle* const handle = handle_of(editor, editor.opened.order->file_index[hit]);
+    const Handle* const handle =
+        editor.document ? handle_that_holds(editor, point_clicked(editor, pixel)) : nullptr;
     return handle ? handle->name : std::string();
 }
 
@@ -71,15 +76,15 @@ void carry_out(Editor& editor, const SelectRegion& command) {
 // it.
 void carry_out(Editor& editor, const SelectPointUnder& command) {
     if (!editor.document) return;
+    const Index hit = point_clicked(editor, command.pixel);
     if (command.mode == SelectMode::replace)
-        if (const std::string handle = handle_under(editor, command.pixel); !handle.empty())
-            return carry_out(editor, ChooseHandle{handle});
+        if (const Handle* const handle = handle_that_holds(editor, hit))
+            return carry_out(editor, ChooseHandle{handle->name});
     if (command.radius > 0)
         return carry_out(editor,
                          SelectRegion{ScreenStroke{{command.pixel}, command.radius},
                                       command.mode == SelectMode::replace ? SelectMode::add : command.mode,
                                       command.through});
-    const Index hit = point_clicked(editor, command.pixel);
     std::vector<std::uint8_t> inside(editor.marks.size());
     if (hit != no_index) inside[hit] = 1;
     const std::size_t steps = editor.past.size();

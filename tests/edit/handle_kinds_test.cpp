@@ -3,6 +3,9 @@
 #include "edit/editing.h"
 #include "edit/seams.h"
 
+#include <functional>
+#include <initializer_list>
+
 namespace knead {
 namespace {
 
@@ -53,6 +56,22 @@ double rms_between(const std::vector<float>& a, const std::vector<float>& b) {
     double square = 0;
     for (std::size_t i = 0; i < a.size(); ++i) square += std::pow(double{a[i]} - double{b[i]}, 2);
     return std::sqrt(3 * square / static_cast<double>(a.size()));
+}
+
+// What `pose` makes of a shape is, with fewer samples, within so much of the diagonal (RMS) of
+// what it makes of it with the first number of them.
+void expect_alike(Shape shape, std::size_t points, std::initializer_list<std::uint64_t> samples, double most,
+                  const std::function<void(Desk&)>& pose) {
+    std::vector<float> with_most;
+    for (const std::uint64_t count : samples) {
+        Settings settings;
+        settings.samples = count;
+        Desk desk(made(shape, points), settings);
+        pose(desk);
+        const std::vector<float> posed = desk.shape();
+        if (with_most.empty()) with_most = posed;
+        EXPECT_LT(rms_between(posed, with_most) / desk.diagonal(), most) << count << " samples";
+    }
 }
 
 TEST(HandleKinds, ASinglePointDrawsNoSpike) {
@@ -114,13 +133,9 @@ TEST(HandleKinds, PegsLetTheSheetSwing) {
 }
 
 // A peg of a point carries half of the sheet along. That turns as a whole: what the sample at the peg does
-// alone goes by how far off its neighbours are.
+// alone goes by how far off its neighbours are, and with 200 of them put it 12 % off.
 TEST(HandleKinds, WhatAPegCarriesAlongTurnsAlikeWithAnyNumberOfSamples) {
-    std::vector<float> with_all;
-    for (const std::uint64_t samples : {4000U, 1000U, 200U}) {
-        Settings settings;
-        settings.samples = samples;
-        Desk desk(made(Shape::plane, 4000), settings);
+    expect_alike(Shape::plane, 4000, {4000, 1000, 200}, 2e-3, [](Desk& desk) {
         desk.play(
             R"({"op":"handle","name":"edge","role":"fixed","region":{"box":{"min":[-1,-1,-1],"max":[0.06,2,1]}}})"
             "\n"
@@ -129,42 +144,27 @@ TEST(HandleKinds, WhatAPegCarriesAlongTurnsAlikeWithAnyNumberOfSamples) {
             "\n" +
             drag(R"({"translate":[-0.1,0,0.15]},{"translate":[-0.2,0,0.3]})", "peg") + settle(1000));
         EXPECT_LT(desk.handle_error(), 1e-6);
-        const std::vector<float> shape = desk.shape();
-        if (with_all.empty()) with_all = shape;
-        EXPECT_LT(rms_between(shape, with_all) / desk.diagonal(), 2e-3)
-            << samples; // 12 % with that sample alone
-    }
+    });
 }
 
 // A line across one side of a bar leaves rotation free, pulls what is around it, and goes round an axis
 // through it.
 TEST(HandleKinds, AFreeLineWithAFalloffTearsNothing) {
-    std::vector<float> with_all;
-    for (const std::uint64_t samples : {6000U, 1000U, 300U}) {
-        Settings settings;
-        settings.samples = samples;
-        Desk desk(made(Shape::bar, 6000), settings);
+    expect_alike(Shape::bar, 6000, {6000, 1000, 300}, 4e-3, [](Desk& desk) {
         desk.play(foot +
                   R"({"op":"handle","name":"top","role":"moving","rotation":"free","falloff":0.6,)"
                   R"("region":{"box":{"min":[0.4999,-1,1.46],"max":[1,1,1.54]}}})"
                   "\n"
                   R"({"op":"drag","handle":"top","pivot":[0.5,0,1.5],"frames":[)" +
                   turns('x', 4, 40) + "]}\n" + settle(1000));
-        EXPECT_LT(widest_seam(desk), 0.5) << samples;
-        const std::vector<float> shape = desk.shape();
-        if (with_all.empty()) with_all = shape;
-        EXPECT_LT(rms_between(shape, with_all) / desk.diagonal(), 4e-3) << samples;
-    }
+        EXPECT_LT(widest_seam(desk), 0.5);
+    });
 }
 
 // A cap of a sphere leaves rotation free and is turned sideways: at its border the surface turns as it wants,
 // on each side in another way, however few samples tell so.
 TEST(HandleKinds, AFreeAreaBendsAtItsBorderWithFewSamples) {
-    std::vector<float> with_all;
-    for (const std::uint64_t samples : {8000U, 1000U, 200U}) {
-        Settings settings;
-        settings.samples = samples;
-        Desk desk(made(Shape::sphere, 8000), settings);
+    expect_alike(Shape::sphere, 8000, {8000, 1000, 200}, 1.5e-3, [](Desk& desk) {
         const double lowest = bounds_of(desk.document().cloud()).lowest.z();
         const auto beyond = [&](double share, const char* side) { // of the diameter, from below
             const double z = lowest * (1 - 2 * share);
@@ -175,10 +175,7 @@ TEST(HandleKinds, AFreeAreaBendsAtItsBorderWithFewSamples) {
                   R"({"op":"handle","name":"top","role":"moving","rotation":"free",)" + beyond(0.75, "1") +
                   R"({"op":"drag","handle":"top","pivot":[0,0,0],"frames":[)" + turns('x', 5, 40) + "]}\n" +
                   settle(1000));
-        const std::vector<float> shape = desk.shape();
-        if (with_all.empty()) with_all = shape;
-        EXPECT_LT(rms_between(shape, with_all) / desk.diagonal(), 1.5e-3) << samples;
-    }
+    });
 }
 
 // The point of a peg is not torn off what is around it, however few samples there are.

@@ -23,6 +23,8 @@ struct Body {
 struct BodiesAround {
     std::span<const BodyPair> pair;
     std::span<const PairSlopes> slopes;
+    std::span<const PairFits> fits;
+    std::span<const Mat3d> map_products;
     std::span<const Index> body;
     std::span<const Body> all;
 };
@@ -35,5 +37,9 @@ Mat3d local_sum_of(const BodiesAround& around, double midway);
 // Σ_s (M_s - I) Σ ω v_s P g_t - (A_s - I) Σ ω H_s g_t, and for those that are placed less u_s Σ ω g_t·g_s:
 // what they add to the right-hand side of step 3.
 Vec3d force_of(const BodiesAround& around);
+
+// Σ_s (M_s - I) Σ ω v_s P H_tᵀ - (A_s - I) Σ ω H_s H_tᵀ - u_s (Σ ω H_t g_s)ᵀ: what the right-hand side of
+// deform/fitted_maps.h is, with M and A the turns.
+Columns misfit_of(const BodiesAround& around);
 
 } // namespace knead

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace knead {
 
@@ -17,9 +16,6 @@ namespace {
 std::size_t grain_of(std::size_t rows) {
     return std::clamp<std::size_t>(rows / 16, 16, 256);
 }
-
-// Stretches count as this at most, |U - I|.
-constexpr double most_stretch = std::numbers::e * std::numbers::e;
 
 // q - 1 as a vector w x y z: what the systems are solved for.
 Eigen::Vector4d beyond_one(const Quatd& q) {
@@ -200,20 +196,12 @@ bool has_targets_of_points(const SampleSystem& system) {
     return !system.with_points.empty() && system.rest.poisson > 0;
 }
 
-// S, if they are wanted, and U of every row, of the shape as it is, by its links.
-void find_stretches(SampleSystem& system, const SampleState& state, bool targets, Workers& workers) {
-    const bool stretches = !system.stretch.empty();
-    if (!targets && !stretches) return;
-    const std::size_t rows = system.free_sample.size();
+// S of every row by its links.
+void find_targets_of_links(SampleSystem& system, const SampleState& state, Workers& workers) {
+    const std::size_t rows = system.target.size();
     workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
-        const Mat3d gradient = gradient_at(system, state, row);
-        if (targets)
-            system.target[row] = elastic_target(system.surroundings[row], gradient, system.rest.poisson);
-        if (stretches) {
-            const Mat3d stretch = stretch_of(gradient);
-            const double most = std::max(1.0, stretch.norm() / most_stretch);
-            system.stretch[row] = system.trust[row] / most * stretch;
-        }
+        system.target[row] =
+            elastic_target(system.surroundings[row], gradient_at(system, state, row), system.rest.poisson);
     });
 }
 
@@ -283,16 +271,37 @@ void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, co
     });
 }
 
-// How the material answers the shape as it is, and what all bodies do.
+// A⁰: what maps are before they are fitted.
+void start_maps(SampleSystem& system, const SampleState& state, Workers& workers) {
+    const double of_points = system.rest.energy.share, of_links = 1 - of_points;
+    const std::size_t rows = system.stretch.size();
+    workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
+        Mat3d& stretch = system.stretch[row];
+        stretch = system.target.empty() ? Mat3d(Mat3d::Zero()) : Mat3d(of_points * system.target[row]);
+        if (of_links > 0) stretch += of_links * stretch_of(gradient_at(system, state, row));
+    });
+}
+
+// How the material answers the shape as it is, by links, and how samples send the points around them, then.
+void find_first_answers(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state,
+                        Workers& workers) {
+    find_targets_of_links(system, state, workers);
+    find_turns(system, state, workers);
+    if (system.stretch.empty()) return;
+    start_maps(system, state, workers);
+    find_bodies(system, handles, state, workers);
+    fit_maps(system, state, workers);
+}
+
+// How the material answers, and what all bodies do.
 void find_answers(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state,
                   Workers& workers) {
-    const bool of_points = has_targets_of_points(system);
-    find_stretches(system, state, !of_points && !system.target.empty(), workers);
-    if (of_points) {
+    find_first_answers(system, handles, state, workers);
+    if (has_targets_of_points(system)) {
         find_bodies(system, handles, state, workers); // whose maps and ways alone count for this
         find_targets_of_points(system, state, workers);
+        find_turns(system, state, workers);
     }
-    find_turns(system, state, workers);
     find_bodies(system, handles, state, workers);
 }
 
@@ -379,16 +388,36 @@ void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, 
         state.rotation[s] = motion.rotation;
         system.turn[s] = motion.linear - Mat3d::Identity();
     }
+    if (!system.stretch.empty()) state.handles.assign(handles.begin(), handles.end());
 }
 
 void follow_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
                     Workers& workers) {
-    find_stretches(system, state, !system.target.empty(),
-                   workers); // before the handles leave the others behind
+    // How the material answers, and the maps, before the handles leave the others behind.
+    if (state.handles.empty()) {
+        find_targets_of_links(system, state, workers);
+        start_maps(system, state, workers);
+    } else {
+        find_maps(system, state.handles, state, workers);
+    }
     turn_with_handles(system, handles, state, workers);
     find_bed_turns(system, handles, state); // before handles go on, and all that they pull does
     place_handles(system, handles, state);
     solve_positions(system, handles, state, workers);
+}
+
+void find_maps(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state,
+               Workers& workers) {
+    if (system.stretch.empty()) return;
+    for (std::size_t s = 0; s < system.turn.size(); ++s)
+        if (system.unknown[s] == no_index && system.rest.handle[s] != no_index)
+            system.turn[s] = Mat3d(handles[system.rest.handle[s]].linear - Mat3d::Identity());
+    find_free_turns(system, state);
+    find_first_answers(system, handles, state, workers);
+}
+
+Mat3d sample_map(const SampleSystem& system, const SampleState& state, Index i) {
+    return system.stretch.empty() ? sample_gradient(system, state, i) : stretched_turn(system, state, i);
 }
 
 Mat3d sample_gradient(const SampleSystem& system, const SampleState& state, Index i) {

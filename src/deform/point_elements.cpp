@@ -248,12 +248,7 @@ Mat3d ContributionFinder::add_gradients(Index vertex, const Vec3d& position, con
         sum += way;
         add(other, way);
     }
-    for (const Blend& blend : add(vertex, -sum)) {
-        Element& element = found_.element[place_[blend.body]];
-        element.share += blend.share;
-        if (blend.body < between_.sample.size())
-            element.square_reach = (position - between_.sample[blend.body]).squaredNorm();
-    }
+    for (const Blend& blend : add(vertex, -sum)) found_.element[place_[blend.body]].share += blend.share;
     return matrix_of(slope);
 }
 

@@ -12,11 +12,10 @@ namespace knead {
 
 // A body at a vertex.
 struct Element {
-    Four gradient = {};      // g, of its weight
-    Columns arms;            // H
-    Four corrected = {};     // ĝ, of its share in the turns
-    double share = 0;        // v
-    double square_reach = 0; // |p - p_s|² of a sample
+    Four gradient = {};  // g, of its weight
+    Columns arms;        // H
+    Four corrected = {}; // ĝ, of its share in the turns
+    double share = 0;    // v
 };
 
 // All that one vertex adds.

@@ -84,14 +84,17 @@ std::vector<Index> spread_between(const PointsBetween& between, std::size_t want
     return chosen;
 }
 
-// What BodyPair and PairSlopes sum up of two that have met.
+// What is summed up of two that have met.
 struct PairSums {
-    Columns map_slope, target_spread;
-    Four map_force = {}, target_force = {}, way_slope = {};
+    Columns map_slope, target_spread, map_product, fit_target;
+    Four map_force = {}, target_force = {}, way_slope = {}, fit_way = {};
     double way = 0, turn = 0;
 };
 
-void add_sums(const PairSums& sums, BodyPair& pair, PairSlopes& slopes) {
+void add_sums(const PairSums& sums, std::size_t at, PointEnergy& energy) {
+    BodyPair& pair = energy.pair[at];
+    PairSlopes& slopes = energy.slopes[at];
+    PairFits& fits = energy.fits[at];
     pair.way += sums.way;
     pair.turn += sums.turn;
     pair.map_force += vector_of(sums.map_force);
@@ -99,6 +102,9 @@ void add_sums(const PairSums& sums, BodyPair& pair, PairSlopes& slopes) {
     slopes.way_slope += vector_of(sums.way_slope);
     slopes.map_slope += matrix_of(sums.map_slope);
     slopes.target_spread += matrix_of(sums.target_spread);
+    fits.way += vector_of(sums.fit_way);
+    fits.target += matrix_of(sums.fit_target);
+    energy.map_products[at] += matrix_of(sums.map_product);
 }
 
 // The sums over some points.
@@ -106,7 +112,6 @@ struct Part {
     std::vector<Index> met;    // bodies, in the order in which they were met
     std::vector<Mat3d> spread; // of each
     std::vector<double> confidence;
-    std::vector<double> reach; // Σ 2 dim ω w |p - p_s|²
 
     std::vector<Index> sample, other; // two that have met, in the order in which they did
     std::vector<PairSums> sums;       // of these
@@ -127,6 +132,10 @@ void add_pairs(const Meeting& meeting, const Columns& along, std::span<PairSums>
     const double twice = 2 * meeting.measure * t.share;
     Four pulled_along = {};
     add_product(along, pulled, pulled_along);
+    Columns arms, target_arms; // ω H_t, ω P H_tᵀ
+    for (int column = 0; column < 3; ++column) arms.of[column] = meeting.measure * t.arms.of[column];
+    const Mat3d across = matrix_of(arms).transpose();
+    add_product(along, across, target_arms);
     for (std::size_t at = 0; at < meeting.all.size(); ++at) {
         const Element& s = meeting.all[at];
         PairSums& sums = pairs[meeting.pair[at]];
@@ -134,6 +143,10 @@ void add_pairs(const Meeting& meeting, const Columns& along, std::span<PairSums>
         sums.turn += dot_of(turned, s.corrected);
         add_product(s.arms, pulled, sums.map_force);
         sums.target_force += s.share * pulled_along;
+        add_product(s.arms, across, sums.map_product);
+        add_product(arms, s.gradient, sums.fit_way);
+        for (int column = 0; column < 3; ++column)
+            sums.fit_target.of[column] += s.share * target_arms.of[column];
         if (!(t.share > 0)) continue; // a neighbour's
         sums.way_slope += twice * s.gradient;
         for (int column = 0; column < 3; ++column) {
@@ -168,7 +181,6 @@ private:
     void add_own(const Contribution& at, const Element& own, Index place) {
         part_.spread[place] += 2 * at.measure * own.share * matrix_of(at.along);
         part_.confidence[place] += 2 * at.dimension * at.measure * own.share;
-        part_.reach[place] += 2 * at.dimension * at.measure * own.share * own.square_reach;
     }
 
     // Where a body stands in the part's `met`.
@@ -179,7 +191,6 @@ private:
         part_.met.push_back(body);
         part_.spread.push_back(Mat3d::Zero());
         part_.confidence.push_back(0);
-        part_.reach.push_back(0);
         if (part_.met.size() > room_) make_room();
         return place;
     }
@@ -258,7 +269,7 @@ void add_pairs_of(std::span<const Met> met, std::size_t first, PointEnergy& ener
     for (std::size_t k = 0; k < met.size(); ++k) {
         if (k > 0 && met[k].body != met[k - 1].body) ++at;
         energy.body[at] = met[k].body;
-        if (met[k].sums) add_sums(*met[k].sums, energy.pair[at], energy.slopes[at]);
+        if (met[k].sums) add_sums(*met[k].sums, at, energy);
     }
 }
 
@@ -276,6 +287,8 @@ void add_pairs(std::span<const Part> parts, PointEnergy& energy, Workers& worker
     energy.body.resize(energy.first.back());
     energy.pair.resize(energy.body.size());
     energy.slopes.resize(energy.body.size());
+    energy.fits.resize(energy.body.size());
+    energy.map_products.resize(energy.body.size(), Mat3d::Zero());
     workers.for_each(energy.samples, samples_a_time,
                      [&](std::size_t t) { add_pairs_of(all.of(t), energy.first[t], energy); });
 }
@@ -286,7 +299,6 @@ void add_part(const Part& part, PointEnergy& energy) {
         if (part.met[t] >= energy.samples) continue;
         energy.spread[part.met[t]] += part.spread[t];
         energy.confidence[part.met[t]] += part.confidence[t];
-        energy.reach[part.met[t]] += part.reach[t];
     }
 }
 
@@ -300,7 +312,6 @@ PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
     energy.bodies = energy.samples + between.handles;
     energy.spread.assign(energy.samples, Mat3d::Zero());
     energy.confidence.assign(energy.samples, 0);
-    energy.reach.assign(energy.samples, 0);
     if (energy.samples == 0) return energy;
     const std::vector<Index> asked =
         spread_between(between, std::max(points_a_sample * energy.samples, fewest_points), workers);
@@ -317,8 +328,6 @@ PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
     });
     add_pairs(parts, energy, workers);
     for (const Part& part : parts) add_part(part, energy);
-    for (std::size_t s = 0; s < energy.samples; ++s)
-        energy.reach[s] = energy.confidence[s] > 0 ? std::sqrt(energy.reach[s] / energy.confidence[s]) : 0;
     return energy;
 }
 

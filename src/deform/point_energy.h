@@ -63,6 +63,12 @@ struct PairSlopes {
     Mat3d target_spread = Mat3d::Zero(); // Σ 2ω v_t v_s P
 };
 
+// And for what a sample's map should be (deform/fitted_maps.h), besides Σ ω H_s H_tᵀ.
+struct PairFits {
+    Vec3d way = Vec3d::Zero();    // Σ ω H_t g_s
+    Mat3d target = Mat3d::Zero(); // Σ ω v_s P H_tᵀ
+};
+
 struct PointEnergy {
     double share = 1;        // that it has of the whole energy, 0 … 1; links have the others'
     std::size_t samples = 0; // bodies below are samples, the others handles
@@ -71,9 +77,10 @@ struct PointEnergy {
     std::vector<Index> body;  // of each pair: s, ascending within t, which is among them
     std::vector<BodyPair> pair;
     std::vector<PairSlopes> slopes; // of each pair
-    std::vector<Mat3d> spread;      // Σ 2ω v_t P, of each sample
-    std::vector<double> confidence; // Σ 2 dim ω v_t, of each sample
-    std::vector<double> reach;      // of each sample: how far the points are that it moves, rms
+    std::vector<PairFits> fits;
+    std::vector<Mat3d> map_products; // Σ ω H_s H_tᵀ
+    std::vector<Mat3d> spread;       // Σ 2ω v_t P, of each sample
+    std::vector<double> confidence;  // Σ 2 dim ω v_t, of each sample
 };
 
 // The cloud between the samples.
@@ -107,7 +114,7 @@ double share_of_points(std::size_t samples, std::size_t vertices);
 // there are no more. The same for any number of workers.
 PointEnergy point_energy(const PointsBetween& between, Workers& workers);
 
-// All of it so many times.
+// All of it so many times, but for what says how maps fit, for which that is all the same.
 void scale(PointEnergy& energy, double times);
 
 } // namespace knead

@@ -22,12 +22,7 @@ constexpr double next_to_nothing = 1e-4;
 constexpr double share_of_links = 0.01;
 
 // Turns that spread less far than so many ℓ², β/ℓ², are left to links; from the second on to points.
-constexpr double least_smoothing = 0.25, enough_smoothing = 0.3;
-
-// By so much an error at the other ends of a sample's links may come to be at the points that it moves,
-// through the stretch that it takes for its own. Links evenly around one on a surface, as far as its points:
-// 2; in a solid 3.
-constexpr double most_growth = 2.2;
+constexpr double least_smoothing = 0.15, enough_smoothing = 0.3;
 
 // Of the weight of a leaf's link that is no longer than others.
 constexpr double leaf_share = 1e-3;
@@ -248,6 +243,7 @@ void weigh_energy(SampleSystem& system, double square_length) {
         return;
     }
     scale(energy, share * of_links / of_points);
+    energy.share = share;
     const double of_them = 1 - share * (1 - share_of_links);
     for (double& weight : rest.weight) weight *= of_them;
     for (std::size_t row = 0; row < system.free_sample.size(); ++row)
@@ -291,22 +287,6 @@ void find_surroundings(SampleSystem& system, std::size_t row) {
     system.surroundings[row] = surroundings_of(spread);
     if (!system.with_points.empty())
         system.with_points[row] = surroundings_of(spread + rest.energy.spread[i]);
-}
-
-// θ, where points have an energy.
-void find_trust(SampleSystem& system) {
-    const SampleRest& rest = system.rest;
-    const std::size_t rows = rest.energy.first.empty() ? 0 : system.free_sample.size();
-    system.stretch.assign(rows, Mat3d::Zero());
-    system.trust.assign(rows, 1);
-    for (std::size_t row = 0; row < rows; ++row) {
-        const Index i = system.free_sample[row];
-        double growth = 0; // Σ_j |Σ⁺ w e|
-        for (Index link = rest.graph.first[i]; link < rest.graph.first[i + 1]; ++link)
-            growth += (system.surroundings[row].inverse * system.weighted_edge[link]).norm();
-        const double too_far = rest.energy.reach[i] * growth / most_growth;
-        if (too_far > 1) system.trust[row] = 1 / (too_far * too_far * too_far);
-    }
 }
 
 // L of the rows that move, and the order to eliminate them in.
@@ -389,7 +369,7 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     number_bodies(system);
     find_weighted_edges(system, workers);
     const OrderedLaplacian of_moving = order_and_find_surroundings(system, workers);
-    find_trust(system);
+    prepare_fit(system);
     set_poisson(system, system.rest.poisson, workers);
     system.turn.assign(system.rest.handle.size(), Mat3d::Zero());
     system.free_turn.assign(system.rest.turns_freely.size(), Quatd::Identity());

@@ -39,13 +39,10 @@
 // A and M standing for A - I and M - I in these three, as D is of displacements: exactly nothing where
 // nothing moves.
 //
-// The A of a sample is R (I + θ (U - I)), with U what its links say of the stretch around it before the
-// iteration turns anything, and no strain beyond a factor of e². That feeds back: where the points that a
-// sample moves lie much farther off than its links reach, errors of U would grow with every iteration. So
-// θ = min(1, 2.2/(ϱ_s Σ_j |Σ⁺ w e|))³, with ϱ_s the distance of these points, rms; Σ⁺ is that of
-// deform/stretch.h.
+// The A of a sample is fitted to the points before each iteration (deform/fitted_maps.h), with the M that
+// links say, and turns with it.
 //
-// S is by links, too, for ν < 0: they see best how a tube of few samples widens. For ν > 0 it follows shears,
+// S is by links for ν < 0: they see best how a tube of few samples widens. For ν > 0 it follows shears,
 // and would drive those that links see and points hardly make: with 200 samples, tubes of points that lie
 // anywhere swell into lumps (tests/edit/rubber_test.cpp). There S is by what pulls, links and points
 // together, F = (A + Σ 2ω v_t D) (Σ w e eᵀ + Σ 2ω v_t P)⁺ in the place of A Σ⁺: a mean of what points do,
@@ -53,7 +50,7 @@
 // iteration, S is by links.)
 //
 // With more samples both count, points by their share and links by the rest, all sums and matrices being
-// sums of both. So they do where turns spread over half a link, β from ℓ²/4 to 0.3 ℓ²: the blends are too
+// sums of both. So they do where turns spread over half a link, β from 0.15 to 0.3 ℓ²: the blends are too
 // wide for a sheet that is softer, and links hold it.
 //
 // A leaf, a free sample with one link, to a sample with more, is sent the same way whatever that link weighs:
@@ -67,6 +64,7 @@
 
 #include "base/workers.h"
 #include "deform/bodies.h"
+#include "deform/fitted_maps.h"
 #include "deform/point_energy.h"
 #include "deform/stretch.h"
 #include "graph/csr.h"
@@ -135,8 +133,10 @@ struct SampleRest {
 
 // Where the samples are; also the warm start of the next frame.
 struct SampleState {
-    std::vector<Quatd> rotation;     // r
-    std::vector<Vec3d> displacement; // u
+    std::vector<Quatd> rotation;       // r
+    std::vector<Vec3d> displacement;   // u
+    std::vector<HandleMotion> handles; // where the handles were then; empty: at rest, or where the points
+                                       // have no energy
 };
 
 // Both systems, factorised, and the work space of an iteration.
@@ -173,9 +173,9 @@ struct SampleSystem {
     std::vector<Body> body;       // of rest.energy, samples and then handles
     std::vector<Quatd> free_turn; // of each handle that `rest.turns_freely` tells of
     std::vector<Mat3d> target;    // S - I, of each row; empty for ν = 0
-    std::vector<Mat3d> stretch;   // θ (U - I), of each row; empty where there is no rest.energy
-    std::vector<double> trust;    // θ of each of these
-    std::vector<double> sides;    // right-hand sides and solutions, 4 or 3 numbers a row
+    std::vector<Mat3d> stretch;   // Rᵀ A - I of each row; empty where there is no rest.energy
+    MapFit fit;
+    std::vector<double> sides; // right-hand sides and solutions, 4 or 3 numbers a row
 };
 
 // Whether a handle leaves rotation free: there are rows whose positions are given. Turns pass through it
@@ -219,6 +219,14 @@ void follow_handles(SampleSystem& system, std::span<const HandleMotion> handles,
 // How the surroundings of a sample that no handle holds were moved: R U - I, with R its rotation and U the
 // stretch of its edges. `i`: such a sample.
 Mat3d sample_gradient(const SampleSystem& system, const SampleState& state, Index i);
+
+// Finds how the samples that turn by themselves send the points around them, of the state and the handles'
+// motions alone. For whoever moves points next; iterate() does so itself. Allocates nothing of its own.
+void find_maps(SampleSystem& system, std::span<const HandleMotion> handles, const SampleState& state,
+               Workers& workers);
+
+// A - I of such a sample, as it was found; by its links (sample_gradient()) where no points have an energy.
+Mat3d sample_map(const SampleSystem& system, const SampleState& state, Index i);
 
 // One iteration from where the samples are, towards the handles' present motions. Allocates nothing of its
 // own. Returns the longest way that a sample went.

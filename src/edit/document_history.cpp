@@ -17,7 +17,8 @@ namespace knead {
 namespace {
 
 std::size_t bytes_of(const SampleState& samples) {
-    return samples.rotation.size() * sizeof(Quatd) + samples.displacement.size() * sizeof(Vec3d);
+    return samples.rotation.size() * sizeof(Quatd) + samples.displacement.size() * sizeof(Vec3d) +
+           samples.handles.size() * sizeof(HandleMotion);
 }
 
 std::size_t bytes_of(const RestShape& shape) {

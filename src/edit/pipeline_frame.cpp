@@ -80,6 +80,7 @@ void Pipeline::for_lone_pegs(Visit&& visit) const {
 // What moves the points, for these poses and this state.
 void Pipeline::make_motions(const std::vector<HandleMotion>& motions, const SampleState& state) {
     const std::span<const HandleMotion> given_motions = all_motions(motions);
+    find_maps(system_, given_motions, state, workers_);
     workers_.for_each(samples_.size(), 256, [&](std::size_t s) {
         const Index handle = system_.rest.handle[s];
         const bool given = handle != no_index && system_.unknown[s] == no_index;
@@ -89,8 +90,8 @@ void Pipeline::make_motions(const std::vector<HandleMotion>& motions, const Samp
             // Stretched with its surroundings, a sample takes what is between it and the next ones along;
             // where every point is a sample there is nothing between.
             const bool stretches = !every_point_ && system_.unknown[s] != no_index;
-            const Mat3d moved = stretches ? sample_gradient(system_, state, static_cast<Index>(s))
-                                          : turn_of(state.rotation[s]);
+            const Mat3d moved =
+                stretches ? sample_map(system_, state, static_cast<Index>(s)) : turn_of(state.rotation[s]);
             motions_[s] = motion_about(moved, state.displacement[s] - moved * system_.rest.position[s]);
         }
     });

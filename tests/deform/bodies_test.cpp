@@ -40,6 +40,8 @@ struct Plain {
             energy.pair.push_back({test::random_vector(random).x(), 7, test::random_vector(random),
                                    test::random_vector(random)});
             energy.slopes.push_back({test::random_vector(random), matrix(), matrix()});
+            energy.fits.push_back({test::random_vector(random), matrix()});
+            energy.map_products.push_back(matrix());
         }
     }
 };
@@ -71,6 +73,19 @@ TEST(Bodies, AddUpToTheForceOfStepThree) {
     }
     EXPECT_LT((force_of(bodies_around(energy, plain.body, 2)) - expected).norm(), 1e-13);
     EXPECT_EQ(force_of(bodies_around(energy, plain.body, 1)), Vec3d(Vec3d::Zero()));
+}
+
+TEST(Bodies, AddUpToTheMisfitOfMaps) {
+    const Plain plain;
+    const PointEnergy& energy = plain.energy;
+    Mat3d expected = Mat3d::Zero();
+    for (Index at = energy.first[2]; at < energy.first[3]; ++at) {
+        const Index s = energy.body[at];
+        expected += plain.turn[s] * energy.fits[at].target - plain.map[s] * energy.map_products[at] -
+                    plain.way[s] * energy.fits[at].way.transpose();
+    }
+    EXPECT_LT((matrix_of(misfit_of(bodies_around(energy, plain.body, 2))) - expected).norm(), 1e-13);
+    EXPECT_EQ(matrix_of(misfit_of(bodies_around(energy, plain.body, 1))), Mat3d(Mat3d::Zero()));
 }
 
 } // namespace

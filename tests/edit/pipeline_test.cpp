@@ -144,8 +144,9 @@ TEST(Pipeline, ThinHandlesOwnSamples) {
 }
 
 TEST(Pipeline, FewSamplesLeaveNoSeamAtAHandlesBorder) {
-    // It is 0.30 and 0.06; with handles that start from their samples alone it was 1.65 and 0.25.
-    for (const auto& [axis, widest] : {std::pair('x', 0.4), std::pair('z', 0.1)}) {
+    // It is 0.51 and 0.09, and with every point a sample, where the bar folds, 1.26 and 0.07; with handles
+    // that start from their samples alone it was 1.65 and 0.25.
+    for (const auto& [axis, widest] : {std::pair('x', 0.6), std::pair('z', 0.1)}) {
         Settings settings;
         settings.samples = 50;
         Desk desk(bar(12'000), settings);

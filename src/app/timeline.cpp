@@ -59,6 +59,11 @@ bool go_back(const Ui& ui, std::size_t position) {
     for (std::size_t step = 0; step < wanted; ++step)
         if (is_of_document(step_at(editor, step))) ++of_document;
     if (of_document != position) return false;
+    // The step that is being looked at frame by frame is the last one, but not all of it.
+    if (done == wanted && editor.status.playing) {
+        ui.tell(UndoStep{.to_look = true});
+        ui.tell(RedoStep{.to_look = true});
+    }
     for (std::size_t step = done; step < wanted; ++step) ui.tell(RedoStep{.to_look = true});
     for (std::size_t step = done; step > wanted; --step) ui.tell(UndoStep{.to_look = true});
     return true;
@@ -83,6 +88,7 @@ void step_back(const Ui& ui) {
         if (is_of_document(*step)) break;
     }
     ui.tell(PlayStep{});
+    ui.state.playback.enters_step = true;
     ui.tell(
         AdvancePlaying{static_cast<int>(std::min<std::size_t>(frames - 1, std::numeric_limits<int>::max()))});
 }
@@ -160,11 +166,13 @@ void play_frame(const Ui& ui, int direction) {
     ui.tell(PacePlaying{playback.speed, true});
     const std::size_t position = playback_position(ui.editor);
     const auto& playing = ui.editor.status.playing;
-    if (playing && (direction > 0 || playing->frame > 1)) return ui.tell(AdvancePlaying{direction});
+    if (playback.enters_step || (playing && (direction > 0 || playing->frame > 1)))
+        return ui.tell(AdvancePlaying{direction});
     if (direction < 0) return position > 0 ? step_back(ui) : void();
     if (position == playback_steps(ui.editor)) return;
     playback.position = position + 1;
     play_step(ui);
+    playback.enters_step = true;
     ui.tell(AdvancePlaying{1});
 }
 
@@ -183,6 +191,7 @@ void close_timeline(const Ui& ui) {
 
 void play_on(const Ui& ui) {
     Playback& playback = ui.state.playback;
+    if (ui.editor.status.playing || !ui.editor.status.busy) playback.enters_step = false;
     // Who redoes a step while they look back goes on looking.
     if (!playback.wanted && looks_back(ui.editor)) playback.position = playback_position(ui.editor);
     if (!can_play(ui.editor) || (playback.playing && was_left(ui))) {

@@ -3,6 +3,7 @@
 #include "base/require.h"
 #include "deform/rotation.h"
 #include "graph/edge_weights.h"
+#include "graph/neighbors.h"
 
 #include <Eigen/LU>
 
@@ -27,13 +28,15 @@ constexpr double hardly_less = 0.8;
 // Surroundings that were pressed to less than this of their volume cannot be taken back to what they were.
 constexpr double flat = 1e-3;
 
-// The coarse sample of the handle that is nearest to the one that a hold turns with; no_index if it has none.
-Index coarse_of_handle(const SampleRest& rest, const CoarseSamples& coarse, const SoftHold& hold) {
+// The coarse sample of the handle that is nearest to the one that a hold turns with, of those in this part of
+// the coarse graph, which `part` tells of each; no_index if it has none there.
+Index coarse_of_handle(const SampleRest& rest, const CoarseSamples& coarse, const SoftHold& hold,
+                       const ComponentNumbers& part, Index this_part) {
     Index best = no_index;
     double smallest = std::numeric_limits<double>::infinity();
     for (Index c = 0; c < coarse.sample.size(); ++c) {
         const Index s = coarse.sample[c];
-        if (rest.handle[s] != hold.handle) continue;
+        if (rest.handle[s] != hold.handle || part[c] != this_part) continue;
         const double distance = (rest.position[s] - rest.position[hold.turner]).squaredNorm();
         if (distance < smallest) smallest = distance, best = c;
     }
@@ -42,22 +45,24 @@ Index coarse_of_handle(const SampleRest& rest, const CoarseSamples& coarse, cons
 
 // What pulls at samples pulls at the coarse one nearest to them, altogether as much. One of a handle that
 // leaves rotation free goes with what is held next to it.
-std::vector<SoftHold> pulled_together(const SampleRest& rest, const CoarseSamples& coarse) {
+std::vector<SoftHold> pulled_together(const SampleRest& rest, const CoarseSamples& coarse, Workers& workers) {
+    const ComponentNumbers part = find_components(coarse.between.graph, workers).component;
     std::map<std::pair<Index, Index>, SoftHold> holds;
     for (const SoftHold& hold : rest.pulled) {
         const Index nearest = coarse.nearest[hold.sample];
         if (nearest == no_index || rest.handle[coarse.sample[nearest]] != no_index) continue;
-        SoftHold& together = holds[{nearest, hold.handle}];
+        const auto [at, is_first] = holds.try_emplace({nearest, hold.handle});
+        SoftHold& together = at->second;
         const Vec3d& place = rest.position[coarse.sample[nearest]];
         together.sample = nearest;
         together.handle = hold.handle;
         together.weight += hold.weight;
         if (hold.bed == no_index) {
             together.anchor = place;
-        } else if (together.turner == no_index ||
+        } else if (is_first ||
                    (hold.anchor - place).squaredNorm() < (together.anchor - place).squaredNorm()) {
             together.anchor = hold.anchor;
-            together.turner = coarse_of_handle(rest, coarse, hold);
+            together.turner = coarse_of_handle(rest, coarse, hold, part, part[nearest]);
             together.bed = together.turner == no_index ? no_index : hold.bed;
             together.as_turner = hold.as_turner;
         }
@@ -78,7 +83,7 @@ SampleRest coarse_rest(const SampleRest& rest, const CoarseSamples& coarse, Work
     result.weight =
         isotropic_weights(result.graph, result.position, coarse.between.contact, of_territories, {}, workers);
     result.turns_freely = rest.turns_freely;
-    result.pulled = pulled_together(rest, coarse);
+    result.pulled = pulled_together(rest, coarse, workers);
     result.cloud_size = rest.cloud_size;
     result.stiffness = rest.stiffness;
     result.poisson = rest.poisson;

@@ -88,6 +88,7 @@ void take_over(Editor& editor) {
     editor.past.assign(editor.document->undoable_steps, EditorStep{step_of_opened_session});
     editor.future.assign(editor.document->redoable_steps, EditorStep{step_of_opened_session});
     editor.looks_from.reset();
+    editor.just_done.clear();
     mark_handles(editor);
     take_told_pivots(editor);
     take_last_pivots(editor);

@@ -131,6 +131,7 @@ std::optional<Gizmo> gizmo_of(const Editor& editor) {
     }
     if (editor.local_axes) gizmo.axes = axes;
     if (!pivot) gizmo.rotate = gizmo.scale = !is_free_place(editor, *handle);
+    if (editor.tools.move_pivot) gizmo.rotate = gizmo.scale = false; // arrows alone move it
     return gizmo;
 }
 

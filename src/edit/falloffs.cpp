@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <map>
 #include <unordered_map>
 
 namespace knead {
@@ -87,21 +88,22 @@ double share_of_turner(double radius, double falloff) {
     return part * part;
 }
 
-// The handle's sample that is nearest to a vertex that it holds, told once for each vertex.
+// The handle's sample that is nearest to a vertex that it holds, of those in the same part, told once for
+// each vertex. A sample of another part says nothing of how this one turns.
 class NearestOfHandle {
 public:
-    NearestOfHandle(std::span<const Index> label, std::span<const Index> samples,
-                    std::span<const float> positions)
-        : label_(label), samples_(samples), positions_(positions) {
+    NearestOfHandle(std::span<const Index> label, const ComponentNumbers& part,
+                    std::span<const Index> samples, std::span<const float> positions)
+        : label_(label), part_(part), samples_(samples), positions_(positions) {
         for (Index s = 0; s < samples.size(); ++s)
-            if (label[samples[s]] != no_index) of_handle_[label[samples[s]]].push_back(s);
+            if (label[samples[s]] != no_index) of_handle_[place_of(samples[s])].push_back(s);
     }
 
     Index to(Index vertex) {
         const auto [known, is_new] = nearest_.try_emplace(vertex, no_index);
         if (!is_new) return known->second;
         double smallest = std::numeric_limits<double>::infinity();
-        for (const Index s : of_handle_[label_[vertex]]) {
+        for (const Index s : of_handle_[place_of(vertex)]) {
             const double distance =
                 (point_at(positions_, samples_[s]) - point_at(positions_, vertex)).squaredNorm();
             if (distance < smallest) smallest = distance, known->second = s;
@@ -111,9 +113,13 @@ public:
     }
 
 private:
-    std::span<const Index> label_, samples_;
+    std::pair<Index, Index> place_of(Index vertex) const { return {label_[vertex], part_[vertex]}; }
+
+    std::span<const Index> label_;
+    const ComponentNumbers& part_;
+    std::span<const Index> samples_;
     std::span<const float> positions_;
-    std::unordered_map<Index, std::vector<Index>> of_handle_;
+    std::map<std::pair<Index, Index>, std::vector<Index>> of_handle_; // by handle and part
     std::unordered_map<Index, Index> nearest_;
 };
 
@@ -133,9 +139,10 @@ double least_falloff(const HeldExtent& held, double cloud_size) {
 }
 
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> label,
-                                   std::span<const HeldBlock> blocks, std::span<const Index> samples,
-                                   const Graph& graph, std::span<const float> positions, double cloud_size,
-                                   Workers& workers, Progress& progress) {
+                                   const ComponentNumbers& part, std::span<const HeldBlock> blocks,
+                                   std::span<const Index> samples, const Graph& graph,
+                                   std::span<const float> positions, double cloud_size, Workers& workers,
+                                   Progress& progress) {
     const std::vector<HeldExtent> extents = extents_of(handles.size(), blocks);
     std::vector<double> falloff(handles.size(), 0);
     std::vector<bool> pulls(handles.size(), false);
@@ -171,7 +178,7 @@ std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span
         for (std::size_t k = 0; k < count; ++k) pulled.insert(pulled.end(), some[k].begin(), some[k].end());
     }
     const Patches patches = free_patches(handles, held, label, graph, positions);
-    NearestOfHandle nearest_sample(label, samples, positions);
+    NearestOfHandle nearest_sample(label, part, samples, positions);
     for (Pulled& one : pulled) {
         if (!handles[one.handle].free_rotation) continue;
         one.turner = nearest_sample.to(one.held);

@@ -6,6 +6,7 @@
 #include "deform/sample_system.h"
 #include "edit/handles.h"
 #include "graph/held_blocks.h"
+#include "graph/neighbors.h"
 
 #include <span>
 #include <vector>
@@ -30,12 +31,14 @@ struct Pulled {
 double least_falloff(const HeldExtent& held, double cloud_size);
 
 // Who is pulled by whom. `label`: the handle of each vertex, and `blocks` what find_held() made of these;
-// `samples`: the vertex of each sample; `positions`: 3 floats a vertex; `cloud_size`: in their unit. Held
-// samples are not pulled, and each handle's falloff is at least its least one.
+// `part`: the component of each vertex; `samples`: the vertex of each sample; `positions`: 3 floats a vertex;
+// `cloud_size`: in their unit. Held samples are not pulled, and each handle's falloff is at least its least
+// one.
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> label,
-                                   std::span<const HeldBlock> blocks, std::span<const Index> samples,
-                                   const Graph& graph, std::span<const float> positions, double cloud_size,
-                                   Workers& workers, Progress& progress);
+                                   const ComponentNumbers& part, std::span<const HeldBlock> blocks,
+                                   std::span<const Index> samples, const Graph& graph,
+                                   std::span<const float> positions, double cloud_size, Workers& workers,
+                                   Progress& progress);
 
 // How strongly, with the samples' graph, weights and rest positions in `rest`. The pull is that of a bed of
 // springs whose stiffness over that of the surface is the inverse of a length squared: it looks alike for any

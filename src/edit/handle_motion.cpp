@@ -69,7 +69,7 @@ Vec3d angles_along(const Quatd& from, const Vec3d& angles, const Quatd& to) {
     const double way = 2 * std::acos(std::clamp(from.dot(to), -1.0, 1.0));
     const bool is_near = (there - angles).cwiseAbs().maxCoeff() < small_step;
     const bool same_side = std::cos(there.y()) * std::cos(angles.y()) > 0; // of the right angle
-    if (way < least_step || (is_near && same_side)) return there;
+    if (!(way >= least_step) || (is_near && same_side)) return there;
     const Quatd middle = between(from, to, 0.5);
     return angles_along(middle, angles_along(from, angles, middle), to);
 }

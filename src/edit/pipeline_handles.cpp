@@ -23,8 +23,8 @@ std::size_t handle_budget(std::size_t base_samples) {
 } // namespace
 
 void Pipeline::find_pulled(Progress& progress) {
-    pulled_ = pulled_samples(slots_.handles, labels_.vertex, held_blocks_, samples_, *graph_,
-                             vertex_positions(), cloud_size_, workers_, progress);
+    pulled_ = pulled_samples(slots_.handles, labels_.vertex, components_->component, held_blocks_, samples_,
+                             *graph_, vertex_positions(), cloud_size_, workers_, progress);
 }
 
 void Pipeline::prepare_handles(Progress& progress) {

@@ -233,7 +233,7 @@ private:
         const std::string point = "point " + std::to_string(distances.largest_index) + " lies ";
         if (distances.incomparable > 0) {
             result.words = "point " + std::to_string(distances.first_incomparable) +
-                           " is not finite in one of the two, the cloud and " + other;
+                           " is not finite, and not the same, in the cloud and " + other;
         } else if (diagonal > 0) {
             result.distance = distances.largest / diagonal;
             result.held = *result.distance <= tolerance;

@@ -209,6 +209,16 @@ std::uint64_t whole_number(const Value& value, std::uint64_t lowest, std::uint64
     refuse_as(value, "a whole number, " + range);
 }
 
+namespace {
+
+// The same direction, with a length whose square is a number.
+template<typename Vector>
+Vector of_a_length(const Vector& vector) {
+    return std::isnormal(vector.squaredNorm()) ? vector : Vector(vector / vector.cwiseAbs().maxCoeff());
+}
+
+} // namespace
+
 Vec3d vector(const Value& value) {
     const auto [x, y, z] = numbers<3>(value, "three numbers [x,y,z]");
     return {x, y, z};
@@ -217,15 +227,14 @@ Vec3d vector(const Value& value) {
 Quatd quaternion(const Value& value) {
     const auto [w, x, y, z] = numbers<4>(value, "a quaternion [w,x,y,z]");
     Quatd result(w, x, y, z);
-    if (!std::isnormal(result.squaredNorm()))
-        refuse(value, "is a zero or overflowing quaternion, which is no rotation");
-    return result;
+    if (result.coeffs().isZero(0)) refuse(value, "is a zero quaternion, which is no rotation");
+    return Quatd(of_a_length(result.coeffs()));
 }
 
 Vec3d direction(const Value& value) {
-    Vec3d result = vector(value);
-    if (!std::isnormal(result.squaredNorm())) refuse(value, "is zero or overflows, and points nowhere");
-    return result;
+    const Vec3d result = vector(value);
+    if (result.isZero(0)) refuse(value, "is zero, and points nowhere");
+    return of_a_length(result);
 }
 
 std::string text_not_empty(const Value& value) {

@@ -21,8 +21,11 @@ bool same(double a, double b) {
 // The distance of two points, or nothing where they cannot be compared.
 std::optional<double> distance(const Vec3d& a, const Vec3d& b) {
     if (a.allFinite() && b.allFinite()) return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-    if (same(a[0], b[0]) && same(a[1], b[1]) && same(a[2], b[2])) return 0.0;
-    return std::nullopt;
+    Vec3d way = a - b;
+    for (int axis = 0; axis < 3; ++axis)
+        if (same(a[axis], b[axis])) way[axis] = 0; // neither is there, or both are as far
+    if (!way.allFinite()) return std::nullopt;
+    return std::hypot(way[0], way[1], way[2]);
 }
 
 template<typename Position>

@@ -9,8 +9,8 @@
 
 namespace knead {
 
-// Distances point by point, in the file's units. A point that is not finite in either cloud, with the same
-// values, counts as distance 0; one that is not finite otherwise cannot be compared.
+// Distances point by point, in the file's units. Coordinates that are the same in both and not finite count
+// as no distance; a point that is not finite otherwise cannot be compared.
 struct Distances {
     double rms = 0;
     double p95 = 0; // 95 % of the points compared are this near or nearer

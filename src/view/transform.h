@@ -30,9 +30,10 @@ bool does_nothing(const Transform& transform);
 // By less a handle is not scaled: to nothing, or inside out.
 inline constexpr double least_factor = 0.01;
 
-// At once a handle turns by no more than this, in radians: twenty turns.
+// At once a handle turns by no more than this, and half a turn, in radians: twenty turns.
 inline constexpr double most_turned = 40 * std::numbers::pi;
-// Beyond that a typed angle keeps its remainder alone: nobody means the others. 0 for one that is not finite.
+// Beyond that a typed angle keeps so many turns and what is left over of a whole one, half a turn at most
+// either way: nobody means the others. 0 for one that is not finite.
 double within_turns(double angle);
 
 } // namespace knead

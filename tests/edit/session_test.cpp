@@ -308,6 +308,17 @@ TEST(SessionRefuses, BrokenHandles) {
                 "\"role\" must be \"fixed\", \"moving\" or \"roi\", not \"pinned\"");
 }
 
+// Whose squares are no numbers any more.
+TEST(Session, TakesQuaternionsOfAnyLength) {
+    for (const std::string length : {"1e-310", "1e-200", "3", "1e200"}) {
+        const auto drag = line_of<DragLine>(R"({"op":"drag","handle":"a","frames":[{"rotate":[)" + length +
+                                            ",0,0," + length + "]}]}");
+        const Quatd turn = drag.frames.at(0).rotate.normalized();
+        EXPECT_NEAR(turn.w(), std::sqrt(0.5), 1e-12) << length;
+        EXPECT_NEAR(turn.z(), std::sqrt(0.5), 1e-12) << length;
+    }
+}
+
 TEST(SessionRefuses, BrokenDrags) {
     const auto with = [](const std::string& frame) {
         return refusal(R"({"op":"drag","handle":"a","pivot":[0,0,0],"frames":[{},)" + frame + "]}");
@@ -316,12 +327,8 @@ TEST(SessionRefuses, BrokenDrags) {
     EXPECT_SAYS(with(R"({"translate":[1,2,3,4]})"), "\"frames[1].translate\" must be three numbers");
     EXPECT_SAYS(with(R"({"rotate":[1,0,0]})"),
                 "\"frames[1].rotate\" must be a quaternion [w,x,y,z], not a list of 3");
-    EXPECT_SAYS(with(R"({"rotate":[0,0,0,0]})"), "\"frames[1].rotate\" is a zero or overflowing quaternion");
-    EXPECT_SAYS(with(R"({"rotate":[1e-200,0,0,0]})"),
-                "\"frames[1].rotate\" is a zero or overflowing quaternion");
-    EXPECT_SAYS(with(R"({"rotate":[1e200,0,0,0]})"),
-                "\"frames[1].rotate\" is a zero or overflowing quaternion");
-    EXPECT_SAYS(with(R"({"axes":[0,0,-0.0,0]})"), "\"frames[1].axes\" is a zero or overflowing quaternion");
+    EXPECT_SAYS(with(R"({"rotate":[0,0,0,0]})"), "\"frames[1].rotate\" is a zero quaternion");
+    EXPECT_SAYS(with(R"({"axes":[0,0,-0.0,0]})"), "\"frames[1].axes\" is a zero quaternion");
     EXPECT_SAYS(with(R"({"scale":0})"), "\"frames[1].scale\" must be greater than zero");
     EXPECT_SAYS(with(R"({"scale":[1,1,-2]})"), "\"frames[1].scale\" must be greater than zero");
     EXPECT_SAYS(with(R"({"scale":true})"), "\"frames[1].scale\" must be a number, not true");

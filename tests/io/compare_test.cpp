@@ -41,10 +41,11 @@ TEST(Compare, counts_points_that_are_finite_in_one_cloud_only) {
     const PointCloud a = make_cloud(std::vector<float>{1, 2, 3, nan, 5, 6, nan, 1, 1});
     const PointCloud b = make_cloud(std::vector<float>{nan, 2, 3, nan, 5, 6, nan, 2, 1});
     const Distances distances = distances_between(a, b);
-    EXPECT_EQ(distances.incomparable, 2U);
+    EXPECT_EQ(distances.incomparable, 1U);
     EXPECT_EQ(distances.first_incomparable, 0U);
-    EXPECT_EQ(distances.compared, 1U);
-    EXPECT_EQ(distances.largest, 0);
+    EXPECT_EQ(distances.compared, 2U);
+    EXPECT_EQ(distances.largest, 1) << "the one that lacks x in both";
+    EXPECT_EQ(distances.largest_index, 2U);
 }
 
 TEST(Compare, of_no_points_is_zero) {

@@ -10,7 +10,8 @@ namespace knead {
 
 namespace {
 
-constexpr double of_turns = 0.1; // λ
+constexpr double of_turns = 0.1;    // λ
+constexpr double least_share = 0.5; // q, below which λ/q⁴ leaves next to nothing to be fitted
 constexpr int steps = 2;
 constexpr std::size_t rows_a_task = 16;
 
@@ -65,8 +66,9 @@ Columns eased(const MapFit& fit, std::size_t row) {
 void prepare_fit(SampleSystem& system) {
     const PointEnergy& energy = system.rest.energy;
     MapFit& fit = system.fit;
-    const std::size_t rows = energy.first.empty() ? 0 : system.free_sample.size();
-    system.stretch.assign(rows, Mat3d::Zero());
+    const std::size_t maps = energy.first.empty() ? 0 : system.free_sample.size();
+    system.stretch.assign(maps, Mat3d::Zero());
+    const std::size_t rows = energy.share < least_share ? 0 : maps;
     fit.preference.assign(rows, 0);
     fit.inverse.assign(rows, Mat3d::Zero());
     fit.found.assign(rows, Columns{});
@@ -84,6 +86,7 @@ void prepare_fit(SampleSystem& system) {
 
 void fit_maps(SampleSystem& system, const SampleState& state, Workers& workers) {
     MapFit& fit = system.fit;
+    if (fit.found.empty()) return;
     const auto around = [&](std::size_t row) {
         return bodies_around(system.rest.energy, system.body, system.free_sample[row]);
     };

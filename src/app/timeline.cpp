@@ -16,6 +16,10 @@ namespace {
 // made, settings changed).
 constexpr double after_motion = 0.45, after_others = 0.12;
 
+// A document that plays no step so many seconds after it was asked for a frame of it, and is not busy, has
+// done so or will not.
+constexpr double time_for_frame = 0.25;
+
 double rest_of_step(const Ui& ui) {
     const bool moved = ui.editor.document && ui.editor.document->last_frames > 0;
     return (moved ? after_motion : after_others) / ui.state.playback.speed;
@@ -78,6 +82,11 @@ void play_step(const Ui& ui) {
     }
 }
 
+void ask_for_frame(Playback& playback, std::size_t frame) {
+    playback.frame = frame;
+    playback.asked_frame_at = ImGui::GetTime();
+}
+
 // From where a step of the document ends to the frame before it; without frames, to where it began.
 void step_back(const Ui& ui) {
     const std::size_t frames = ui.editor.document->last_frames;
@@ -88,7 +97,7 @@ void step_back(const Ui& ui) {
         if (is_of_document(*step)) break;
     }
     ui.tell(PlayStep{});
-    ui.state.playback.enters_step = true;
+    ask_for_frame(ui.state.playback, frames - 1);
     ui.tell(
         AdvancePlaying{static_cast<int>(std::min<std::size_t>(frames - 1, std::numeric_limits<int>::max()))});
 }
@@ -148,6 +157,7 @@ void toggle_playing(const Ui& ui) {
     if (!can_play(ui.editor)) return;
     begin_where_left(ui);
     playback.playing = true;
+    playback.frame.reset();
     playback.rests_since = ImGui::GetTime();
     ui.tell(PacePlaying{playback.speed, false});
     const bool again = is_played_out(playback) && !ui.editor.status.playing;
@@ -163,22 +173,28 @@ void play_frame(const Ui& ui, int direction) {
     show_timeline(ui);
     begin_where_left(ui);
     playback.playing = false;
-    ui.tell(PacePlaying{playback.speed, true});
+    if (!playback.frame)
+        ui.tell(PacePlaying{playback.speed, true}); // which drops frames that are still to come
     const std::size_t position = playback_position(ui.editor);
     const auto& playing = ui.editor.status.playing;
-    if (playback.enters_step || (playing && (direction > 0 || playing->frame > 1)))
+    if (const auto at = playing && !playback.frame ? playing->frame : playback.frame.value_or(0);
+        (playing || playback.frame) && (direction > 0 || at > 1)) {
+        ask_for_frame(playback, direction > 0 ? at + 1 : at - 1);
         return ui.tell(AdvancePlaying{direction});
+    }
+    playback.frame.reset();
     if (direction < 0) return position > 0 ? step_back(ui) : void();
     if (position == playback_steps(ui.editor)) return;
     playback.position = position + 1;
     play_step(ui);
-    playback.enters_step = true;
+    ask_for_frame(playback, 1);
     ui.tell(AdvancePlaying{1});
 }
 
 void play_to(const Ui& ui, std::size_t position) {
     begin_where_left(ui);
     ui.state.playback.wanted = position;
+    ui.state.playback.frame.reset();
 }
 
 // Whoever only looked is back where they were: neither is what was done lost by the next act, nor what was
@@ -191,7 +207,9 @@ void close_timeline(const Ui& ui) {
 
 void play_on(const Ui& ui) {
     Playback& playback = ui.state.playback;
-    if (ui.editor.status.playing || !ui.editor.status.busy) playback.enters_step = false;
+    if (!ui.editor.status.playing && !ui.editor.status.busy &&
+        ImGui::GetTime() > playback.asked_frame_at + time_for_frame)
+        playback.frame.reset();
     // Who redoes a step while they look back goes on looking.
     if (!playback.wanted && looks_back(ui.editor)) playback.position = playback_position(ui.editor);
     if (!can_play(ui.editor) || (playback.playing && was_left(ui))) {

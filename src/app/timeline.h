@@ -25,7 +25,9 @@ struct Playback {
     std::size_t origin = 0;            // the position when it was shown, where looking ends
     std::size_t end = 0;               // the position at which playing stops
     std::optional<std::size_t> wanted; // the position to go to, once the document is free
-    bool enters_step = false;          // frame by frame, and the document has not got there yet
+    std::optional<std::size_t> frame; // of a step that is looked at frame by frame: asked for last, which the
+                                      // document may be on its way to
+    double asked_frame_at = 0;        // ImGui's time then
 };
 
 std::size_t playback_position(const Editor& editor);

@@ -181,6 +181,19 @@ TEST_F(WindowTest, LookingAtTheTimelineLeavesWhatWasUndoneUndone) {
     EXPECT_EQ(acts("redo"), 0U);
 }
 
+TEST_F(WindowTest, LookingAtTheLastStepFrameByFrameLeadsBackToItsEnd) {
+    turn_a_cats_head();
+    save("ctrl+e", folder_ / "before.ply");
+    desktop_->keys({"Left", "Left", "Left"});
+    pause(0.5);
+    save("ctrl+e", folder_ / "amid.ply");
+    desktop_->keys({"Escape"});
+    pause(0.5);
+    save("ctrl+e", folder_ / "after.ply");
+    EXPECT_NE(read_text(folder_ / "before.ply"), read_text(folder_ / "amid.ply"));
+    EXPECT_EQ(read_text(folder_ / "before.ply"), read_text(folder_ / "after.ply"));
+}
+
 TEST_F(WindowTest, WhatAKillLeavesIsRestored) {
     turn_a_cats_head();
     desktop_->keys({"g"}); // and is killed in mid-drag

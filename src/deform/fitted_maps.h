@@ -45,7 +45,8 @@ struct MapFit {
     std::vector<double> sums;  // of each chunk of rows
 };
 
-// Makes the work space ready for what the system's energy says; of a system without any it stays empty.
+// Makes the work space ready for what the system's energy says. Without any it stays empty, and where q is
+// less than one half: λ/q⁴ would leave next to nothing to be fitted.
 void prepare_fit(SampleSystem& system);
 
 // Fits the maps of all samples that turn by themselves: adds Rᵀ X to system.stretch, which must be Rᵀ A⁰ - I,

@@ -39,7 +39,7 @@ Mat3d local_sum_of(const BodiesAround& around, double midway);
 Vec3d force_of(const BodiesAround& around);
 
 // Σ_s (M_s - I) Σ ω v_s P H_tᵀ - (A_s - I) Σ ω H_s H_tᵀ - u_s (Σ ω H_t g_s)ᵀ: what the right-hand side of
-// deform/fitted_maps.h is, with M and A the turns.
+// deform/fitted_maps.h is, with the A of samples what maps are before they are fitted.
 Columns misfit_of(const BodiesAround& around);
 
 } // namespace knead

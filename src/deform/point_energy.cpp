@@ -6,7 +6,6 @@
 #include "graph/bridges.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -25,13 +24,9 @@ constexpr double few_samples = 300, many_samples = 4000;
 // nothing between them.
 constexpr double enough_points = 15, too_few_points = 5, many_samples_of_them = 450;
 
-constexpr std::size_t points_a_sample = 12, fewest_points = 8192;
-
 // Points whose sums are made together, by one worker, are near each other and meet few bodies: as many as
 // around so many samples; but not so many that there is no part for every worker.
 constexpr std::size_t samples_a_part = 64, most_points_a_part = 1024;
-
-constexpr std::size_t bits_a_word = 64;
 
 // About so many bodies a sample meets in one part.
 constexpr std::size_t pairs_a_sample = 96;
@@ -50,38 +45,13 @@ bool is_between(const PointsBetween& between, Index vertex) {
                                [&](Index other) { return between.label[other] != handle; });
 }
 
-// Whether each vertex can, a bit each.
-std::vector<std::uint64_t> mark_between(const PointsBetween& between, Workers& workers) {
-    const std::size_t vertices = between.graph.size();
-    std::vector<std::uint64_t> marks((vertices + bits_a_word - 1) / bits_a_word);
-    workers.for_each(marks.size(), 64, [&](std::size_t word) {
-        const std::size_t first = word * bits_a_word, end = std::min(first + bits_a_word, vertices);
-        for (std::size_t v = first; v < end; ++v)
-            marks[word] |= std::uint64_t{is_between(between, static_cast<Index>(v))} << (v - first);
-    });
-    return marks;
-}
-
-// So many of those that can, or all if there are no more, evenly spread along the order of the vertices.
-std::vector<Index> spread_between(const PointsBetween& between, std::size_t wanted, Workers& workers) {
-    const std::vector<std::uint64_t> marks = mark_between(between, workers);
-    std::size_t all = 0;
-    for (const std::uint64_t word : marks) all += static_cast<std::size_t>(std::popcount(word));
-    const std::size_t count = std::min(all, wanted);
-    const auto rank_of = [&](std::size_t k) { return ((k + 1) * all + count - 1) / count - 1; };
-    std::vector<Index> chosen;
-    chosen.reserve(count);
-    std::size_t rank = 0;
-    for (std::size_t word = 0; chosen.size() < count; ++word) {
-        std::uint64_t left = marks[word];
-        const std::size_t end = rank + static_cast<std::size_t>(std::popcount(left));
-        for (; rank < end && chosen.size() < count && rank_of(chosen.size()) < end; left &= left - 1, ++rank)
-            if (rank == rank_of(chosen.size()))
-                chosen.push_back(static_cast<Index>(word * bits_a_word +
-                                                    static_cast<std::size_t>(std::countr_zero(left))));
-        rank = end;
-    }
-    return chosen;
+// Which of those that are asked.
+std::vector<Index> which_tell(const PointsBetween& between) {
+    std::vector<Index> which;
+    which.reserve(between.asked.size());
+    for (Index k = 0; k < between.asked.size(); ++k)
+        if (is_between(between, between.asked[k])) which.push_back(k);
+    return which;
 }
 
 // What is summed up of two that have met.
@@ -163,14 +133,16 @@ public:
         part_.sums.reserve(pairs_a_sample * samples_a_part);
     }
 
-    void add(const Contribution& at) {
+    // One that stands for so many.
+    void add(const Contribution& at, double each) {
+        const double measure = each * at.measure;
         place_of_element_.clear();
         for (const Index body : at.body) place_of_element_.push_back(place_of(body));
         for (std::size_t t = 0; t < at.element.size(); ++t) {
             if (at.body[t] >= samples_) continue;
-            add_own(at, at.element[t], place_of_element_[t]);
+            add_own(at, measure, at.element[t], place_of_element_[t]);
             number_pairs_of(t, at.body);
-            add_pairs({at.element[t], at.element, pair_of_element_, at.measure}, at.along, part_.sums);
+            add_pairs({at.element[t], at.element, pair_of_element_, measure}, at.along, part_.sums);
         }
     }
 
@@ -178,9 +150,9 @@ public:
 
 private:
     // What a point says of one sample itself.
-    void add_own(const Contribution& at, const Element& own, Index place) {
-        part_.spread[place] += 2 * at.measure * own.share * matrix_of(at.along);
-        part_.confidence[place] += 2 * at.dimension * at.measure * own.share;
+    void add_own(const Contribution& at, double measure, const Element& own, Index place) {
+        part_.spread[place] += 2 * measure * own.share * matrix_of(at.along);
+        part_.confidence[place] += 2 * at.dimension * measure * own.share;
     }
 
     // Where a body stands in the part's `met`.
@@ -307,15 +279,15 @@ void add_part(const Part& part, PointEnergy& energy) {
 PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
     require(between.label.size() == between.graph.size() && between.nearest.size() == between.graph.size(),
             "an entry a vertex");
+    require(between.asked.size() == between.each.size(), "an entry each that is asked");
     PointEnergy energy;
     energy.samples = between.sample.size();
     energy.bodies = energy.samples + between.handles;
     energy.spread.assign(energy.samples, Mat3d::Zero());
     energy.confidence.assign(energy.samples, 0);
     if (energy.samples == 0) return energy;
-    const std::vector<Index> asked =
-        spread_between(between, std::max(points_a_sample * energy.samples, fewest_points), workers);
-    const std::size_t points = asked.size();
+    const std::vector<Index> told = which_tell(between);
+    const std::size_t points = told.size();
     const std::size_t points_a_part =
         std::clamp<std::size_t>(samples_a_part * points / energy.samples, 16, most_points_a_part);
     std::vector<Part> parts((points + points_a_part - 1) / points_a_part);
@@ -323,7 +295,7 @@ PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
         PartSums sums(energy.samples, energy.bodies);
         ContributionFinder finder(between);
         for (std::size_t k = part * points_a_part; k < std::min((part + 1) * points_a_part, points); ++k)
-            sums.add(finder.find(asked[k]));
+            sums.add(finder.find(between.asked[told[k]]), between.each[told[k]]);
         parts[part] = sums.take();
     });
     add_pairs(parts, energy, workers);

@@ -88,6 +88,8 @@ struct PointsBetween {
     const Graph& graph;               // of the vertices
     std::span<const float> positions; // 3n at rest, of the points
     const Numbering& point;           // of each vertex: one of its points
+    std::span<const Index> asked;     // vertices, ascending, that tell of all
+    std::span<const double> each;     // of these: for how many it stands
     const InfluenceRows& nearest;     // of each vertex
     InfluenceWeights weights;
     std::span<const float> area_of_links;  // of each base sample: what the area of points that are nearest to
@@ -109,9 +111,8 @@ struct PointsBetween {
 // between them. It fades, so that some samples more make no other shape.
 double share_of_points(std::size_t samples, std::size_t vertices);
 
-// Sums up over so many points a sample that more change little, evenly spread along the order of the
-// vertices that are free or have a neighbour that another handle moves, or none; over all of those where
-// there are no more. The same for any number of workers.
+// Sums up over the vertices that are asked, but those that one handle moves with all their neighbours:
+// nothing changes there. The same for any number of workers.
 PointEnergy point_energy(const PointsBetween& between, Workers& workers);
 
 // All of it so many times, but for what says how maps fit, for which that is all the same.

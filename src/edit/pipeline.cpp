@@ -190,8 +190,9 @@ void Pipeline::prepare_bridges(Progress& progress) {
 
 // Of the surface, not of its outliers, nor of what joins its parts.
 void Pipeline::find_size() {
-    const AskedVertices asked = ask_vertices(*neighbors_, opened().positions, order_.first_point, hanging_,
-                                             asked_for_size, 1, workers_);
+    const AskedVertices asked =
+        ask_vertices(*neighbors_, opened().positions, order_.first_point, hanging_,
+                     choose_by_number(order_.vertices(), asked_for_size), 1, workers_);
     std::vector<float> positions;
     positions.reserve(3 * asked.vertex.size());
     for (const Index v : asked.vertex) {
@@ -246,11 +247,17 @@ void Pipeline::prepare_areas() {
     const Stopwatch clock;
     const RestShape& rest = rest_shape();
     const std::size_t all = order_.vertices();
-    const Asking asking = every_point_ ? Asking{all, 1} : asking_for(base_samples_, all);
-    asked_ = ask_vertices(every_point_ ? sample_graph_.graph : *graph_, rest.positions, standing_points(),
-                          hanging_, asking.vertices, asking.of_cells, workers_);
     area_of_links_.clear();
-    if (!every_point_) area_of_links_ = level_areas(asked_, territories_, base_samples_);
+    if (every_point_) {
+        asked_ = ask_vertices(sample_graph_.graph, rest.positions, standing_points(), hanging_,
+                              choose_by_number(all, all), 1, workers_);
+    } else {
+        const Asking asking = asking_for(base_samples_, all);
+        asked_ = ask_vertices(*graph_, rest.positions, standing_points(), hanging_,
+                              choose_by_area(*graph_, link_lengths_, hanging_, asking.vertices, workers_),
+                              asking.of_cells, workers_);
+        area_of_links_ = level_areas(asked_, territories_, base_samples_);
+    }
     seconds_.sampling += clock.seconds();
 }
 
@@ -276,6 +283,8 @@ void Pipeline::find_energy(const SampleRest& rest) {
     const PointsBetween between{*graph_,
                                 shape.positions,
                                 standing_points(),
+                                asked_.vertex,
+                                asked_.each,
                                 nearest_,
                                 input_.settings.weights,
                                 area_of_links_,

@@ -16,6 +16,14 @@ constexpr double no_example = 4;
 struct Sums {
     double area = 0, star = 0, links = 0, vertices = 0;
 
+    void add(const AskedVertices& asked, std::size_t k) {
+        const double each = asked.each[k];
+        area += each * asked.area[k];
+        star += each * asked.star[k];
+        links += each * asked.links[k];
+        vertices += each;
+    }
+
     void add(const Sums& other) {
         area += other.area;
         star += other.star;
@@ -31,8 +39,7 @@ std::vector<Sums> sums_around(const AskedVertices& asked, std::span<const Index>
                               Counts&& counts) {
     std::vector<Sums> own(samples);
     for (std::size_t k = 0; k < sample.size(); ++k)
-        if (sample[k] < samples && counts(k, sample[k]))
-            own[sample[k]].add({asked.area[k], asked.star[k], asked.links[k], 1});
+        if (sample[k] < samples && counts(k, sample[k])) own[sample[k]].add(asked, k);
     std::vector<Sums> sums = own;
     for (const TerritoryBorder& border : borders) {
         sums[border.a].add(own[border.b]);
@@ -57,7 +64,7 @@ std::vector<float> level_areas(AskedVertices& asked, const ChangingTerritories& 
     };
     const std::vector<Sums> sums =
         sums_around(asked, sample, territories.base_borders, base_samples, is_example);
-    for (std::size_t k = 0; asked.each > 1 && k < sample.size(); ++k) {
+    for (std::size_t k = 0; !asked.all && k < sample.size(); ++k) {
         const bool has_base = sample[k] < base_samples; // some parts have added samples alone
         asked.area[k] =
             asked.star[k] *
@@ -76,7 +83,7 @@ std::vector<double> territory_areas(const AskedVertices& asked, const ChangingTe
     for (std::size_t k = 0; k < sample.size(); ++k) {
         if (sample[k] == no_index) continue;
         require(sample[k] < samples, "territories are those of the samples");
-        area[sample[k]] += asked.each * asked.area[k];
+        area[sample[k]] += asked.each[k] * asked.area[k];
     }
     return area;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace knead {
 
@@ -112,21 +113,17 @@ std::vector<double> volumes_of(std::span<const Told> told) {
 } // namespace
 
 AskedVertices ask_vertices(const Graph& points, std::span<const float> positions, const Numbering& point,
-                           std::span<const std::uint8_t> hanging, std::size_t count, std::size_t of_cells,
+                           std::span<const std::uint8_t> hanging, ChosenVertices chosen, std::size_t of_cells,
                            Workers& workers) {
-    const std::size_t vertices = points.size();
-    count = std::min(count, vertices);
     AskedVertices asked;
-    if (count == 0) return asked;
-    asked.each = static_cast<double>(vertices) / static_cast<double>(count);
+    asked.vertex = std::move(chosen.vertex);
+    asked.each = std::move(chosen.each);
+    asked.all = chosen.all && of_cells == 1;
+    const std::size_t count = asked.vertex.size();
     std::vector<Told> told(count);
-    asked.vertex.resize(count);
     workers.for_chunks(count, 1024, [&](std::size_t begin, std::size_t end) {
         Teller teller(points, positions, point, hanging);
-        for (std::size_t k = begin; k < end; ++k) {
-            asked.vertex[k] = static_cast<Index>(k * vertices / count);
-            told[k] = teller.tell(asked.vertex[k], k % of_cells == 0);
-        }
+        for (std::size_t k = begin; k < end; ++k) told[k] = teller.tell(asked.vertex[k], k % of_cells == 0);
     });
     for (const Told& each : told) {
         asked.star.push_back(each.star);

@@ -18,7 +18,8 @@ namespace {
 struct Held {
     test::Machine machine;
     test::Cloud cloud;
-    std::vector<Index> label, vertices;
+    std::vector<Index> label, vertices, asked;
+    std::vector<double> each;
     std::vector<Vec3d> sample;
     std::vector<bool> turning;
     InfluenceRows nearest;
@@ -27,8 +28,10 @@ struct Held {
     Numbering point;
 
     explicit Held(std::size_t points = 3000)
-        : cloud(test::cloud_of(test::shape_positions(Shape::bar, points))),
+        : cloud(test::cloud_of(test::shape_positions(Shape::bar, points))), each(cloud.size(), 1.0),
           point(Numbering::as_they_stand(cloud.size())) {
+        asked.resize(cloud.size());
+        std::iota(asked.begin(), asked.end(), Index{0});
         for (Index v = 0; v < cloud.size(); ++v) {
             const double z = cloud.at(v).z();
             label.push_back(z < -2 ? 0 : z > 2 ? 1 : no_index);
@@ -41,8 +44,8 @@ struct Held {
     }
 
     PointsBetween between(InfluenceWeights weights) const {
-        return {cloud.graph, cloud.positions, point,   nearest, weights, of_links,
-                hanging,     label,           turning, {},      sample,  2};
+        return {cloud.graph, cloud.positions, point, asked,   each, nearest, weights,
+                of_links,    hanging,         label, turning, {},   sample,  2};
     }
 
     PointEnergy energy(InfluenceWeights weights, unsigned threads) const {

@@ -182,8 +182,8 @@ double resistance(const std::vector<float>& positions, double edge, bool with_ar
     Machine machine;
     const Cloud cloud = test::cloud_of(positions);
     const AskedVertices asked =
-        ask_vertices(cloud.graph, cloud.positions, Numbering::as_they_stand(cloud.size()), {}, cloud.size(),
-                     1, machine.workers);
+        ask_vertices(cloud.graph, cloud.positions, Numbering::as_they_stand(cloud.size()), {},
+                     choose_by_number(cloud.size(), cloud.size()), 1, machine.workers);
     const std::vector<double> area(asked.area.begin(), asked.area.end());
     const std::vector<double> weight =
         with_areas ? weights_for_areas(cloud, area, of_points) : weights_for(cloud.graph, places(cloud));

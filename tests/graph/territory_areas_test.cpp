@@ -31,9 +31,12 @@ struct Divided {
         samples.insert(samples.end(), added.begin(), added.end());
     }
 
-    AskedVertices asked(std::size_t of_samples) {
+    AskedVertices asked(std::size_t of_samples) { return ask(16 * of_samples, 1, machine.workers); }
+
+    AskedVertices ask(std::size_t count, std::size_t of_cells, Workers& workers) const {
         return ask_vertices(cloud.graph, cloud.positions, Numbering::as_they_stand(cloud.size()), {},
-                            16 * of_samples, 1, machine.workers);
+                            choose_by_area(cloud.graph, cloud.lengths, {}, count, workers), of_cells,
+                            workers);
     }
 
     std::vector<double> areas(const AskedVertices& of) {
@@ -47,7 +50,7 @@ TEST(TerritoryAreas, AreThoseOfTheVerticesThatTheyHold) {
     Divided divided(grid, 100);
     const AskedVertices all = divided.asked(edge * edge);
     ASSERT_EQ(all.vertex.size(), grid.size());
-    EXPECT_EQ(all.each, 1);
+    EXPECT_TRUE(all.all);
     const std::vector<double> area = divided.areas(all);
     // Weights of 6 in all, of links of length 1; near the rim there are others.
     std::vector<int> inside(area.size(), 0);
@@ -155,8 +158,7 @@ TEST(TerritoryAreas, WithoutABaseSampleAreWhatStarsSay) {
     divided.territories = territories_of_base(
         flood(cloud.graph, cloud.lengths, base, divided.machine.workers, divided.machine.progress),
         base.size(), cloud.graph, divided.machine.workers);
-    AskedVertices asked = ask_vertices(cloud.graph, cloud.positions, Numbering::as_they_stand(cloud.size()),
-                                       {}, 1000, 2, divided.machine.workers);
+    AskedVertices asked = divided.ask(1000, 2, divided.machine.workers);
     level_areas(asked, divided.territories, base.size());
     for (std::size_t k = 0; k < asked.vertex.size(); ++k) {
         EXPECT_GT(asked.area[k], 0);
@@ -176,8 +178,7 @@ TEST(TerritoryAreas, AreTheSameForAnyNumberOfThreads) {
     const std::vector<double> area = divided.areas(asked);
     for (const unsigned threads : {1U, 5U}) {
         Workers workers(threads);
-        const AskedVertices again = ask_vertices(
-            cloud.graph, cloud.positions, Numbering::as_they_stand(cloud.size()), {}, 16 * 60, 1, workers);
+        const AskedVertices again = divided.ask(16 * 60, 1, workers);
         EXPECT_EQ(again.vertex, asked.vertex);
         EXPECT_EQ(again.area, asked.area);
         EXPECT_EQ(territory_areas(again, divided.territories, divided.samples.size(), workers), area);

@@ -20,13 +20,27 @@ std::vector<AddedColumn> with_free_names(const PointCloud& cloud, std::vector<Ad
     return added;
 }
 
+namespace {
+
+// Whole coordinates that a pose changes have fractions then: as a type that holds both.
+ScalarType type_with_fractions(ScalarType type) {
+    if (!is_whole(type)) return type;
+    return size_of(type) <= 2 ? ScalarType::float32 : ScalarType::float64;
+}
+
+} // namespace
+
 ColumnsToWrite columns_to_write(const PointCloud& cloud, const PosedShape& shape) {
     ColumnsToWrite all;
     all.posed = posed_columns(cloud, shape);
     all.added = with_free_names(cloud, shape.added);
     for (const Attribute& attribute : cloud.attributes)
         all.columns.push_back({attribute.name, attribute.type, &attribute, nullptr, nullptr});
-    for (const PosedColumn& column : all.posed) all.columns[column.column].posed = &column;
+    for (PosedColumn& column : all.posed) {
+        if (column.rest != nullptr) column.type = type_with_fractions(column.type);
+        all.columns[column.column].posed = &column;
+        all.columns[column.column].type = column.type;
+    }
     for (const AddedColumn& column : all.added)
         all.columns.push_back({column.name, ScalarType::float32, nullptr, nullptr, column.values.data()});
     return all;
@@ -99,8 +113,12 @@ std::array<std::byte, 8> new_scalar(const NewColumn& column, std::size_t i, cons
             store_scalar(*value, column.type, scalar.data());
             return scalar;
         }
-    const std::size_t size = size_of(column.type);
-    std::memcpy(scalar.data(), column.attribute->values.data() + i * size, size);
+    const Attribute& own = *column.attribute;
+    const std::size_t size = size_of(own.type);
+    if (own.type == column.type)
+        std::memcpy(scalar.data(), own.values.data() + i * size, size);
+    else
+        store_scalar(value_at(own, i), column.type, scalar.data());
     return scalar;
 }
 

@@ -61,7 +61,8 @@ std::optional<double> rounded_to(ScalarType type, double value) {
 std::vector<PosedColumn> posed_columns(const PointCloud& cloud, const PosedShape& shape) {
     std::vector<PosedColumn> columns;
     const auto add = [&](std::size_t column, const float* rest, const float* posed) {
-        columns.push_back({column, &cloud.attributes[column], rest, posed, nullptr, 0});
+        const Attribute& attribute = cloud.attributes[column];
+        columns.push_back({column, &attribute, attribute.type, rest, posed, nullptr, 0});
     };
     if (!shape.positions.empty()) {
         require(shape.positions.size() == cloud.positions.size(), "a pose has a position for each point");
@@ -78,7 +79,8 @@ std::vector<PosedColumn> posed_columns(const PointCloud& cloud, const PosedShape
         const auto turned = std::make_shared<TurnedSplats>(cloud, *splats, shape.rotations);
         for (std::size_t slot = 0; slot < turned->columns().size(); ++slot) {
             const std::size_t column = turned->columns()[slot];
-            columns.push_back({column, &cloud.attributes[column], nullptr, nullptr, turned, slot});
+            const Attribute& attribute = cloud.attributes[column];
+            columns.push_back({column, &attribute, attribute.type, nullptr, nullptr, turned, slot});
         }
     }
     std::sort(columns.begin(), columns.end(),
@@ -91,26 +93,26 @@ std::optional<double> posed_value(const PosedColumn& column, std::size_t i, cons
     if (column.splats) {
         const double turned = column.splats->value(i, column.slot);
         // What is not finite stays as it was.
-        const auto rounded = turned == own ? std::nullopt : rounded_to(column.attribute->type, turned);
+        const auto rounded = turned == own ? std::nullopt : rounded_to(column.type, turned);
         return rounded == own ? std::nullopt : rounded;
     }
     const float posed = column.posed[3 * i];
     if (column.rest == nullptr) {
         // A normal with no direction stays as it was: normals are turned, never invented.
         if (!std::isfinite(posed) || posed == static_cast<float>(own)) return std::nullopt;
-        const double turned = nearest_in(column.attribute->type, static_cast<double>(posed));
+        const double turned = nearest_in(column.type, static_cast<double>(posed));
         return turned == own ? std::nullopt : std::optional(turned);
     }
     const float rest = column.rest[3 * i];
     if (posed == rest || !std::isfinite(rest)) return std::nullopt;
     const double value = own + (static_cast<double>(posed) - static_cast<double>(rest));
-    const auto rounded = rounded_to(column.attribute->type, value);
+    const auto rounded = rounded_to(column.type, value);
     if (!rounded)
         throw Error(Trouble::output, shown,
                     "point " + std::to_string(i) + " moves to " + column.attribute->name + " = " +
                         std::to_string(value) + ", which the file's type " +
-                        std::string(name_of(column.attribute->type)) +
-                        " cannot hold; move it less, or convert the cloud's coordinates to float first");
+                        std::string(name_of(column.type)) + " cannot hold; move it less" +
+                        (is_whole(column.type) ? ", or save in another format, where it has fractions" : ""));
     if (*rounded == own) return std::nullopt;
     return rounded;
 }

@@ -16,6 +16,8 @@ class TurnedSplats;
 struct PosedColumn {
     std::size_t column = 0; // in the cloud's attributes
     const Attribute* attribute = nullptr;
+    ScalarType type = ScalarType::float32; // that its values are rounded to: the attribute's, or in a new
+                                           // file another one that holds more
     const float* rest = nullptr;  // a coordinate's value at rest for point i is rest[3 * i]; else null
     const float* posed = nullptr; // and posed[3 * i] the posed value; null for one of a splat
 
@@ -28,7 +30,7 @@ struct PosedColumn {
 // the cloud and the shape.
 std::vector<PosedColumn> posed_columns(const PointCloud& cloud, const PosedShape& shape);
 
-// The value to save for point i, already rounded to the column's type; nothing where it keeps its own.
+// The value to save for point i, already rounded to the column's `type`; nothing where it keeps its own.
 // The columns of splats are told one thread at a time, and quickly only if those of a point are asked for one
 // after the other. `shown` names the target in errors. Throws Error (output) when the value does not fit.
 std::optional<double> posed_value(const PosedColumn& column, std::size_t i, const std::string& shown);

@@ -146,5 +146,31 @@ TEST(Conversion, goes_from_every_format_to_every_other_in_a_pose) {
         }
 }
 
+// Whole coordinates are what a pose leaves only as fractions: a new file has room for these, and for what the
+// old type cannot hold.
+TEST(Conversion, of_whole_coordinates_keeps_the_fractions_of_a_pose) {
+    PointCloud cloud;
+    for (const char* axis : {"x", "y", "z"})
+        add_column<std::int8_t>(cloud, axis, ScalarType::int8,
+                                [](std::size_t i) { return static_cast<std::int8_t>(20 * i); });
+    cloud.coordinate_columns = {0, 1, 2};
+    set_positions_from_columns(cloud);
+    std::vector<float> posed = cloud.positions;
+    posed[3] += 0.25F;
+    posed[15] += 100.5F; // beyond 127
+    for (const Format& format : known_formats()) {
+        SCOPED_TRACE(format.name);
+        const std::string name = "out" + std::string(format.extensions.front());
+        const PointCloud back = read_bytes(written(cloud, {posed, {}}, name), name);
+        ASSERT_EQ(back.size(), points);
+        for (std::size_t i = 0; i < points; ++i)
+            for (Eigen::Index axis = 0; axis < 3; ++axis)
+                EXPECT_NEAR(back.file_position(i)[axis],
+                            static_cast<double>(posed[3 * i + static_cast<std::size_t>(axis)]) +
+                                cloud.origin[axis],
+                            1e-6);
+    }
+}
+
 } // namespace
 } // namespace knead::test

@@ -90,6 +90,23 @@ ColorBy::Kind kind_of(Coloring coloring) {
     }
 }
 
+// From zero, so that what did not move is at the foot of the scale, to what 99 % of the points that moved are
+// within: a stray that went much farther than all others would leave these one colour. Of very many points
+// some tell: it is done again whenever they move.
+ValueRange range_of_displacements(const std::vector<float>& values, const Editor& editor) {
+    constexpr std::size_t enough = 1 << 16;
+    std::vector<float> moved;
+    for (std::size_t i = 0; i < values.size(); i += values.size() / enough + 1)
+        if (values[i] > 0) moved.push_back(values[i]);
+    double high = editor.opened.bounds.diagonal() / 100;
+    if (!moved.empty()) {
+        const auto last = moved.begin() + static_cast<std::ptrdiff_t>((moved.size() - 1) * 99 / 100);
+        std::ranges::nth_element(moved, last);
+        high = static_cast<double>(*last);
+    }
+    return {0, high > 0 ? high : 1};
+}
+
 } // namespace
 
 Legend color_points(const Display& display, Editor& editor, std::vector<std::uint32_t>& colors) {
@@ -102,10 +119,7 @@ Legend color_points(const Display& display, Editor& editor, std::vector<std::uin
     if (display.coloring == Coloring::displacement) {
         values = displacements(editor);
         by.title = "Displacement";
-        // From zero, so that what did not move is at the foot of the scale.
-        const double largest = values.empty() ? 0 : static_cast<double>(std::ranges::max(values));
-        const double high = largest > 0 ? largest : editor.opened.bounds.diagonal() / 100;
-        if (display.automatic_range) by.range = ValueRange{0, high > 0 ? high : 1};
+        if (display.automatic_range) by.range = range_of_displacements(values, editor);
     } else if (display.coloring == Coloring::stretch) {
         values = local_stretch(editor);
         by.title = "Local stretch";

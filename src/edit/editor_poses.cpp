@@ -29,21 +29,34 @@ bool are_alike(const std::vector<Index>& a, const std::vector<Index>& b) {
     return 4 * both.size() > std::max(a.size(), b.size());
 }
 
-// The line of a mirrored handle. Mirrored once more to where it was mirrored before, it is the one that was
-// made then.
+// Another moving handle that holds about these points; null without one.
+const Handle* moving_handle_at(const Editor& editor, const Handle& handle, const std::vector<Index>& points) {
+    const auto found = std::ranges::find_if(editor.document->handles, [&](const Handle& other) {
+        return other.name != handle.name && other.role == HandleRole::moving &&
+               are_alike(*other.points, points);
+    });
+    return found == editor.document->handles.end() ? nullptr : &*found;
+}
+
+// The line of a mirrored handle. Where a moving one is there already, mirrored before or made by hand, it is
+// that one: another would tear it in two.
 HandleLine line_of_mirrored(const Editor& editor, const Handle& handle, const std::vector<Index>& points) {
     HandleLine line = line_of(handle);
+    const auto onto = [&](const Handle& twin) {
+        line.name = twin.name;
+        line.color = twin.color;
+        line.points = ranges_of(*twin.points);
+        return line;
+    };
+    if (const Handle* twin = moving_handle_at(editor, handle, points)) return onto(*twin);
     line.color.reset(); // it has its own
     line.points = ranges_of(points);
     for (unsigned number = 1;; ++number) {
         line.name = handle.name + " mirrored" + (number > 1 ? " " + std::to_string(number) : "");
         if (is_free(editor, line.name)) return line;
-        const auto there = number_of(editor, line.name);
-        if (!there || !are_alike(*editor.document->handles[*there].points, points)) continue;
-        const Handle& twin = editor.document->handles[*there];
-        line.color = twin.color;
-        line.points = ranges_of(*twin.points);
-        return line;
+        const auto there = number_of(editor, line.name); // mirrored before, and fixed since
+        if (there && are_alike(*editor.document->handles[*there].points, points))
+            return onto(editor.document->handles[*there]);
     }
 }
 

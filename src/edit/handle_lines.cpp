@@ -1,5 +1,7 @@
 #include "edit/handle_lines.h"
 
+#include "base/quoted.h"
+
 #include <algorithm>
 #include <iterator>
 
@@ -114,6 +116,22 @@ std::vector<SessionAction> lines_for(std::span<const Handle> handles, const Hand
     if (!takes && !holds_the_same(*found, after) && std::ranges::any_of(later, shares))
         for (const Handle& handle : later) lines.emplace_back(line_of(handle));
     return lines;
+}
+
+std::string words_about(const HandleLine& line, std::span<const Handle> handles) {
+    const std::string name = quoted(line.name);
+    const auto found = std::ranges::find(handles, line.name, &Handle::name);
+    if (found == handles.end())
+        return (line.role == HandleRole::moving  ? "moving handle "
+                : line.role == HandleRole::fixed ? "fixed handle "
+                                                 : "region of interest ") +
+               name;
+    const auto* ranges = std::get_if<std::vector<IndexRange>>(&line.points);
+    const bool holds_the_same = ranges && points_in(*ranges) == *found->points && line.role == found->role &&
+                                line.free_rotation == found->free_rotation && line.falloff == found->falloff;
+    if (!holds_the_same) return name + " changed";
+    if (line.pivot != found->pivot) return "the pivot of " + name + " moved";
+    return line.color != found->color ? "another colour for " + name : std::string();
 }
 
 } // namespace knead

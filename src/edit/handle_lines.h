@@ -50,4 +50,8 @@ bool changes(std::span<const Handle> handles, const HandleEdit& edit);
 // or pivot alone leaves a handle the one that it is.
 std::vector<SessionAction> lines_for(std::span<const Handle> handles, const HandleEdit& edit);
 
+// What a line does to these handles, in a few words: makes one, or gives one that is there another pivot or
+// colour, or something else. Empty where it leaves the handle what it is, which then only comes later.
+std::string words_about(const HandleLine& line, std::span<const Handle> handles);
+
 } // namespace knead

@@ -279,7 +279,7 @@ std::vector<float> LiveWork::stretch_column() {
 }
 
 void LiveWork::carry_out_and_record(const SessionAction& line, bool joins) {
-    auto coming = recording_->coming(line, joins);
+    auto coming = recording_->coming(line, joins, document_->handles());
     carry_out_act(*document_, line, "", progress_);
     record([&] { recording_->add(std::move(coming)); });
 }

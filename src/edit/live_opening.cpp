@@ -95,11 +95,11 @@ void replay_session(const Session& session, Document& document, LiveRecording& r
             recording.note(
                 CheckLine{std::filesystem::absolute(session.resolve(check->positions)), check->tolerance});
         } else {
+            auto coming = std::holds_alternative<SettleLine>(line.action)
+                              ? recording.coming_to_last(line.action)
+                              : recording.coming(line.action, false, document.handles());
             carry_out_act(document, line.action, place, progress);
-            if (std::holds_alternative<SettleLine>(line.action))
-                recording.add(recording.coming_to_last(line.action));
-            else
-                recording.add(recording.coming(line.action, false));
+            recording.add(std::move(coming));
         }
     }
 }

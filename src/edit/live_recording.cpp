@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"
+#include "edit/handle_lines.h"
 
 #include <algorithm>
 #include <utility>
@@ -37,12 +38,8 @@ std::filesystem::path relative_to(const std::filesystem::path& path, const std::
 
 // What an act did, in a few words: one for each kind of line, so that none is forgotten.
 struct WordsAboutAct {
-    std::string operator()(const HandleLine& line) const {
-        const char* role = line.role == HandleRole::moving  ? "moving handle "
-                           : line.role == HandleRole::fixed ? "fixed handle "
-                                                            : "region of interest ";
-        return role + quoted(line.name);
-    }
+    std::span<const Handle> handles; // before it
+    std::string operator()(const HandleLine& line) const { return words_about(line, handles); }
     std::string operator()(const DragLine& line) const { return quoted(line.handle) + " posed"; }
     std::string operator()(const SettleLine& /*line*/) const { return "settled"; }
     std::string operator()(const CommitLine& /*line*/) const { return "pose committed"; }
@@ -146,10 +143,12 @@ void LiveRecording::make_room() {
     for_more(lines_, looked_back_ + 1);
 }
 
-LiveRecording::Coming LiveRecording::coming(SessionAction act, bool joins_step) {
+LiveRecording::Coming LiveRecording::coming(SessionAction act, bool joins_step,
+                                            std::span<const Handle> handles) {
     make_room();
     Act made{joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), 0,
-             std::visit(WordsAboutAct{}, act)};
+             std::visit(WordsAboutAct{handles}, act)};
+    if (made.joins && made.words.empty()) made.words = last_words();
     return {std::move(act), std::move(made)};
 }
 

@@ -3,12 +3,14 @@
 // room.
 
 #include "base/progress.h"
+#include "edit/handles.h"
 #include "edit/journal.h"
 #include "edit/journal_facts.h"
 #include "edit/session.h"
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,10 +48,10 @@ public:
     // document carries it out. Where what records it afterwards throws, only the journal lacks it, until the
     // next line is written.
 
-    // An act as it will stand here, of the step before it, or the first of a new one. The frames of a drag
-    // may still be put into its line.
+    // An act as it will stand here, of the step before it, or the first of a new one; `handles` are those
+    // before it. The frames of a drag may still be put into its line.
     class Coming;
-    Coming coming(SessionAction act, bool joins_step);
+    Coming coming(SessionAction act, bool joins_step, std::span<const Handle> handles = {});
     // One that follows from the step before it, and goes by its name: what settles, and what is chosen by
     // itself. What it says of itself may still change (SettleLine, which takes no memory).
     Coming coming_to_last(SessionAction act);

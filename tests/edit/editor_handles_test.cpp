@@ -141,6 +141,24 @@ TEST_F(BarEditor, AnotherColorLeavesThePoseAndIsAStepToUndo) {
     EXPECT_FALSE(color().has_value());
 }
 
+TEST_F(BarEditor, UndoSaysWhatOfAHandleChanged) {
+    make_handles();
+    EXPECT_EQ(words_of_undo(editor_), "moving handle \"high\"");
+    apply(editor_, ColorHandle{"high", 0x123456});
+    calm();
+    EXPECT_EQ(words_of_undo(editor_), "another colour for \"high\"");
+    apply(editor_, SetPivot{glm::dvec3(0, 0, 2)});
+    calm();
+    EXPECT_EQ(words_of_undo(editor_), "the pivot of \"high\" moved");
+    apply(editor_, ChangeHold{"high", false, 0.5});
+    calm();
+    EXPECT_EQ(words_of_undo(editor_), "\"high\" changed");
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(words_of_undo(editor_), "the pivot of \"high\" moved");
+    EXPECT_EQ(words_of_redo(editor_), "\"high\" changed");
+}
+
 TEST_F(BarEditor, ADabOfTheBrushTakesWhatIsInItsCircleOrChoosesTheHandleThatItHits) {
     editor_.camera.orthographic = true;
     apply(editor_, SelectPointUnder{pixel_of({0, 0, 0}), SelectMode::replace, 60});

@@ -52,6 +52,34 @@ TEST_F(BarEditor, MirroringAnotherPoseOntoTheSameTwinCommitsNeither) {
     EXPECT_NEAR(degrees(2), 40, 1e-7);
 }
 
+// A handle that was made by hand on the other side takes the pose; another one there would leave it a part of
+// its points, and tear the cloud between the two.
+TEST_F(BarEditor, MirroringOntoAMovingHandlePosesThatOne) {
+    editor_.camera.orthographic = true;
+    select_heights(-0.2, 0.2);
+    apply(editor_, MakeHandle{HandleRole::fixed, "middle"});
+    select_heights(-3, -2.2);
+    apply(editor_, MakeHandle{HandleRole::moving, "low"});
+    select_heights(2, 3);
+    apply(editor_, MakeHandle{HandleRole::moving, "high"});
+    calm();
+    const std::vector<Index> points = *editor_.document->handles[1].points;
+    transform_chosen('R', 'X', "40");
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    ASSERT_EQ(editor_.document->handles.size(), 3U);
+    const Handle& low = editor_.document->handles[1];
+    EXPECT_EQ(low.name, "low");
+    EXPECT_EQ(*low.points, points);
+    EXPECT_EQ(editor_.chosen, "low");
+    for (const std::size_t handle : {1U, 2U})
+        EXPECT_NEAR(Eigen::AngleAxisd(editor_.document->motions[handle].rotation).angle() * 180 / pi, 40,
+                    1e-7);
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_EQ(editor_.document->motions[1].rotation.angularDistance(Quatd::Identity()), 0);
+}
+
 // The first time the pose is committed with the twin's making, and the shape is no mirror image of itself
 // then.
 TEST_F(BarEditor, MirroringOnInABentShapeTakesTheTwinThatIsThere) {

@@ -43,6 +43,10 @@ bool moving_handle_and_selection_are_there(const Ui& ui) {
 bool something_is_posed(const Ui& ui) {
     return ui.has_cloud() && ui.editor.document->posed;
 }
+bool something_was_done(const Ui& ui) {
+    return ui.state.as_opened ||
+           (ui.has_cloud() && (something_is_posed(ui) || ui.editor.document->undoable_steps > 0));
+}
 bool samples_are_there(const Ui& ui) {
     return ui.has_cloud() && ui.editor.document->sample_vertices != nullptr;
 }
@@ -343,6 +347,12 @@ const Action view_actions[] = {
     {"View/Upward axis", "-Y", "",
      "y points down and z to the back, as depth cameras and photogrammetry have it", std::nullopt,
      turn_up<UpAxis::minus_y>, cloud_is_open, is_up<UpAxis::minus_y>},
+    {"View", "As it was opened", "O",
+     "Shows the cloud as it was before all edits, to compare; again, or as soon as something is done to it: "
+     "as "
+     "it is",
+     on('O'), [](const Ui& ui) { ui.state.as_opened = !ui.state.as_opened; }, something_was_done,
+     [](const Ui& ui) { return ui.state.as_opened; }},
     {"View", "Larger points", "+", "Draws the points larger", repeating(on('=')), resize_points<1>,
      cloud_is_open, nullptr, true},
     {"View", "Smaller points", "-", "Draws the points smaller", repeating(on('-')), resize_points<-1>,

@@ -107,6 +107,15 @@ void draw_amount(const Ui& ui) {
     pill(ui, *ImGui::GetForegroundDrawList(), {x, y}, words, palette::text, palette::rgb(0x15171a, 225));
 }
 
+// All else of the overlay is where the cloud is now.
+void draw_compared(const Ui& ui, ImDrawList& list) {
+    const std::string words = "As it was opened  ·  O: as it is now";
+    const Rectangle& view = ui.state.view;
+    const float width = ImGui::CalcTextSize(words.c_str()).x + ui.scaled(18);
+    pill(ui, list, {view.x + (view.width - width) / 2, view.y + ui.scaled(14)}, words, palette::accent,
+         palette::rgb(0x15171a, 225));
+}
+
 // --- The selection in the making ---
 
 ImU32 band_color(SelectMode mode) {
@@ -210,12 +219,16 @@ void draw_overlay(const Ui& ui) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const Rectangle& view = ui.state.view;
     list.PushClipRect({view.x, view.y}, {view.x + view.width, view.y + view.height});
-    draw_constraint(ui, list);
-    draw_handle_names(ui, list);
-    draw_gizmo(ui, list);
-    draw_few_selected(ui, list);
-    draw_band(ui, list);
-    draw_brush(ui, list);
+    if (ui.state.as_opened) {
+        draw_compared(ui, list);
+    } else {
+        draw_constraint(ui, list);
+        draw_handle_names(ui, list);
+        draw_gizmo(ui, list);
+        draw_few_selected(ui, list);
+        draw_band(ui, list);
+        draw_brush(ui, list);
+    }
     draw_axes(ui, list);
     list.PopClipRect();
     draw_amount(ui);

@@ -39,6 +39,8 @@ struct Scene::State {
     std::unique_ptr<DrawnPoints> drawn = std::make_unique<DrawnPoints>();
     bool drawn_is_newest = false; // nobody else wrote positions since
     bool drawing_failed = false;  // once is enough
+    // The renderer has the points as they were opened, and the steps that there were then.
+    std::optional<std::pair<std::size_t, std::size_t>> compared_at;
     EstimatedNormals estimated;
     std::vector<float> estimated_normals; // that the renderer has
     bool lit = false;                     // by them
@@ -46,6 +48,7 @@ struct Scene::State {
     std::vector<std::uint32_t> colors;
 
     void begin_cloud(const Editor& editor, Display& display);
+    void compare(const Editor& editor, UiState& state);
     void take_positions(const Editor& editor, UiState& state);
     void upload(const PosedFrame& frame);
     bool move_where_drawn(const PosedFrame& frame, UiState& state);
@@ -103,6 +106,7 @@ void Scene::State::begin_cloud(const Editor& editor, Display& display) {
     // What the colours told was of the cloud before.
     display.coloring = Display().coloring;
     display.automatic_range = true;
+    compared_at.reset();
     drawn = std::make_unique<DrawnPoints>(); // the buffers become others
     drawn_is_newest = false;
     renderer.set_points(editor.marks.size(), editor.opened.spacing);
@@ -123,6 +127,28 @@ void Scene::State::take_positions(const Editor& editor, UiState& state) {
         return; // the points come with the next frame
     version = editor.frame.version;
     if (follows_pose(state.display.coloring)) colored.reset();
+}
+
+// Shows the cloud as it was opened for as long as it is asked for, and nothing is done to it: whoever selects
+// or moves has to see what there is.
+void Scene::State::compare(const Editor& editor, UiState& state) {
+    const DocumentView& document = *editor.document;
+    const std::pair steps(document.undoable_steps, document.redoable_steps);
+    const bool is_used = editor.tools.drag || editor.tools.doing == Tools::Doing::selecting;
+    if (is_used || editor.changes.cloud || editor.changes.marks || steps != compared_at.value_or(steps))
+        state.as_opened = false;
+    if (state.as_opened == compared_at.has_value()) return;
+    version = 0; // all of the frame's points are others
+    drawn_is_newest = false;
+    if (state.as_opened) {
+        const RestShape& opened = *editor.opened.opened;
+        renderer.set_positions(opened.positions);
+        if (!opened.normals.empty()) renderer.set_normals(opened.normals);
+        compared_at = steps;
+    } else {
+        compared_at.reset();
+        take_positions(editor, state);
+    }
 }
 
 void Scene::State::upload(const PosedFrame& frame) {
@@ -219,7 +245,9 @@ void Scene::take_in(Editor& editor, UiState& state) {
     if (!editor.document) return;
     State& own = *state_;
     if (editor.changes.cloud) own.begin_cloud(editor, state.display);
-    if (editor.changes.cloud || editor.changes.positions) own.take_positions(editor, state);
+    own.compare(editor, state);
+    if (!own.compared_at && (editor.changes.cloud || editor.changes.positions))
+        own.take_positions(editor, state);
     own.take_marks(editor);
     editor.changes = {false, false, false};
     own.take_looks(editor, state);

@@ -206,6 +206,7 @@ struct UiState : UiOfDocument {
     bool show_panels = true;
     MenuWalk menus;
     bool full_screen = false;          // asked for
+    bool as_opened = false;            // the cloud is shown as it was before all edits, to compare
     bool ask_unsaved = false;          // the dialog is to be opened
     bool choose_samples = true;        // by themselves, of the next cloud; remembered
     std::uint64_t some_samples = 1000; // the number there was last, for after All

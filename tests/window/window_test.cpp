@@ -106,6 +106,15 @@ protected:
         pause(0.3);
     }
 
+    // What the view shows. `name`: without ".png" or with it, which is added.
+    void save_picture(const std::string& name) {
+        desktop_->move(640, 600); // off the menus
+        desktop_->keys({"F10", "Up", "Up", "Up", "Up", "Return"});
+        pause(1);
+        desktop_->type(name);
+        desktop_->keys({"Return"});
+    }
+
     void expect_equal_shapes(const std::filesystem::path& session, const std::filesystem::path& saved) {
         const std::string replayed = (folder_ / "replayed.ply").string();
         const Outcome replay = run_knead({"replay", session.string(), "--out", replayed});
@@ -362,13 +371,6 @@ TEST_F(WindowTest, TheRightButtonOpensAMenuOfWhatIsUnderTheCursor) {
 TEST_F(WindowTest, SavesAPictureOfTheViewAndGoesOn) {
     open_cat();
     desktop_->keys({"3", "Home"});
-    const auto save_picture = [&](const std::string& name) {
-        desktop_->move(640, 600); // off the menus
-        desktop_->keys({"F10", "Up", "Up", "Up", "Up", "Return"});
-        pause(1);
-        desktop_->type(name);
-        desktop_->keys({"Return"});
-    };
     const std::filesystem::path file = folder_ / "view.png";
     save_picture((folder_ / "view").string());
     ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(file); }))
@@ -406,6 +408,33 @@ TEST_F(WindowTest, SavesAPictureOfTheViewAndGoesOn) {
     EXPECT_EQ(read_text(folder_ / "same.ply"), read_text(folder_ / "cat.ply"));
     desktop_->keys({"ctrl+q"});
     EXPECT_EQ(editor_.exit_code(20), 0) << read_text(folder_ / "editor.log");
+}
+
+TEST_F(WindowTest, ShowsTheCloudAsItWasOpenedUntilItIsMovedOn) {
+    turn_a_cats_head();
+    const auto seen = [&](const char* name) {
+        const std::filesystem::path file = folder_ / name;
+        pause(1);
+        save_picture(file.string());
+        EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(file); })) << name;
+        pause(0.5);
+        return read_text(file);
+    };
+    const std::string posed = seen("posed.png");
+    desktop_->keys({"o"});
+    const std::string opened = seen("opened.png");
+    EXPECT_NE(opened, posed);
+    desktop_->keys({"o"});
+    EXPECT_EQ(seen("again.png"), posed);
+    desktop_->keys({"o"});
+    pause(0.5);
+    desktop_->move(500, 300);
+    desktop_->keys({"r", "2", "0", "Return"});
+    ASSERT_TRUE(wait_for_act("drag", 2));
+    const std::string on = seen("on.png");
+    EXPECT_NE(on, opened);
+    EXPECT_NE(on, posed);
+    EXPECT_EQ(acts("undo"), 0U);
 }
 
 TEST_F(WindowTest, ANameThatCannotBeSavedStaysToBeMended) {

@@ -98,12 +98,14 @@ ValueRange range_of_displacements(const std::vector<float>& values, const Editor
     std::vector<float> moved;
     for (std::size_t i = 0; i < values.size(); i += values.size() / enough + 1)
         if (values[i] > 0) moved.push_back(values[i]);
-    double high = editor.opened.bounds.diagonal() / 100;
+    // So small a part may have moved that none of it was met.
+    double high = values.empty() ? 0 : static_cast<double>(std::ranges::max(values));
     if (!moved.empty()) {
-        const auto last = moved.begin() + static_cast<std::ptrdiff_t>((moved.size() - 1) * 99 / 100);
+        const auto last = moved.begin() + static_cast<std::ptrdiff_t>((99 * moved.size() + 99) / 100 - 1);
         std::ranges::nth_element(moved, last);
         high = static_cast<double>(*last);
     }
+    if (!(high > 0)) high = editor.opened.bounds.diagonal() / 100;
     return {0, high > 0 ? high : 1};
 }
 

@@ -117,7 +117,7 @@ void type(const Ui& ui, const ChosenPose& pose, Field field, double value) {
     if (field.row == PoseRow::scaled && value < least_factor)
         return refuse(ui, "A handle is scaled by %g at least.", least_factor);
     const Transform transform = transform_for(ui, pose, field, value);
-    if (std::abs(transform.angle) > most_turned)
+    if (!(std::abs(transform.angle) <= most_turned)) // nor by what is no number
         return refuse(ui, "At once a handle turns by %.0f° at most.", most_turned * 180 / std::numbers::pi);
     if (does_nothing(transform)) return;
     if (moves_pivot(ui, field)) return ui.tell(SetPivot{transformed(transform, pose.pivot)});

@@ -11,6 +11,7 @@ namespace knead {
 namespace {
 
 constexpr double of_turns = 0.1;    // λ
+constexpr double usual = 0.03;      // κ; of most samples it is 0.03 to 0.1
 constexpr double least_share = 0.5; // q, below which λ/q⁴ leaves next to nothing to be fitted
 constexpr int steps = 2;
 constexpr std::size_t rows_a_task = 16;
@@ -79,7 +80,8 @@ void prepare_fit(SampleSystem& system) {
     for (std::size_t row = 0; row < rows; ++row) {
         const Mat3d block = own_block(energy, system.free_sample[row]);
         if (!(block.trace() > 0)) continue; // no point tells
-        fit.preference[row] = preference * block.trace();
+        fit.preference[row] =
+            preference * std::max(block.trace(), usual * energy.spread[system.free_sample[row]].trace());
         fit.inverse[row] = (block + fit.preference[row] * Mat3d::Identity()).inverse();
     }
 }

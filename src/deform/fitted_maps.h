@@ -7,13 +7,17 @@
 // them has a share in these. So maps are fitted to the points: with all places and turns as they are, those
 // make
 //
-//     Σ ω |D - M̅ P|² + Σ_t λ_t |A_t - A⁰_t|²,    λ_t = λ/(3 q⁴) tr Σ ω H_t H_tᵀ,    A⁰ = R (q S + (1 - q) U)
+//     Σ ω |D - M̅ P|² + Σ_t λ_t |A_t - A⁰_t|²,    A⁰ = R (q S + (1 - q) U),
+//     λ_t = λ/(3 q⁴) max(tr Σ ω H_t H_tᵀ, κ tr Σ 2ω v_t P)
 //
 // least: the energy of the points, and a preference for what maps are without it where no point tells. q is
 // the share that this energy has of the whole (share_of_points(), and less for soft sheets). Where it fades,
 // maps go over to what links say of the stretch around each sample, U; and sooner, by q⁴, since where but one
 // point or two lie between samples these have maps that no point holds (a wire of 60 points, 40 of them
-// samples, folded when it was pressed). With A = A⁰ + X the X of all samples that turn by themselves solve
+// samples, folded when it was pressed). κ is what the first is of the second for most samples, or less: one
+// that moves hardly any point but its own has next to nothing of the first, and a map that is anything, which
+// flings outliers that hang there out of the cloud. With A = A⁰ + X the X of all samples that turn by
+// themselves solve
 //
 //     Σ_s X_s Σ ω H_s H_tᵀ + λ_t X_t = Σ_s M_s Σ ω v_s P H_tᵀ - A⁰_s Σ ω H_s H_tᵀ - u_s (Σ ω H_t g_s)ᵀ,
 //

@@ -47,7 +47,7 @@ std::vector<Contact> all_contacts(std::span<const float> positions, const Compon
 }
 
 // How many of a part's contacts count.
-std::size_t counted(std::size_t vertices) {
+std::size_t contacts_that_count(std::size_t vertices) {
     return std::min(vertices, std::max(fewest_contacts, vertices / contact_share));
 }
 
@@ -67,7 +67,7 @@ Contacts find_contacts(std::span<const float> positions, const Components& compo
     for (auto begin = contacts.begin(); begin != contacts.end();) {
         const auto end = std::find_if(begin, contacts.end(),
                                       [&](const Contact& other) { return other.part != begin->part; });
-        const std::size_t count = counted(static_cast<std::size_t>(end - begin));
+        const std::size_t count = contacts_that_count(static_cast<std::size_t>(end - begin));
         const std::size_t step = (count + most_contacts - 1) / most_contacts;
         for (std::size_t i = 0; i < count; i += step)
             result.vertex.push_back((begin + static_cast<std::ptrdiff_t>(i))->other);

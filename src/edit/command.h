@@ -75,7 +75,9 @@ struct DeleteHandle {
 struct ResetPose {
     std::string handle;
 };
-struct MirrorHandle { // the points on the other side of the cloud, and the pose mirrored; a new handle
+// The pose mirrored, for the moving handle that holds the points on the other side of the cloud, which else
+// become one.
+struct MirrorHandle {
     std::string handle;
     int axis = 1; // the normal of the plane through the middle of the cloud: 0 x, 1 y, 2 z
 };

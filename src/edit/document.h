@@ -269,7 +269,7 @@ private:
     std::vector<std::shared_ptr<Committed>> kept_shapes_; // those with a shape, the oldest first
     std::vector<std::shared_ptr<Posed>> kept_samples_;    // and with samples
     std::optional<UnderWay> under_way_;
-    bool posed_is_now_ = false; // whether the pipeline's posed points are those of now_
+    bool posed_is_now_ = false; // whether the pipeline's posed points are the present ones
     std::shared_ptr<const DeviceFrame> drawn_frame_;
     FrameLog log_;
 };

@@ -21,43 +21,59 @@ std::string words_about(const MirrorPlane& plane, double place) {
                                               : ", where the cloud is most like its mirror image");
 }
 
-// Whether a good part of these are the same points; both ascend. The shape that a handle was mirrored in may
-// have been bent since, and the plane lie elsewhere.
-bool are_alike(const std::vector<Index>& a, const std::vector<Index>& b) {
+std::size_t common_points(const std::vector<Index>& a, const std::vector<Index>& b) { // both ascend
     std::vector<Index> both;
     std::ranges::set_intersection(a, b, std::back_inserter(both));
-    return 4 * both.size() > std::max(a.size(), b.size());
+    return both.size();
 }
 
-// Another moving handle that holds about these points; null without one.
-const Handle* moving_handle_at(const Editor& editor, const Handle& handle, const std::vector<Index>& points) {
-    const auto found = std::ranges::find_if(editor.document->handles, [&](const Handle& other) {
-        return other.name != handle.name && other.role == HandleRole::moving &&
-               are_alike(*other.points, points);
-    });
-    return found == editor.document->handles.end() ? nullptr : &*found;
+// Whether a good part of these are the same points. The shape that a handle was mirrored in may have been
+// bent since, and the plane lie elsewhere.
+bool are_alike(const std::vector<Index>& a, const std::vector<Index>& b) {
+    return 4 * common_points(a, b) > std::max(a.size(), b.size());
 }
 
-// The line of a mirrored handle. Where a moving one is there already, mirrored before or made by hand, it is
-// that one: another would tear it in two.
+// The moving handle that holds most of these points, where they are about its own and it shares fewer with
+// the one that is mirrored; null without one.
+const Handle* moving_handle_at(const Editor& editor, const Handle& mirrored,
+                               const std::vector<Index>& points) {
+    const Handle* found = nullptr;
+    std::size_t most = 0;
+    for (const Handle& other : editor.document->handles) {
+        if (other.name == mirrored.name || other.role != HandleRole::moving) continue;
+        const std::size_t common = common_points(*other.points, points);
+        if (common <= most || !are_alike(*other.points, points)) continue;
+        if (common <= common_points(*other.points, *mirrored.points)) continue;
+        most = common;
+        found = &other;
+    }
+    return found;
+}
+
+// The line of a mirrored handle that is to be made. Mirrored once more to where it was mirrored before, and
+// no moving one is since, it is the one that was made then.
 HandleLine line_of_mirrored(const Editor& editor, const Handle& handle, const std::vector<Index>& points) {
     HandleLine line = line_of(handle);
-    const auto onto = [&](const Handle& twin) {
-        line.name = twin.name;
-        line.color = twin.color;
-        line.points = ranges_of(*twin.points);
-        return line;
-    };
-    if (const Handle* twin = moving_handle_at(editor, handle, points)) return onto(*twin);
     line.color.reset(); // it has its own
     line.points = ranges_of(points);
     for (unsigned number = 1;; ++number) {
         line.name = handle.name + " mirrored" + (number > 1 ? " " + std::to_string(number) : "");
         if (is_free(editor, line.name)) return line;
-        const auto there = number_of(editor, line.name); // mirrored before, and fixed since
-        if (there && are_alike(*editor.document->handles[*there].points, points))
-            return onto(editor.document->handles[*there]);
+        const auto there = number_of(editor, line.name);
+        if (!there || !are_alike(*editor.document->handles[*there].points, points)) continue;
+        const Handle& twin = editor.document->handles[*there];
+        line.color = twin.color;
+        line.points = ranges_of(*twin.points);
+        return line;
     }
+}
+
+// Where a handle's pivot goes when it leaves one motion for another; nothing: it has none of its own.
+std::optional<Vec3d> pivot_after(const Editor& editor, const std::string& handle, const HandleMotion& before,
+                                 const HandleMotion& after) {
+    const auto pivot = pivot_of(editor, handle);
+    if (!pivot) return std::nullopt;
+    return after.linear * point_at_rest(before, to_eigen(*pivot)) + after.offset;
 }
 
 // Where the points are in this edit while no handle is moved.
@@ -97,14 +113,31 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
                        " would be mirrored to.");
     if (!plane.is_middle)
         say(editor, Notice::Kind::information, "Mirrored across " + words_about(plane, place) + ".");
+    const bool moves = handle.role == HandleRole::moving;
     const HandleMotion motion = motion_now(editor, *number);
-    HandleLine line = line_of_mirrored(editor, handle, points);
-    const auto pivot = pivot_of(editor, command.handle);
-    const auto over_there = [&](const Vec3d& p) { return mirrored(p, plane, across.shift); };
-    line.pivot = std::nullopt;
-    if (pivot) line.pivot = over_there(point_at_rest(motion, to_eigen(*pivot))) + editor.opened.cloud->origin;
+    const bool is_posed = moves && leaves_rest(motion);
+    const Handle* const twin = moves ? moving_handle_at(editor, handle, points) : nullptr;
+    if (moves && !is_posed)
+        say(editor, Notice::Kind::information,
+            (twin ? "There is no pose to mirror: " : "Only the handle was mirrored: ") + quoted(handle.name) +
+                " is where it was at rest" + (twin ? "." : ", so there is no pose to mirror."));
+    if (twin && !is_posed) return choose(editor, twin->name);
+
+    HandleLine line = twin ? line_of(*twin) : line_of_mirrored(editor, handle, points);
     const std::string name = line.name;
-    if (handle.role == HandleRole::moving && leaves_rest(motion)) {
+    const auto across_plane = [&](const Vec3d& p) { return mirrored(p, plane, across.shift); };
+    std::optional<Vec3d> pivot; // where it is when all is done
+    if (twin && twin->pivot) {
+        pivot = pivot_after(editor, name, motion_now(editor, *number_of(editor, name)),
+                            mirrored(motion, plane, across.shift));
+    } else {
+        line.pivot.reset();
+        if (const auto own = pivot_of(editor, command.handle)) {
+            pivot = across_plane(to_eigen(*own));
+            line.pivot = across_plane(point_at_rest(motion, to_eigen(*own))) + editor.opened.cloud->origin;
+        }
+    }
+    if (is_posed) {
         PoseOfAnother pose{handle.name,
                            [=](const HandleMotion& seen) { return mirrored(seen, plane, across.shift); }};
         EditorStep step = coming_step(editor, ++editor.last_step);
@@ -112,13 +145,8 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
         add_step(editor, std::move(step));
     } else {
         post_step(editor, {std::move(line)});
-        if (handle.role == HandleRole::moving)
-            say(editor, Notice::Kind::information,
-                "Only the handle was mirrored: " + quoted(handle.name) +
-                    " is where it was at rest, so there is no pose to mirror.");
     }
-    put_pivot_with(editor.past.back(), editor, name,
-                   pivot ? std::optional(to_glm(over_there(to_eigen(*pivot)))) : std::nullopt);
+    put_pivot_with(editor.past.back(), editor, name, pivot ? std::optional(to_glm(*pivot)) : std::nullopt);
     editor.posted_names.emplace_back(editor.last_step, name);
     choose_with_step(editor, name);
 }

@@ -126,9 +126,14 @@ std::string words_about(const HandleLine& line, std::span<const Handle> handles)
                 : line.role == HandleRole::fixed ? "fixed handle "
                                                  : "region of interest ") +
                name;
+    const auto are_equal = [](const IndexRange& a, const IndexRange& b) {
+        return a.first == b.first && a.last == b.last;
+    };
+    // Nobody has looked yet at how many points they claim to be.
     const auto* ranges = std::get_if<std::vector<IndexRange>>(&line.points);
-    const bool holds_the_same = ranges && points_in(*ranges) == *found->points && line.role == found->role &&
-                                line.free_rotation == found->free_rotation && line.falloff == found->falloff;
+    const bool holds_the_same = ranges && std::ranges::equal(*ranges, ranges_of(*found->points), are_equal) &&
+                                line.role == found->role && line.free_rotation == found->free_rotation &&
+                                line.falloff == found->falloff;
     if (!holds_the_same) return name + " changed";
     if (line.pivot != found->pivot) return "the pivot of " + name + " moved";
     return line.color != found->color ? "another colour for " + name : std::string();

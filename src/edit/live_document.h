@@ -208,7 +208,8 @@ public:
     // handle has none of its own. Else as edit_handle().
     void put_pivot(StepNumber step, std::string handle, std::optional<Vec3d> place);
 
-    // Makes a handle, whose line has points, and poses it like another one.
+    // Makes a handle, whose line has points, or takes the one that it declares as it is, and poses it like
+    // another one.
     void make_posed(StepNumber step, HandleLine line, PoseOfAnother pose);
 
     // Whether the number of samples is chosen by itself from here on. That happens after an act that leaves

@@ -77,7 +77,7 @@ void LiveWork::carry_out(task::EndDrag& task) {
 // What was followed becomes an act, or nothing of it stays: in either case the drag is over.
 void LiveWork::take_drag() {
     try {
-        auto coming = recording_->coming(DragLine{drag_->handle, drag_->pivot, {}}, false);
+        auto coming = recording_->coming(DragLine{drag_->handle, drag_->pivot, {}}, false, {});
         coming.line = document_->end_drag();
         record([&] { recording_->add(std::move(coming)); });
     } catch (...) {

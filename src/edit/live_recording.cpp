@@ -148,7 +148,7 @@ LiveRecording::Coming LiveRecording::coming(SessionAction act, bool joins_step,
     make_room();
     Act made{joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), 0,
              std::visit(WordsAboutAct{handles}, act)};
-    if (made.joins && made.words.empty()) made.words = last_words();
+    if (made.words.empty()) made.words = made.joins ? last_words() : "a handle as it was";
     return {std::move(act), std::move(made)};
 }
 

@@ -51,7 +51,7 @@ public:
     // An act as it will stand here, of the step before it, or the first of a new one; `handles` are those
     // before it. The frames of a drag may still be put into its line.
     class Coming;
-    Coming coming(SessionAction act, bool joins_step, std::span<const Handle> handles = {});
+    Coming coming(SessionAction act, bool joins_step, std::span<const Handle> handles);
     // One that follows from the step before it, and goes by its name: what settles, and what is chosen by
     // itself. What it says of itself may still change (SettleLine, which takes no memory).
     Coming coming_to_last(SessionAction act);

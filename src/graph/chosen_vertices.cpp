@@ -1,10 +1,12 @@
 #include "graph/chosen_vertices.h"
 
 #include "base/require.h"
-#include "graph/bridges.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace knead {
 
@@ -12,10 +14,27 @@ namespace {
 
 constexpr std::size_t vertices_a_chunk = 4096;
 
-// Of the vertices of a chunk, or before it. Whole numbers: sums are exact.
+bool is_left_out(std::span<const std::uint8_t> left_out, std::size_t vertex) {
+    return !left_out.empty() && left_out[vertex] != 0;
+}
+
+// Of some vertices. Whole numbers: sums are exact.
 struct Amount {
     std::uint64_t area = 0, vertices = 0;
+
+    void operator+=(const Amount& other) {
+        area += other.area;
+        vertices += other.vertices;
+    }
+    friend Amount operator+(Amount a, const Amount& b) {
+        a += b;
+        return a;
+    }
 };
+
+// By how many bits an area has. (A mean square of lengths of 8 bits, and its fractions, has 20 at most.)
+constexpr std::size_t octaves = 21;
+using ByOctave = std::array<Amount, octaves>;
 
 // The mean square of the lengths of a vertex's links, in fractions of a square level; at least 1 of these.
 std::uint64_t area_at(const Graph& graph, std::span<const std::uint8_t> lengths, Index v) {
@@ -24,6 +43,21 @@ std::uint64_t area_at(const Graph& graph, std::span<const std::uint8_t> lengths,
     std::uint64_t sum = 0;
     for (Index link = first; link < end; ++link) sum += std::uint64_t{lengths[link]} * lengths[link];
     return std::max<std::uint64_t>(1, fractions * sum / std::max<Index>(1, end - first));
+}
+
+// The area that one of `count` stands for, those left aside that have more of it anyway and stand for
+// themselves.
+double step_for(const ByOctave& all, Amount left, std::size_t count) {
+    auto chosen = static_cast<double>(count);
+    const auto step = [&] { return static_cast<double>(left.area) / chosen; };
+    for (std::size_t octave = octaves - 1; octave > 0; --octave) {
+        const double least = std::ldexp(1.0, static_cast<int>(octave) - 1);
+        const Amount& large = all[octave];
+        if (least < step() || static_cast<double>(large.vertices) >= chosen) break;
+        chosen -= static_cast<double>(large.vertices);
+        left.area -= large.area;
+    }
+    return step();
 }
 
 // Chooses as if the areas lay one behind the other: where another `step` ends.
@@ -47,11 +81,11 @@ private:
     double step_, steps_;
 };
 
-ChosenVertices all_but(std::span<const std::uint8_t> hanging, std::size_t vertices) {
+ChosenVertices all_but(std::span<const std::uint8_t> left_out, std::size_t vertices) {
     ChosenVertices chosen;
     chosen.vertex.reserve(vertices);
     for (Index v = 0; v < vertices; ++v)
-        if (!hangs(hanging, v)) chosen.vertex.push_back(v);
+        if (!is_left_out(left_out, v)) chosen.vertex.push_back(v);
     chosen.each.assign(chosen.vertex.size(), 1.0);
     return chosen;
 }
@@ -69,32 +103,38 @@ ChosenVertices choose_by_number(std::size_t vertices, std::size_t count) {
 }
 
 ChosenVertices choose_by_area(const Graph& graph, std::span<const std::uint8_t> lengths,
-                              std::span<const std::uint8_t> hanging, std::size_t count, Workers& workers) {
+                              std::span<const std::uint8_t> left_out, std::size_t count, Workers& workers) {
     require(lengths.size() == graph.neighbor.size(), "a length a link");
     const std::size_t vertices = graph.size();
-    if (vertices <= count) return all_but(hanging, vertices);
-    std::vector<Amount> before((vertices + vertices_a_chunk - 1) / vertices_a_chunk + 1);
+    if (vertices <= count) return all_but(left_out, vertices);
+    std::vector<std::uint64_t> before((vertices + vertices_a_chunk - 1) / vertices_a_chunk + 1);
+    std::vector<ByOctave> of_chunk(before.size() - 1);
     workers.for_chunks(vertices, vertices_a_chunk, [&](std::size_t begin, std::size_t end) {
-        Amount& amount = before[begin / vertices_a_chunk + 1];
+        ByOctave& amounts = of_chunk[begin / vertices_a_chunk];
         for (auto v = static_cast<Index>(begin); v < end; ++v) {
-            if (hangs(hanging, v)) continue;
-            amount.area += area_at(graph, lengths, v);
-            ++amount.vertices;
+            if (is_left_out(left_out, v)) continue;
+            const std::uint64_t area = area_at(graph, lengths, v);
+            amounts[static_cast<std::size_t>(std::bit_width(area))] += {area, 1};
         }
     });
-    for (std::size_t chunk = 1; chunk < before.size(); ++chunk) {
-        before[chunk].area += before[chunk - 1].area;
-        before[chunk].vertices += before[chunk - 1].vertices;
+    ByOctave all{};
+    for (std::size_t chunk = 0; chunk < of_chunk.size(); ++chunk) {
+        before[chunk + 1] = before[chunk];
+        for (std::size_t octave = 0; octave < octaves; ++octave) {
+            all[octave] += of_chunk[chunk][octave];
+            before[chunk + 1] += of_chunk[chunk][octave].area;
+        }
     }
-    if (before.back().vertices <= count) return all_but(hanging, vertices);
+    const Amount whole = std::accumulate(all.begin(), all.end(), Amount{});
+    if (whole.vertices <= count) return all_but(left_out, vertices);
 
-    const double step = static_cast<double>(before.back().area) / static_cast<double>(count);
-    std::vector<ChosenVertices> parts(count > 0 ? before.size() - 1 : 0);
+    const double step = step_for(all, whole, count);
+    std::vector<ChosenVertices> parts(count > 0 ? of_chunk.size() : 0);
     workers.for_each(parts.size(), 1, [&](std::size_t chunk) {
-        Chooser chooser(before[chunk].area, step);
+        Chooser chooser(before[chunk], step);
         const std::size_t end = std::min((chunk + 1) * vertices_a_chunk, vertices);
         for (auto v = static_cast<Index>(chunk * vertices_a_chunk); v < end; ++v)
-            if (!hangs(hanging, v)) chooser.pass(v, area_at(graph, lengths, v), parts[chunk]);
+            if (!is_left_out(left_out, v)) chooser.pass(v, area_at(graph, lengths, v), parts[chunk]);
     });
     ChosenVertices chosen;
     chosen.all = false;

@@ -16,7 +16,7 @@ double length_of(const Graph& graph, std::span<const float> positions, std::size
     return (point_at(positions, v) - point_at(positions, graph.neighbor[link])).norm();
 }
 
-// The median length of a link, over at most some ten thousand of them, evenly chosen.
+// The median length of a link, over those of at most 4096 vertices, evenly chosen.
 double median_length(const Graph& graph, std::span<const float> positions) {
     std::vector<double> lengths;
     const std::size_t stride = graph.size() / 4096 + 1;

@@ -6,6 +6,7 @@
 #include "io/text_numbers.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace knead {
 
@@ -22,10 +23,18 @@ std::vector<AddedColumn> with_free_names(const PointCloud& cloud, std::vector<Ad
 
 namespace {
 
-// Whole coordinates that a pose changes have fractions then: as a type that holds both.
+// Whole coordinates that a pose changes have fractions then: as a type that holds both. There is none for 8
+// bytes.
 ScalarType type_with_fractions(ScalarType type) {
-    if (!is_whole(type)) return type;
+    if (!is_whole(type) || size_of(type) == 8) return type;
     return size_of(type) <= 2 ? ScalarType::float32 : ScalarType::float64;
+}
+
+bool is_changed(const PosedColumn& coordinate, std::size_t points) {
+    for (std::size_t i = 0; i < points; ++i)
+        if (coordinate.posed[3 * i] != coordinate.rest[3 * i] && std::isfinite(coordinate.rest[3 * i]))
+            return true;
+    return false;
 }
 
 } // namespace
@@ -37,7 +46,8 @@ ColumnsToWrite columns_to_write(const PointCloud& cloud, const PosedShape& shape
     for (const Attribute& attribute : cloud.attributes)
         all.columns.push_back({attribute.name, attribute.type, &attribute, nullptr, nullptr});
     for (PosedColumn& column : all.posed) {
-        if (column.rest != nullptr) column.type = type_with_fractions(column.type);
+        if (column.rest != nullptr && is_whole(column.type) && is_changed(column, cloud.size()))
+            column.type = type_with_fractions(column.type);
         all.columns[column.column].posed = &column;
         all.columns[column.column].type = column.type;
     }

@@ -90,10 +90,11 @@ std::vector<NewField> new_fields(const std::vector<NewColumn>& columns, std::vec
 void remark_on_wide_coordinates(const std::vector<NewColumn>& columns, const PointCloud& cloud,
                                 std::vector<std::string>& left_out) {
     for (const std::size_t column : cloud.coordinate_columns)
-        if (columns[column].type != ScalarType::float32) {
-            left_out.push_back(
-                "coordinates are written as " + std::string(name_of(columns[column].type)) +
-                ", as the cloud has them; programs of the Point Cloud Library take only float32");
+        if (const ScalarType type = columns[column].type; type != ScalarType::float32) {
+            const bool is_own = type == columns[column].attribute->type;
+            left_out.push_back("coordinates are written as " + std::string(name_of(type)) +
+                               (is_own ? ", as the cloud has them" : ", for the fractions of the pose") +
+                               "; programs of the Point Cloud Library take only float32");
             return;
         }
 }

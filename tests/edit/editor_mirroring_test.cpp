@@ -63,21 +63,67 @@ TEST_F(BarEditor, MirroringOntoAMovingHandlePosesThatOne) {
     select_heights(2, 3);
     apply(editor_, MakeHandle{HandleRole::moving, "high"});
     calm();
-    const std::vector<Index> points = *editor_.document->handles[1].points;
+    apply(editor_, ChangeHold{"low", false, 0.3}); // which makes it the last one
+    calm();
+    const std::vector<Index> points = *editor_.document->handles[2].points;
+    apply(editor_, ChooseHandle{"high"});
     transform_chosen('R', 'X', "40");
     apply(editor_, MirrorHandle{"high", 2});
     calm();
     ASSERT_EQ(editor_.document->handles.size(), 3U);
-    const Handle& low = editor_.document->handles[1];
+    const Handle& low = editor_.document->handles[2];
     EXPECT_EQ(low.name, "low");
     EXPECT_EQ(*low.points, points);
+    EXPECT_EQ(low.falloff, 0.3) << "it holds as it did";
     EXPECT_EQ(editor_.chosen, "low");
     for (const std::size_t handle : {1U, 2U})
         EXPECT_NEAR(Eigen::AngleAxisd(editor_.document->motions[handle].rotation).angle() * 180 / pi, 40,
                     1e-7);
     apply(editor_, UndoStep{});
     calm();
-    EXPECT_EQ(editor_.document->motions[1].rotation.angularDistance(Quatd::Identity()), 0);
+    EXPECT_EQ(editor_.document->motions[2].rotation.angularDistance(Quatd::Identity()), 0);
+}
+
+// One that holds fast is no pose for another, and what lies across at rest has none to give.
+TEST_F(BarEditor, MirroringWithoutAPoseLeavesAMovingHandleThere) {
+    editor_.camera.orthographic = true;
+    select_heights(-3, -2);
+    apply(editor_, MakeHandle{HandleRole::moving, "low"});
+    select_heights(2, 3);
+    apply(editor_, MakeHandle{HandleRole::moving, "high"});
+    calm();
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    EXPECT_EQ(editor_.document->handles.size(), 2U);
+    EXPECT_EQ(editor_.chosen, "low");
+    EXPECT_NE(editor_.notices.back().words.find("There is no pose to mirror"), std::string::npos);
+    apply(editor_, ChangeRole{"high", HandleRole::fixed});
+    calm();
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    for (const Handle& handle : editor_.document->handles)
+        if (handle.name == "low") {
+            EXPECT_EQ(handle.role, HandleRole::moving);
+        }
+}
+
+// Its pivot is its own, and goes along.
+TEST_F(BarEditor, MirroringKeepsThePivotOfTheHandleThere) {
+    editor_.camera.orthographic = true;
+    select_heights(-0.2, 0.2);
+    apply(editor_, MakeHandle{HandleRole::fixed, "middle"});
+    select_heights(2, 3);
+    apply(editor_, MakeHandle{HandleRole::moving, "high"});
+    select_heights(-3, -2);
+    apply(editor_, MakeHandle{HandleRole::moving, "low"});
+    apply(editor_, SetPivot{glm::dvec3(0, 0, -2)});
+    calm();
+    apply(editor_, ChooseHandle{"high"});
+    transform_chosen('G', 'Z', "1");
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    ASSERT_TRUE(pivot_of(editor_, "low"));
+    EXPECT_LT(glm::distance(*pivot_of(editor_, "low"), glm::dvec3(0, 0, -3)), 1e-6);
 }
 
 // The first time the pose is committed with the twin's making, and the shape is no mirror image of itself

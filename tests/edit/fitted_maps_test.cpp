@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace knead::test {
 namespace {
@@ -120,6 +121,29 @@ TEST(FittedMaps, AreNothingAtRest) {
     Bent bent;
     bent.move({}, true);
     for (const Mat3d& stretch : bent.system.stretch) EXPECT_EQ(stretch, Mat3d(Mat3d::Zero()));
+}
+
+// A sample that moves hardly any point but its own says nothing of its map. Outliers that hang there, far
+// off the surface, would be where its columns point.
+TEST(FittedMaps, FlingNoOutliersAway) {
+    Workers workers(2);
+    SilentProgress progress;
+    ShapeOptions options;
+    options.points = 20'000;
+    options.outliers = 0.1;
+    Settings settings;
+    settings.samples = 500;
+    Desk desk(make_shape(Shape::sphere, options, workers, progress), settings);
+    desk.play(R"({"op":"handle","name":"low","role":"fixed","region":{"halfspace":{"point":[0,0,-0.8],)"
+              R"("normal":[0,0,-1]}}})"
+              "\n"
+              R"({"op":"handle","name":"top","role":"moving","region":{"halfspace":{"point":[0,0,0.8],)"
+              R"("normal":[0,0,1]}}})"
+              "\n"
+              R"({"op":"drag","handle":"top","pivot":[0,0,0],"frames":[{"rotate":[0.94,0.342,0,0]}]})"
+              "\n"
+              R"({"op":"settle","iterations":30})");
+    for (const float coordinate : desk.shape()) EXPECT_LT(std::abs(coordinate), 2);
 }
 
 // A hand that holds still: the next frame begins with the maps of the last one.

@@ -69,6 +69,26 @@ TEST(ChosenVertices, ThatStandForMuchAreChosenOnce) {
     EXPECT_EQ(chosen.each[static_cast<std::size_t>(found.begin() - chosen.vertex.begin())], 1);
 }
 
+// One in twenty has a hundred times the area of the others, more than its share: these are all there, and the
+// rest is shared among the others.
+TEST(ChosenVertices, AreAsManyAsAreAskedForWhereSomeStandForMuch) {
+    Cloud cloud = test::cloud_of(test::grid_positions(100, 100), 4);
+    std::ranges::fill(cloud.lengths, std::uint8_t{10});
+    for (Index v = 0; v < cloud.size(); v += 20)
+        for (Index link = cloud.graph.first[v]; link < cloud.graph.first[v + 1]; ++link)
+            cloud.lengths[link] = 100;
+    const ChosenVertices chosen = choose(cloud, 2000);
+    EXPECT_NEAR(static_cast<double>(chosen.vertex.size()), 2000, 100);
+    std::size_t large = 0;
+    double all = 0;
+    for (std::size_t k = 0; k < chosen.vertex.size(); ++k) {
+        large += chosen.vertex[k] % 20 == 0 ? 1 : 0;
+        all += chosen.each[k];
+    }
+    EXPECT_EQ(large, 500U);
+    EXPECT_NEAR(all, 10'000, 500);
+}
+
 TEST(ChosenVertices, AreNoOutliersThatHang) {
     const Cloud cloud = test::cloud_of(test::shape_positions(Shape::knot, 5000));
     Machine machine;

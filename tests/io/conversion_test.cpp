@@ -158,6 +158,12 @@ TEST(Conversion, of_whole_coordinates_keeps_the_fractions_of_a_pose) {
     std::vector<float> posed = cloud.positions;
     posed[3] += 0.25F;
     posed[15] += 100.5F; // beyond 127
+    const auto type_in_ply = [&](const std::vector<float>& positions) {
+        const PointCloud back = read_bytes(written(cloud, {positions, {}}, "out.ply"), "out.ply");
+        return back.attributes[0].type;
+    };
+    EXPECT_EQ(type_in_ply(posed), ScalarType::float32);
+    EXPECT_EQ(type_in_ply(cloud.positions), ScalarType::int8) << "nothing moved";
     for (const Format& format : known_formats()) {
         SCOPED_TRACE(format.name);
         const std::string name = "out" + std::string(format.extensions.front());

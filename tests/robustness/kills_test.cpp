@@ -83,7 +83,7 @@ TEST_F(Kills, OfSavesOfACloudAndASession) {
         Session header;
         header.cloud = target;
         LiveRecording made(header, std::nullopt);
-        for (std::size_t i = 0; i < acts; ++i) made.add(made.coming(CommitLine{}, false));
+        for (std::size_t i = 0; i < acts; ++i) made.add(made.coming(CommitLine{}, false, {}));
         return made;
     };
     LiveRecording few = recording(10), many = recording(5000);

@@ -348,10 +348,8 @@ const Action view_actions[] = {
      "y points down and z to the back, as depth cameras and photogrammetry have it", std::nullopt,
      turn_up<UpAxis::minus_y>, cloud_is_open, is_up<UpAxis::minus_y>},
     {"View", "As it was opened", "O",
-     "Shows the cloud as it was before all edits, to compare; again, or as soon as something is done to it: "
-     "as "
-     "it is",
-     on('O'), [](const Ui& ui) { ui.state.as_opened = !ui.state.as_opened; }, something_was_done,
+     "Shows the cloud as it was before all edits, to compare, until it is asked for again or moved", on('O'),
+     [](const Ui& ui) { ui.state.as_opened = !ui.state.as_opened; }, something_was_done,
      [](const Ui& ui) { return ui.state.as_opened; }},
     {"View", "Larger points", "+", "Draws the points larger", repeating(on('=')), resize_points<1>,
      cloud_is_open, nullptr, true},

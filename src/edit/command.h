@@ -75,8 +75,8 @@ struct DeleteHandle {
 struct ResetPose {
     std::string handle;
 };
-// The pose mirrored, for the moving handle that holds the points on the other side of the cloud, which else
-// become one.
+// The points on the other side of the cloud become a handle as this one is, with its pose mirrored; where a
+// moving one holds these already, that one takes the pose of a moving one.
 struct MirrorHandle {
     std::string handle;
     int axis = 1; // the normal of the plane through the middle of the cloud: 0 x, 1 y, 2 z

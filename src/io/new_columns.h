@@ -29,9 +29,8 @@ struct NewColumn {
 };
 
 // All columns that a new file may hold, in the order of the cloud, added ones last, under names that the
-// cloud does not have. Coordinates of a whole type of up to 4 bytes that a pose
-// changes get one with fractions. To be moved,
-// not copied, since `columns` points into the others.
+// cloud does not have. Coordinates of a whole type of up to 4 bytes that a pose changes get one with
+// fractions. To be moved, not copied, since `columns` points into the others.
 struct ColumnsToWrite {
     std::vector<PosedColumn> posed;
     std::vector<AddedColumn> added;

@@ -226,6 +226,37 @@ Graph without_links_of(const Graph& graph, Index vertex) {
     return result;
 }
 
+// Of one half of the bar every second vertex, for two each, and of the other all: that is about what all
+// tell.
+TEST(PointEnergy, IsThatOfAllWhereSomeStandForMore) {
+    Held held;
+    const PointEnergy all = held.energy(InfluenceWeights::smooth, 2);
+    held.asked.clear();
+    held.each.clear();
+    for (Index v = 0; v < held.cloud.size(); ++v) {
+        const bool is_sparse = held.cloud.at(v).x() < 0;
+        if (is_sparse && v % 2 == 1) continue;
+        held.asked.push_back(v);
+        held.each.push_back(is_sparse ? 2 : 1);
+    }
+    ASSERT_LT(held.asked.size(), 0.8 * static_cast<double>(held.cloud.size()));
+    const PointEnergy some = held.energy(InfluenceWeights::smooth, 2);
+    const auto own = [](const PointEnergy& energy, Index t) {
+        for (Index at = energy.first[t]; at < energy.first[t + 1]; ++at)
+            if (energy.body[at] == t) return energy.pair[at].way;
+        return 0.0;
+    };
+    double confidence = 0, of_all = 0, way = 0, way_of_all = 0;
+    for (Index t = 0; t < all.samples; ++t) {
+        confidence += some.confidence[t];
+        of_all += all.confidence[t];
+        way += own(some, t);
+        way_of_all += own(all, t);
+    }
+    EXPECT_NEAR(confidence, of_all, 0.05 * of_all);
+    EXPECT_NEAR(way, way_of_all, 0.05 * way_of_all);
+}
+
 TEST(PointEnergy, KnowsNothingOfOutliersThatHang) {
     Held held, alone;
     Index outlier = 0;

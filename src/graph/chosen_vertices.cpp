@@ -1,22 +1,18 @@
 #include "graph/chosen_vertices.h"
 
 #include "base/require.h"
+#include "graph/bridges.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
 namespace knead {
 
 namespace {
 
 constexpr std::size_t vertices_a_chunk = 4096;
-
-bool is_left_out(std::span<const std::uint8_t> left_out, std::size_t vertex) {
-    return !left_out.empty() && left_out[vertex] != 0;
-}
 
 // Of some vertices. Whole numbers: sums are exact.
 struct Amount {
@@ -25,10 +21,6 @@ struct Amount {
     void operator+=(const Amount& other) {
         area += other.area;
         vertices += other.vertices;
-    }
-    friend Amount operator+(Amount a, const Amount& b) {
-        a += b;
-        return a;
     }
 };
 
@@ -81,11 +73,42 @@ private:
     double step_, steps_;
 };
 
-ChosenVertices all_but(std::span<const std::uint8_t> left_out, std::size_t vertices) {
+// Of all vertices, and the area before each chunk of them.
+struct Counted {
+    ByOctave by_octave{};
+    Amount all;
+    std::vector<std::uint64_t> before; // the last entry: of all
+};
+
+Counted count_areas(const Graph& graph, std::span<const std::uint8_t> lengths,
+                    std::span<const std::uint8_t> hanging, Workers& workers) {
+    const std::size_t chunks = (graph.size() + vertices_a_chunk - 1) / vertices_a_chunk;
+    std::vector<ByOctave> of_chunk(chunks);
+    workers.for_chunks(graph.size(), vertices_a_chunk, [&](std::size_t begin, std::size_t end) {
+        ByOctave& amounts = of_chunk[begin / vertices_a_chunk];
+        for (auto v = static_cast<Index>(begin); v < end; ++v) {
+            if (hangs(hanging, v)) continue;
+            const std::uint64_t area = area_at(graph, lengths, v);
+            amounts[static_cast<std::size_t>(std::bit_width(area))] += {area, 1};
+        }
+    });
+    Counted counted;
+    for (const ByOctave& amounts : of_chunk) {
+        counted.before.push_back(counted.all.area);
+        for (std::size_t octave = 0; octave < octaves; ++octave) {
+            counted.by_octave[octave] += amounts[octave];
+            counted.all += amounts[octave];
+        }
+    }
+    counted.before.push_back(counted.all.area);
+    return counted;
+}
+
+ChosenVertices all_but(std::span<const std::uint8_t> hanging, std::size_t vertices) {
     ChosenVertices chosen;
     chosen.vertex.reserve(vertices);
     for (Index v = 0; v < vertices; ++v)
-        if (!is_left_out(left_out, v)) chosen.vertex.push_back(v);
+        if (!hangs(hanging, v)) chosen.vertex.push_back(v);
     chosen.each.assign(chosen.vertex.size(), 1.0);
     return chosen;
 }
@@ -103,38 +126,20 @@ ChosenVertices choose_by_number(std::size_t vertices, std::size_t count) {
 }
 
 ChosenVertices choose_by_area(const Graph& graph, std::span<const std::uint8_t> lengths,
-                              std::span<const std::uint8_t> left_out, std::size_t count, Workers& workers) {
+                              std::span<const std::uint8_t> hanging, std::size_t count, Workers& workers) {
     require(lengths.size() == graph.neighbor.size(), "a length a link");
     const std::size_t vertices = graph.size();
-    if (vertices <= count) return all_but(left_out, vertices);
-    std::vector<std::uint64_t> before((vertices + vertices_a_chunk - 1) / vertices_a_chunk + 1);
-    std::vector<ByOctave> of_chunk(before.size() - 1);
-    workers.for_chunks(vertices, vertices_a_chunk, [&](std::size_t begin, std::size_t end) {
-        ByOctave& amounts = of_chunk[begin / vertices_a_chunk];
-        for (auto v = static_cast<Index>(begin); v < end; ++v) {
-            if (is_left_out(left_out, v)) continue;
-            const std::uint64_t area = area_at(graph, lengths, v);
-            amounts[static_cast<std::size_t>(std::bit_width(area))] += {area, 1};
-        }
-    });
-    ByOctave all{};
-    for (std::size_t chunk = 0; chunk < of_chunk.size(); ++chunk) {
-        before[chunk + 1] = before[chunk];
-        for (std::size_t octave = 0; octave < octaves; ++octave) {
-            all[octave] += of_chunk[chunk][octave];
-            before[chunk + 1] += of_chunk[chunk][octave].area;
-        }
-    }
-    const Amount whole = std::accumulate(all.begin(), all.end(), Amount{});
-    if (whole.vertices <= count) return all_but(left_out, vertices);
+    if (vertices <= count) return all_but(hanging, vertices);
+    const Counted counted = count_areas(graph, lengths, hanging, workers);
+    if (counted.all.vertices <= count) return all_but(hanging, vertices);
 
-    const double step = step_for(all, whole, count);
-    std::vector<ChosenVertices> parts(count > 0 ? of_chunk.size() : 0);
+    const double step = step_for(counted.by_octave, counted.all, count);
+    std::vector<ChosenVertices> parts(count > 0 ? counted.before.size() - 1 : 0);
     workers.for_each(parts.size(), 1, [&](std::size_t chunk) {
-        Chooser chooser(before[chunk], step);
+        Chooser chooser(counted.before[chunk], step);
         const std::size_t end = std::min((chunk + 1) * vertices_a_chunk, vertices);
         for (auto v = static_cast<Index>(chunk * vertices_a_chunk); v < end; ++v)
-            if (!is_left_out(left_out, v)) chooser.pass(v, area_at(graph, lengths, v), parts[chunk]);
+            if (!hangs(hanging, v)) chooser.pass(v, area_at(graph, lengths, v), parts[chunk]);
     });
     ChosenVertices chosen;
     chosen.all = false;

@@ -24,10 +24,9 @@ ChosenVertices choose_by_number(std::size_t vertices, std::size_t count);
 // surface: a vertex is as probable as the mean square of its links is long, up to certain. So where points
 // lie twenty times denser than elsewhere a part of the surface is asked no more often for it, and each speaks
 // for the more of them. `lengths`: link_lengths(), by which alone what is chosen is decided, so that links
-// count as no shorter and no longer than these tell; `left_out`: of each vertex 1 for one that is not to be
-// chosen, as an outlier that hangs; empty without any. Evenly along the order of the vertices; the same for
-// any number of workers.
+// count as no shorter and no longer than these tell; `hanging`: of each vertex 1 for an outlier, which is not
+// chosen; empty without any. Evenly along the order of the vertices; the same for any number of workers.
 ChosenVertices choose_by_area(const Graph& graph, std::span<const std::uint8_t> lengths,
-                              std::span<const std::uint8_t> left_out, std::size_t count, Workers& workers);
+                              std::span<const std::uint8_t> hanging, std::size_t count, Workers& workers);
 
 } // namespace knead

@@ -12,6 +12,21 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+// A bar fixed in its middle, with a moving handle at each end.
+class BarFixedInItsMiddle : public BarEditor {
+protected:
+    void make_three_handles() {
+        editor_.camera.orthographic = true;
+        select_heights(-0.2, 0.2);
+        apply(editor_, MakeHandle{HandleRole::fixed, "middle"});
+        select_heights(2, 3);
+        apply(editor_, MakeHandle{HandleRole::moving, "high"});
+        select_heights(-3, -2.2);
+        apply(editor_, MakeHandle{HandleRole::moving, "low"});
+        calm();
+    }
+};
+
 } // namespace
 
 TEST_F(BarEditor, MirroringTakesThePointsAndThePoseAcross) {
@@ -54,16 +69,9 @@ TEST_F(BarEditor, MirroringAnotherPoseOntoTheSameTwinCommitsNeither) {
 
 // A handle that was made by hand on the other side takes the pose; another one there would leave it a part of
 // its points, and tear the cloud between the two.
-TEST_F(BarEditor, MirroringOntoAMovingHandlePosesThatOne) {
-    editor_.camera.orthographic = true;
-    select_heights(-0.2, 0.2);
-    apply(editor_, MakeHandle{HandleRole::fixed, "middle"});
-    select_heights(-3, -2.2);
-    apply(editor_, MakeHandle{HandleRole::moving, "low"});
-    select_heights(2, 3);
-    apply(editor_, MakeHandle{HandleRole::moving, "high"});
-    calm();
-    apply(editor_, ChangeHold{"low", false, 0.3}); // which makes it the last one
+TEST_F(BarFixedInItsMiddle, MirroringOntoAMovingHandlePosesThatOne) {
+    make_three_handles();
+    apply(editor_, ChangeHold{"low", false, 0.3});
     calm();
     const std::vector<Index> points = *editor_.document->handles[2].points;
     apply(editor_, ChooseHandle{"high"});
@@ -85,16 +93,11 @@ TEST_F(BarEditor, MirroringOntoAMovingHandlePosesThatOne) {
 }
 
 // One that holds fast is no pose for another, and what lies across at rest has none to give.
-TEST_F(BarEditor, MirroringWithoutAPoseLeavesAMovingHandleThere) {
-    editor_.camera.orthographic = true;
-    select_heights(-3, -2);
-    apply(editor_, MakeHandle{HandleRole::moving, "low"});
-    select_heights(2, 3);
-    apply(editor_, MakeHandle{HandleRole::moving, "high"});
-    calm();
+TEST_F(BarFixedInItsMiddle, MirroringWithoutAPoseLeavesAMovingHandleThere) {
+    make_three_handles();
     apply(editor_, MirrorHandle{"high", 2});
     calm();
-    EXPECT_EQ(editor_.document->handles.size(), 2U);
+    EXPECT_EQ(editor_.document->handles.size(), 3U);
     EXPECT_EQ(editor_.chosen, "low");
     EXPECT_NE(editor_.notices.back().words.find("There is no pose to mirror"), std::string::npos);
     apply(editor_, ChangeRole{"high", HandleRole::fixed});
@@ -108,14 +111,8 @@ TEST_F(BarEditor, MirroringWithoutAPoseLeavesAMovingHandleThere) {
 }
 
 // Its pivot is its own, and goes along.
-TEST_F(BarEditor, MirroringKeepsThePivotOfTheHandleThere) {
-    editor_.camera.orthographic = true;
-    select_heights(-0.2, 0.2);
-    apply(editor_, MakeHandle{HandleRole::fixed, "middle"});
-    select_heights(2, 3);
-    apply(editor_, MakeHandle{HandleRole::moving, "high"});
-    select_heights(-3, -2);
-    apply(editor_, MakeHandle{HandleRole::moving, "low"});
+TEST_F(BarFixedInItsMiddle, MirroringKeepsThePivotOfTheHandleThere) {
+    make_three_handles();
     apply(editor_, SetPivot{glm::dvec3(0, 0, -2)});
     calm();
     apply(editor_, ChooseHandle{"high"});

@@ -7,6 +7,7 @@
 #include "base/require.h"
 #include "base/stopwatch.h"
 #include "cloud/extent.h"
+#include "edit/sample_budget.h"
 #include "graph/balanced_weights.h"
 #include "graph/bridges.h"
 #include "graph/edge_weights.h"
@@ -38,6 +39,12 @@ void refuse_too_many_links(double links, const std::string& what_for, const std:
                         std::to_string(no_index - 1) + " links in all; " + what_to_do);
 }
 
+// How many base samples it asks for; nothing: every point.
+std::optional<std::size_t> base_of(const PipelineInput& input) {
+    const auto asked = input.settings.samples;
+    return asked ? std::optional(base_samples(*asked, input.handles.size())) : std::nullopt;
+}
+
 } // namespace
 
 Pipeline::Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampler)
@@ -48,6 +55,7 @@ void Pipeline::prepare(PipelineInput input, Progress& progress) {
     if (!hold_the_same(input.handles, input_.handles)) {
         arrange(input.handles, slots_);
         stale_.handles = true;
+        stale_.samples |= base_of(input) != base_of(input_);
     }
     if (input.rest != input_.rest) {
         stale_.areas = stale_.weights = stale_.energy = stale_.systems = stale_.upsampler = true;
@@ -206,13 +214,16 @@ void Pipeline::prepare_samples(Progress& progress) {
     Stopwatch clock;
     progress.step("choosing samples", 0);
     const std::size_t vertices = order_.vertices();
-    samples_.resize(vertices);
-    std::iota(samples_.begin(), samples_.end(), Index{0});
-    every_point_ = !input_.settings.samples || *input_.settings.samples >= vertices;
-    if (!every_point_) {
-        if (!hanging_.empty()) std::erase_if(samples_, [&](Index v) { return hanging_[v] != 0; });
-        auto chosen = octree_samples(order_.cube, vertex_positions(), samples_, *input_.settings.samples,
-                                     OfCell::aside);
+    std::vector<Index> among; // but outliers, which are samples only where all are
+    among.reserve(vertices);
+    for (Index v = 0; v < vertices; ++v)
+        if (!hangs(hanging_, v)) among.push_back(v);
+    every_point_ = !input_.settings.samples || *input_.settings.samples >= among.size();
+    if (every_point_) {
+        samples_.resize(vertices);
+        std::iota(samples_.begin(), samples_.end(), Index{0});
+    } else {
+        auto chosen = octree_samples(order_.cube, vertex_positions(), among, *base_of(input_), OfCell::aside);
         shuffle_in_runs(chosen);
         samples_ = relaxed(std::move(chosen), *graph_, link_lengths_, vertex_positions(), hanging_,
                            relaxing_rounds, workers_, progress);

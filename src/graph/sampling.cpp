@@ -19,37 +19,48 @@ constexpr std::size_t samples_a_territory = 2;
 
 struct Held {
     std::vector<BorderVertex> borders; // ascending by (label, vertex)
-    std::set<HeldPart> parts;
+    std::set<HeldPart> parts;          // each of which has to own a sample
 };
 
-Held all_of(std::span<const HeldBlock> blocks) {
+// Of a label that has no border at all, one part will do.
+Held all_of(std::span<const HeldBlock> blocks, const ComponentNumbers& component,
+            const std::vector<bool>& everywhere) {
     Held all;
-    for (const HeldBlock& block : blocks) {
+    for (const HeldBlock& block : blocks)
         all.borders.insert(all.borders.end(), block.borders.begin(), block.borders.end());
-        all.parts.insert(block.parts.begin(), block.parts.end());
-    }
     std::ranges::stable_sort(all.borders, {}, &BorderVertex::label);
+    std::set<Index> labels;
+    for (const BorderVertex& border : all.borders) {
+        all.parts.insert({border.label, component[border.vertex]});
+        labels.insert(border.label);
+    }
+    for (const HeldBlock& block : blocks)
+        for (const HeldPart& part : block.parts)
+            if (labels.insert(part.label).second ||
+                (part.label < everywhere.size() && everywhere[part.label]))
+                all.parts.insert(part);
     return all;
 }
 
-// Of a border, what may become samples.
+// Of the border of a part, what may become samples.
 struct Border {
     std::vector<Index> vertices;    // ascending
     std::vector<Index> territories; // the base samples that are nearest to them, no_index where none is near
 };
 
-// Those of the labels, without vertices that are taken.
-std::map<Index, Border> open_borders(std::span<const BorderVertex> borders, const std::vector<bool>& taken,
-                                     const ChangingTerritories& nearest) {
+// Those of the parts, without vertices that are taken.
+std::map<HeldPart, Border> open_borders(std::span<const BorderVertex> borders,
+                                        const ComponentNumbers& component, const std::vector<bool>& taken,
+                                        const ChangingTerritories& nearest) {
     std::vector<BorderVertex> open;
     std::ranges::copy_if(borders, std::back_inserter(open),
                          [&](const BorderVertex& each) { return !taken[each.vertex]; });
     std::vector<Index> vertices(open.size());
     std::ranges::transform(open, vertices.begin(), &BorderVertex::vertex);
     const std::vector<Index> samples = nearest_of_base(nearest, vertices);
-    std::map<Index, Border> result;
+    std::map<HeldPart, Border> result;
     for (std::size_t i = 0; i < open.size(); ++i) {
-        Border& border = result[open[i].label];
+        Border& border = result[{open[i].label, component[open[i].vertex]}];
         border.vertices.push_back(open[i].vertex);
         border.territories.push_back(samples[i]);
     }
@@ -64,9 +75,12 @@ std::size_t needed_by(const Border& border) {
     return std::min(border.vertices.size(), samples_a_territory * static_cast<std::size_t>(count));
 }
 
+// How many samples each part gets.
+using Shares = std::map<HeldPart, std::size_t>;
+
 // One to each border that got none, from those that got most, as long as these have some to spare.
-void leave_none_out(std::map<Index, std::size_t>& share) {
-    for (auto& [label, count] : share) {
+void leave_none_out(Shares& share) {
+    for (auto& [part, count] : share) {
         if (count > 0) continue;
         auto& [richest, most] =
             *std::ranges::max_element(share, {}, [](const auto& each) { return each.second; });
@@ -76,17 +90,24 @@ void leave_none_out(std::map<Index, std::size_t>& share) {
     }
 }
 
-// How many samples the border of each label gets.
-std::map<Index, std::size_t> shares(const std::map<Index, Border>& borders, std::size_t budget) {
-    std::map<Index, std::size_t> share;
+// `parts`: those that own none yet, and get one each whatever the budget is.
+Shares shares(const std::map<HeldPart, Border>& borders, const std::set<HeldPart>& parts,
+              std::size_t budget) {
+    Shares share;
+    for (const HeldPart& part : parts) share[part] = 1;
+    const std::size_t left = budget - std::min(budget, parts.size());
+    Shares more;
     std::size_t wanted = 0;
-    for (const auto& [label, border] : borders) wanted += share[label] = needed_by(border);
-    if (wanted <= budget) return share;
+    for (const auto& [part, border] : borders) wanted += more[part] = needed_by(border) - share[part];
     std::size_t before = 0; // of what is wanted
-    for (auto& [label, count] : share) {
-        const std::size_t given = before * budget / wanted;
+    for (const auto& [part, count] : more) {
+        if (wanted <= left) {
+            share[part] += count;
+            continue;
+        }
+        const std::size_t given = before * left / wanted;
         before += count;
-        count = before * budget / wanted - given; // the budget in all, to the last sample
+        share[part] += before * left / wanted - given; // the budget in all, to the last sample
     }
     leave_none_out(share);
     return share;
@@ -177,22 +198,25 @@ void put_in_order(std::vector<Index>& added, const VertexLabels& labels) {
 
 HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& labels,
                              std::span<const HeldBlock> held, std::span<const Index> base,
-                             const ChangingTerritories& nearest, std::size_t budget) {
+                             const ChangingTerritories& nearest, const std::vector<bool>& everywhere,
+                             std::size_t budget) {
     require(nearest.nearest.size() == labels.label.size(), "a row and a label a vertex");
-    const auto part_of = [&](Index v) { return HeldPart{labels.label[v], shape.components.component[v]}; };
-    auto [borders, parts] = all_of(held);
+    const ComponentNumbers& component = shape.components.component;
+    const auto part_of = [&](Index v) { return HeldPart{labels.label[v], component[v]}; };
+    auto [borders, parts] = all_of(held, component, everywhere);
     std::vector<bool> taken(labels.label.size(), false);
     for (const Index v : base) {
         taken[v] = true;
         parts.erase(part_of(v));
     }
-    const std::map<Index, Border> open = open_borders(borders, taken, nearest);
-    const std::map<Index, std::size_t> share = shares(open, budget);
+    const std::map<HeldPart, Border> open = open_borders(borders, component, taken, nearest);
+    const Shares share = shares(open, parts, budget);
     std::vector<Index> added;
-    for (const auto& [label, border] : open)
-        for (const Index v : octree_samples(shape.cube, shape.positions, border.vertices, share.at(label))) {
+    for (const auto& [part, border] : open)
+        for (const Index v : octree_samples(shape.cube, shape.positions, on_surface(shape, border.vertices),
+                                            share.at(part))) {
             added.push_back(v);
-            parts.erase(part_of(v));
+            parts.erase(part);
         }
     for (const Index v : one_of_each(parts, shape, labels)) added.push_back(v);
     put_in_order(added, labels);

@@ -35,11 +35,15 @@ struct HandleSamples {
 //     spread along it: more gain nothing, and have to be flooded and taken back at every change of handles.
 //     Where this is more than `budget` in all, the borders share that by it, and none is left out while
 //     another has two.
-//   - Every label owns at least one sample in every component that it reaches into, budget or not.
+//   - Every label owns at least one sample in every component where it has a border, and one anywhere if it
+//     has none, budget or not. What is held and has no free neighbour moves nothing but itself, unless the
+//     label is one of `everywhere` (of each label; may end early): these own one in every component that they
+//     reach into.
 // `held`: find_held() of all these; `base`: vertices, in any order; `nearest`: their territories.
 HandleSamples handle_samples(const VertexShape& shape, const VertexLabels& labels,
                              std::span<const HeldBlock> held, std::span<const Index> base,
-                             const ChangingTerritories& nearest, std::size_t budget);
+                             const ChangingTerritories& nearest, const std::vector<bool>& everywhere,
+                             std::size_t budget);
 
 // The graph between samples, and how long a border the territories of two linked ones share.
 struct SampleGraph {

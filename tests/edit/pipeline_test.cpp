@@ -86,6 +86,61 @@ TEST_P(SampleCounts, AreWhatWasAskedForToAFifthMore) {
 }
 INSTANTIATE_TEST_SUITE_P(Pipeline, SampleCounts, testing::Values(50, 200, 1000, 3000));
 
+// How many samples there are for so many asked, in parts of these.
+double samples_for_each(std::uint64_t asked, PointCloud cloud, const std::string& handles) {
+    Settings settings;
+    settings.samples = asked;
+    Desk desk(std::move(cloud), settings);
+    desk.play(handles + drag(lift));
+    EXPECT_LT(desk.handle_error(), 1e-5);
+    return static_cast<double>(desk.pipeline().samples().size()) / static_cast<double>(asked);
+}
+
+TEST(SampleCounts, AreNoMoreForManyHandles) {
+    for (const std::uint64_t asked : {50U, 150U})
+        for (const unsigned handles : {12U, 30U, 35U}) {
+            std::string lines = box_handle("top", "moving", "[-9,-9,2.2]", "[9,9,9]");
+            for (unsigned h = 1; h < handles; ++h)
+                lines += point_handle("pin " + std::to_string(h), "fixed", std::to_string(31 * h));
+            const double times = samples_for_each(asked, bar(3000), lines);
+            EXPECT_GE(times, 1) << handles << " handles, " << asked;
+            EXPECT_LE(times, 1.2) << handles << " handles, " << asked;
+        }
+}
+
+// Thirty pieces at each end, every other one of them cut by its handle's border.
+TEST(SampleCounts, AreNoMoreForManyPieces) {
+    PointCloud cloud = bar(3000);
+    std::vector<float> positions(cloud.positions);
+    for (std::size_t piece = 0; piece < 60; ++piece)
+        for (int i = 0; i < 36; ++i) {
+            const double end = piece % 2 == 0 ? -2.2 : 2.2;
+            const double z = piece % 4 < 2 ? end : end + (end < 0 ? -1 : 1);
+            positions.push_back(static_cast<float>(2 + 0.3 * static_cast<double>(piece) + 0.02 * (i % 6)));
+            positions.push_back(0);
+            positions.push_back(static_cast<float>(z - 0.05 + 0.02 * (i / 6)));
+        }
+    for (const std::uint64_t asked : {200U, 1000U}) {
+        const double times = samples_for_each(asked, make_cloud(positions),
+                                              box_handle("low", "fixed", "[-9,-9,-9]", "[99,9,-2.2]") +
+                                                  box_handle("top", "moving", "[-9,-9,2.2]", "[99,9,9]"));
+        EXPECT_GE(times, 1) << asked;
+        EXPECT_LE(times, 1.2) << asked;
+    }
+}
+
+// Outliers are no samples of their own.
+TEST(SampleCounts, AreNoFewerForOutliers) {
+    PointCloud cloud = bar(1500);
+    std::vector<float> positions(cloud.positions);
+    for (int i = 0; i < 60; ++i) positions.insert(positions.end(), {static_cast<float>(2 + i), 0, 2});
+    for (const std::uint64_t asked : {1400U, 1499U, 1520U, 1559U}) {
+        const double times = samples_for_each(asked, make_cloud(positions), ends);
+        EXPECT_GE(times, 1) << asked;
+        EXPECT_LE(times, 1.2) << asked;
+    }
+}
+
 TEST(Pipeline, TakesEveryPointWhereAllOrMoreAreAsked) {
     std::vector<std::vector<float>> shapes;
     for (const std::optional<std::uint64_t> samples :

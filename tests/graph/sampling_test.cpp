@@ -15,7 +15,8 @@ using test::octree_of;
 
 std::vector<Index> handle_samples_of(const Cloud& cloud, std::span<const Index> label,
                                      std::span<const Index> base, std::size_t budget,
-                                     std::span<const std::uint8_t> hanging = {}) {
+                                     std::span<const std::uint8_t> hanging = {},
+                                     const std::vector<bool>& everywhere = {}) {
     Machine machine;
     const InfluenceRows nearest = flood(cloud.graph, cloud.lengths, base, machine.workers, machine.progress);
     const std::vector<std::uint8_t> held(blocks_of_rows(label.size()), 1);
@@ -24,7 +25,8 @@ std::vector<Index> handle_samples_of(const Cloud& cloud, std::span<const Index> 
     VertexShape shape = cloud.shape();
     shape.hanging = hanging;
     return handle_samples(shape, {label, held}, blocks, base,
-                          territories_of_base(nearest, base.size(), cloud.graph, machine.workers), budget)
+                          territories_of_base(nearest, base.size(), cloud.graph, machine.workers), everywhere,
+                          budget)
         .added;
 }
 
@@ -92,6 +94,19 @@ TEST(HandleSamples, AreNoOutliersWhereThereIsAnotherVertex) {
         label[host] = no_index;
         EXPECT_EQ(handle_samples_of(cloud, label, {}, 0, hanging), std::vector<Index>{outlier});
     }
+}
+
+// A piece that is held as a whole moves nothing that is free.
+TEST(HandleSamples, AreNoneInAComponentWithoutABorder) {
+    const Cloud cloud = test::cloud_of(test::two_patches(false));
+    std::vector<Index> label(cloud.size(), no_index);
+    for (Index v = 0; v < cloud.size(); ++v) {
+        const bool in_first = cloud.components.component[v] == cloud.components.component[0];
+        if (!in_first || cloud.at(v).y() < 4) label[v] = 0;
+    }
+    const auto added = handle_samples_of(cloud, label, {}, 0);
+    EXPECT_EQ(parts_of(cloud, label, added), (std::set<Part>{{0, cloud.components.component[0]}}));
+    EXPECT_EQ(handle_samples_of(cloud, label, {}, 0, {}, {true}).size(), 2U) << "where it is asked to";
 }
 
 TEST(HandleSamples, GiveAHandleOneInEveryComponentThatItReachesInto) {

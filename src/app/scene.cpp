@@ -30,6 +30,7 @@ struct Scene::State {
     // As handed to the renderer last.
     std::optional<ColoredBy> colored;
     bool parts_known = false;
+    bool marks_changed = false; // what is hidden, or who holds what
     std::shared_ptr<const std::vector<float>> spacings;
     SceneLinesOf lines;
     std::uint64_t version = 0;               // of the frame
@@ -41,6 +42,7 @@ struct Scene::State {
     bool drawing_failed = false;  // once is enough
     // The renderer has the points as they were opened, and the steps that there were then.
     std::optional<std::pair<std::size_t, std::size_t>> compared_at;
+    FalloffHalo halo;
     EstimatedNormals estimated;
     std::vector<float> estimated_normals; // that the renderer has
     bool lit = false;                     // by them
@@ -57,7 +59,7 @@ struct Scene::State {
     void take_looks(const Editor& editor, const UiState& state);
     void take_spacings(const DocumentView& document);
     void take_colors(Editor& editor, UiState& state);
-    void take_lines(const Editor& editor, const Display& display);
+    void take_lines(const Editor& editor, const UiState& state);
     void take_estimated_normals(const Editor& editor, const Display& display);
 };
 
@@ -115,6 +117,7 @@ void Scene::State::begin_cloud(const Editor& editor, Display& display) {
     looks.clear();
     lines = {};
     renderer.set_overlay({});
+    halo.begin_anew();
     estimated.begin_anew();
     lit = false;
     version = 0;
@@ -221,9 +224,13 @@ void Scene::State::take_colors(Editor& editor, UiState& state) {
     colored = std::move(now);
 }
 
-void Scene::State::take_lines(const Editor& editor, const Display& display) {
-    SceneLinesOf now = scene_lines_of(editor, display);
-    const bool shows_and_hides = editor.changes.marks && (now.samples || now.links);
+void Scene::State::take_lines(const Editor& editor, const UiState& state) {
+    halo.look_at(editor, state.display.handles && !compared_at);
+    const bool is_dragged = editor.drag && !editor.drag->ended; // then the shape itself tells
+    const Handle* const chosen = chosen_handle(editor);
+    const std::uint32_t color = chosen ? handle_color(state.handle_colors, *chosen) & 0xffffffU : 0;
+    SceneLinesOf now = scene_lines_of(editor, state.display, is_dragged ? nullptr : halo.dots(), color);
+    const bool shows_and_hides = marks_changed && (now.samples || now.links || now.halo);
     if (now == lines && !shows_and_hides) return;
     lines = std::move(now);
     renderer.set_overlay(scene_lines(editor, lines));
@@ -249,11 +256,12 @@ void Scene::take_in(Editor& editor, UiState& state) {
     if (!own.compared_at && (editor.changes.cloud || editor.changes.positions))
         own.take_positions(editor, state);
     own.take_marks(editor);
+    own.marks_changed = editor.changes.marks;
     editor.changes = {false, false, false};
     own.take_looks(editor, state);
     own.take_spacings(*editor.document);
     own.take_colors(editor, state);
-    own.take_lines(editor, state.display);
+    own.take_lines(editor, state);
     own.take_estimated_normals(editor, state.display);
     editor.live->draw_drags_on_device(own.can_draw_drags(editor, state.display));
 }
@@ -289,7 +297,7 @@ bool Scene::is_drawn_in_software() const {
 }
 
 bool Scene::expects_more() const {
-    return state_->estimated.expected();
+    return state_->estimated.expected() || state_->halo.expected();
 }
 
 } // namespace knead

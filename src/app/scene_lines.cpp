@@ -77,6 +77,19 @@ void add_samples(const Editor& editor, const SceneLinesOf& what, std::vector<Ove
     }
 }
 
+// Where the handle's pull is, and how strong. What other handles hold it does not pull.
+void add_halo(const Editor& editor, const SceneLinesOf& what, std::vector<OverlayLine>& lines) {
+    for (const HaloDot& dot : *what.halo) {
+        const std::uint8_t mark = editor.marks[editor.opened.order->first_point[dot.vertex]];
+        if ((mark & (mark_hidden | mark_handle)) != 0) continue;
+        const glm::vec3 place = place_of(editor, dot.vertex);
+        const float strength = 0.3F + 0.7F * dot.nearness * dot.nearness;
+        const auto alpha = static_cast<std::uint32_t>(255 * strength);
+        lines.push_back({place, place, rgba(10, 14, 20, alpha / 2), 5.5F});
+        lines.push_back({place, place, what.halo_color | alpha << 24, 3.5F});
+    }
+}
+
 // The ground would be one bright line, across the feet of what stands there.
 bool is_seen_edge_on(const Camera& camera) {
     const Upward up = upward(camera.up);
@@ -86,7 +99,8 @@ bool is_seen_edge_on(const Camera& camera) {
 
 } // namespace
 
-SceneLinesOf scene_lines_of(const Editor& editor, const Display& display) {
+SceneLinesOf scene_lines_of(const Editor& editor, const Display& display,
+                            std::shared_ptr<const std::vector<HaloDot>> halo, std::uint32_t halo_color) {
     SceneLinesOf what;
     what.grid = display.grid && !is_seen_edge_on(editor.camera);
     what.up = editor.camera.up;
@@ -94,10 +108,12 @@ SceneLinesOf scene_lines_of(const Editor& editor, const Display& display) {
     const bool there = document.sample_vertices && document.sample_vertices->size() <= most_shown_samples;
     what.samples = there && display.samples;
     what.links = there && display.sample_graph && document.sample_graph;
+    what.halo = std::move(halo);
+    if (what.halo) what.halo_color = halo_color;
+    if (what.samples || what.links || what.halo) what.version = editor.frame.version;
     if (!what.samples && !what.links) return what;
     what.sample_vertices = document.sample_vertices;
     what.sample_graph = document.sample_graph;
-    what.version = editor.frame.version;
     return what;
 }
 
@@ -106,6 +122,7 @@ std::vector<OverlayLine> scene_lines(const Editor& editor, const SceneLinesOf& w
     if (what.grid) add_ground(editor, lines);
     if (what.links) add_links(editor, what, lines);
     if (what.samples) add_samples(editor, what, lines);
+    if (what.halo) add_halo(editor, what, lines);
     return lines;
 }
 

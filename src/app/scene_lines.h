@@ -2,6 +2,7 @@
 // What is drawn over the cloud in lines: the ground, and what the solver works on.
 
 #include "app/display.h"
+#include "app/falloff_halo.h"
 #include "edit/editor.h"
 
 #include <vector>
@@ -14,11 +15,15 @@ struct SceneLinesOf {
     UpAxis up = UpAxis::z;
     std::shared_ptr<const std::vector<Index>> sample_vertices;
     std::shared_ptr<const Graph> sample_graph;
-    std::uint64_t version = 0; // of the frame, where the lines follow it
+    std::shared_ptr<const std::vector<HaloDot>> halo;
+    std::uint32_t halo_color = 0; // its bytes r, g, b
+    std::uint64_t version = 0;    // of the frame, where the lines follow it
 
     bool operator==(const SceneLinesOf&) const = default;
 };
-SceneLinesOf scene_lines_of(const Editor& editor, const Display& display);
+// `halo`: null where none is to be seen.
+SceneLinesOf scene_lines_of(const Editor& editor, const Display& display,
+                            std::shared_ptr<const std::vector<HaloDot>> halo, std::uint32_t halo_color);
 
 std::vector<OverlayLine> scene_lines(const Editor& editor, const SceneLinesOf& what);
 

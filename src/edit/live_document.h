@@ -104,7 +104,7 @@ struct OpenedCloud {
     std::filesystem::path file;
     const PointCloud* cloud = nullptr;
     const PointOrder* order = nullptr;
-    const RestShape* opened = nullptr;
+    std::shared_ptr<const RestShape> opened;
     Bounds bounds;           // in the file's coordinates
     double spacing = 0;      // the usual distance between neighbouring points
     Pivots last_pivots = {}; // of Document, as it was opened

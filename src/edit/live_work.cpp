@@ -121,7 +121,7 @@ void LiveWork::publish_opened() {
     opened.file = recording_->cloud();
     opened.cloud = &document_->cloud();
     opened.order = &document_->pipeline().order();
-    opened.opened = &document_->pipeline().opened();
+    opened.opened = document_->pipeline().keep_opened();
     opened.bounds = document_->bounds();
     opened.spacing = usual_spacing(opened.opened->positions);
     opened.last_pivots = document_->last_pivots();

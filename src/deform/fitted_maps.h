@@ -7,13 +7,13 @@
 // them has a share in these. So maps are fitted to the points: with all places and turns as they are, those
 // make
 //
-//     Σ ω |D - M̅ P|² + Σ_t λ_t |A_t - A⁰_t|²,    A⁰ = R (q S + (1 - q) U),
+//     Σ ω |D - M̅ P|² + Σ_t λ_t |A_t - A⁰_t|²,    A⁰ = q r* S + (1 - q) F,
 //     λ_t = λ/(3 q⁴) max(tr Σ ω H_t H_tᵀ, κ tr Σ 2ω v_t P)
 //
 // least: the energy of the points, and a preference for what maps are without it where no point tells. q is
 // the share that this energy has of the whole (share_of_points(), and less for soft sheets). Where it fades,
-// maps go over to what links say of the stretch around each sample, U; and sooner, by q⁴, since where but one
-// point or two lie between samples these have maps that no point holds (a wire of 60 points, 40 of them
+// maps go over to what links say of the surroundings of each sample, F; and sooner, by q⁴, since where but
+// one point or two lie between samples these have maps that no point holds (a wire of 60 points, 40 of them
 // samples, folded when it was pressed). κ is what the first is of the second for most samples, or less: one
 // that moves hardly any point but its own has next to nothing of the first, and a map that is anything, which
 // flings outliers that hang there out of the cloud. With A = A⁰ + X the X of all samples that turn by
@@ -25,9 +25,12 @@
 // enough after two steps: with one some scans do not come to rest, and with more of them knead evaluate shows
 // no less unevenness. (Degrees of freedom of this kind, and their energy: Gilles and others, as there.)
 //
-// Of the stretches that links between samples tell, which were taken for U of A = R U before, few samples
-// see too little: the bent dragon with 50 of them was 1.48 times as uneven as with every point a sample, and
-// is 1.28 times so; the survey's cylinder took 112 iterations to come to rest, and takes 38 (knead evaluate).
+// The maps turn as the links of a sample do, by r*, not by its own R: where a turn takes up little of the
+// cloud R lags behind, and normals with it (deform/stretch.h).
+//
+// Of the stretches U that links between samples tell, which made A = R U before, few samples see too little:
+// the bent dragon with 50 of them was 1.48 times as uneven as with every point a sample, and is 1.28 times
+// so; the survey's cylinder took 112 iterations to come to rest, and takes 38 (knead evaluate).
 
 #include "base/workers.h"
 #include "deform/fours.h"

@@ -185,10 +185,17 @@ void find_local_rotations(SampleSystem& system, const SampleState& state, std::s
     }
 }
 
-// F - I of a row.
-Mat3d gradient_at(const SampleSystem& system, const SampleState& state, std::size_t row) {
-    return gradient_of(system.surroundings[row], displaced_spread(system, state, row),
-                       turn_of(state.rotation[system.free_sample[row]]));
+// How the links of a sample were moved.
+struct LinkMotion {
+    Mat3d turn;     // r* - I
+    Mat3d gradient; // F - I
+};
+
+LinkMotion link_motion(const SampleSystem& system, const SampleState& state, std::size_t row) {
+    const Mat3d displaced = displaced_spread(system, state, row);
+    const Quatd& near = state.rotation[system.free_sample[row]];
+    const Mat3d turn = turn_of(nearest_rotation(system.spread[row] + displaced, near));
+    return {turn, gradient_of(system.surroundings[row], displaced, turn)};
 }
 
 // Whether S is by what pulls, links and points together; else by links.
@@ -200,8 +207,8 @@ bool has_targets_of_points(const SampleSystem& system) {
 void find_targets_of_links(SampleSystem& system, const SampleState& state, Workers& workers) {
     const std::size_t rows = system.target.size();
     workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
-        system.target[row] =
-            elastic_target(system.surroundings[row], gradient_at(system, state, row), system.rest.poisson);
+        system.target[row] = elastic_target(system.surroundings[row],
+                                            link_motion(system, state, row).gradient, system.rest.poisson);
     });
 }
 
@@ -276,9 +283,11 @@ void start_maps(SampleSystem& system, const SampleState& state, Workers& workers
     const double of_points = system.rest.energy.share, of_links = 1 - of_points;
     const std::size_t rows = system.stretch.size();
     workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
-        Mat3d& stretch = system.stretch[row];
-        stretch = system.target.empty() ? Mat3d(Mat3d::Zero()) : Mat3d(of_points * system.target[row]);
-        if (of_links > 0) stretch += of_links * stretch_of(gradient_at(system, state, row));
+        const LinkMotion moved = link_motion(system, state, row);
+        Mat3d map = of_links * moved.gradient + of_points * moved.turn; // A⁰ - I
+        if (!system.target.empty()) map += of_points * (moved.turn * system.target[row] + system.target[row]);
+        const Quatd back = state.rotation[system.free_sample[row]].conjugate();
+        system.stretch[row] = turn_of(back) + back * map;
     });
 }
 
@@ -421,8 +430,7 @@ Mat3d sample_map(const SampleSystem& system, const SampleState& state, Index i) 
 }
 
 Mat3d sample_gradient(const SampleSystem& system, const SampleState& state, Index i) {
-    const Mat3d stretch = stretch_of(gradient_at(system, state, system.unknown[i]));
-    return turn_of(state.rotation[i]) + state.rotation[i] * stretch;
+    return link_motion(system, state, system.unknown[i]).gradient;
 }
 
 double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,

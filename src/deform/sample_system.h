@@ -216,8 +216,7 @@ void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, 
 void follow_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,
                     Workers& workers);
 
-// How the surroundings of a sample that no handle holds were moved: R U - I, with R its rotation and U the
-// stretch of its edges. `i`: such a sample.
+// How the surroundings of a sample that turns by itself were moved, by its links: F - I (deform/stretch.h).
 Mat3d sample_gradient(const SampleSystem& system, const SampleState& state, Index i);
 
 // Finds how the samples that turn by themselves send the points around them, of the state and the handles'

@@ -37,39 +37,6 @@ Mat3d beyond_rigid(const Mat3d& gradient) {
     return gradient + gradient.transpose() + gradient.transpose() * gradient;
 }
 
-// √(I + B) - I from the invariants of C = I + B, a tenth of the work of its eigenvalues: those of the root U
-// follow from those of C by tr C = i1² - 2 i2, (i2 of C) = i2² - 2 i1 i3 and det C = i3², and
-//
-//     U = (i1 i3 I + (i1² - i2) C - C²) / (i1 i2 - i3)
-//
-// (A. Hoger, D. E. Carlson, "Determination of the stretch and rotation in the polar decomposition of the
-// deformation gradient", 1984). The denominator is the product of the sums of two principal stretches.
-// Nothing where that is lost in rounding.
-std::optional<Mat3d> root_beyond_one(const Mat3d& beyond) {
-    const Mat3d c = Mat3d::Identity() + beyond;
-    const Mat3d square = c * c;
-    const double c1 = c.trace();
-    const double c2 = 0.5 * (c1 * c1 - square.trace());
-    const double i3 = std::sqrt(std::max(0.0, c.determinant()));
-    // i1 is the largest root of (x² - c1)² = 4 c2 + 8 i3 x. Newton's method comes down to it from √(3 c1),
-    // where it is if nothing was stretched.
-    double i1 = std::sqrt(3 * c1);
-    for (int step = 0; step < 50; ++step) {
-        const double i2 = 0.5 * (i1 * i1 - c1);
-        const double next = i1 - (i2 * i2 - c2 - 2 * i3 * i1) / (2 * (i1 * i2 - i3));
-        if (!(next < i1)) break;
-        i1 = next;
-    }
-    const double i2 = 0.5 * (i1 * i1 - c1);
-    const double denominator = i1 * i2 - i3;
-    if (!(denominator > 1e-6 * i1 * i1 * i1)) return std::nullopt;
-    Mat3d root = (i1 * i1 - i2) * c - square;
-    root.diagonal().array() += i1 * i3;
-    root /= denominator;
-    root.diagonal().array() -= 1;
-    return root;
-}
-
 } // namespace
 
 Surroundings surroundings_of(const Mat3d& spread) {
@@ -111,12 +78,6 @@ Mat3d elastic_target(const Surroundings& surroundings, const Mat3d& gradient, do
     const Mat3d answered = shape * strain + (size - shape) / (2 + thickness) * strain.trace() *
                                                 (Mat3d::Identity() - surroundings.open);
     return of_eigenvalues(strain - answered, [](double value) { return std::expm1(value); });
-}
-
-Mat3d stretch_of(const Mat3d& gradient) {
-    const Mat3d beyond = beyond_rigid(gradient);
-    if (const auto root = root_beyond_one(beyond)) return *root;
-    return of_eigenvalues(beyond, [](double value) { return std::sqrt(std::max(0.0, 1 + value)) - 1; });
 }
 
 } // namespace knead

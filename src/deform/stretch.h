@@ -3,9 +3,12 @@
 //
 // Let A = Σ_j w_ij (x_j - x_i) e_ijᵀ and Σ = Σ_j w_ij e_ij e_ijᵀ over the edges of a sample. Where the edges
 // determine it, the deformation gradient is F = A Σ⁻¹. On a surface the edges leave the direction across it
-// open, and on a wire two; there F turns as the sample does:
+// open, and on a wire two; there F turns as they do, with the rotation r* that is nearest to A:
 //
-//     F = A Σ⁺ + R (I - Σ Σ⁺).
+//     F = A Σ⁺ + r* (I - Σ Σ⁺).
+//
+// The sample's own rotation R lags behind where a turn takes up less of the cloud than √α of its size: F
+// would shear the surface by as much, and stand relief and normals askew on it.
 //
 // The material is Hooke's law in Hencky's strain h = ½ log FᵀF: in units of its stiffness under a change of
 // one principal strain alone,
@@ -48,15 +51,11 @@ struct Surroundings {
 // fades out where it is not, so that a surface that curves or is noisy does not become a solid at once.
 Surroundings surroundings_of(const Mat3d& spread);
 
-// F - I of Σ_j w_ij (u_j - u_i) e_ijᵀ, with u the displacements, and R - I of the sample. Exactly zero where
-// both are.
+// F - I of Σ_j w_ij (u_j - u_i) e_ijᵀ, with u the displacements, and r* - I. Exactly zero where both are.
 Mat3d gradient_of(const Surroundings& surroundings, const Mat3d& displaced, const Mat3d& turn);
 
 // S - I for F - I and Poisson's ratio, -1 < ν < 0.5. Exactly zero for a rotation by nothing, and for ν = 0.
 // Strains beyond a factor of e² count as e².
 Mat3d elastic_target(const Surroundings& surroundings, const Mat3d& gradient, double poisson);
-
-// U - I, where F = R U is the polar decomposition.
-Mat3d stretch_of(const Mat3d& gradient);
 
 } // namespace knead

@@ -28,11 +28,11 @@ Motion motion_of_handle(const HandleMotion& handle) {
     return motion_about(handle.linear - Mat3d::Identity(), handle.offset);
 }
 
-// The turn of a motion that is rigid.
-Quatd rotation_in(const Motion& motion) {
+// The turn in a motion: the one nearest to `near` where it leaves that open, and of its hemisphere.
+Quatd rotation_in(const Motion& motion, const Quatd& near) {
     using Map = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
     const Mat3d turn = Eigen::Map<const Map>(motion.map).leftCols<3>().cast<double>();
-    return nearest_rotation(Mat3d::Identity() + turn, Quatd::Identity());
+    return nearest_rotation(Mat3d::Identity() + turn, near);
 }
 
 } // namespace
@@ -87,9 +87,9 @@ void Pipeline::make_motions(const std::vector<HandleMotion>& motions, const Samp
         if (given && handle != labels_.outside) {
             motions_[s] = motion_of_handle(given_motions[handle]);
         } else {
-            // Stretched with its surroundings, a sample takes what is between it and the next ones along;
-            // where every point is a sample there is nothing between.
-            const bool stretches = !every_point_ && system_.unknown[s] != no_index;
+            // Moved as its surroundings are, a sample takes what is between it and the next ones along;
+            // where every point is a sample that is normals alone.
+            const bool stretches = system_.unknown[s] != no_index;
             const Mat3d moved =
                 stretches ? sample_map(system_, state, static_cast<Index>(s)) : turn_of(state.rotation[s]);
             motions_[s] = motion_about(moved, state.displacement[s] - moved * system_.rest.position[s]);
@@ -187,13 +187,13 @@ std::vector<float> Pipeline::rotations(const std::vector<HandleMotion>& motions,
     for (std::size_t s = 0; s < samples_.size(); ++s) {
         const Index handle = handle_of(system_.rest.handle[s]);
         const bool given = handle < motions.size() && system_.unknown[s] == no_index;
-        turns[s] = given ? motions[handle].rotation : state.rotation[s];
+        turns[s] = given ? motions[handle].rotation : rotation_in(motions_[s], state.rotation[s]);
     }
     for (std::size_t h = 0; h < motions.size(); ++h)
         turns[first_handle_motion_ + slots_.slot[h]] = motions[h].rotation;
     for_lone_pegs([&](Index s, Index handle) { turns[first_handle_motion_ + handle] = turns[s]; });
     for (std::size_t carried = turns.size() - carried_.size(); carried < turns.size(); ++carried)
-        turns[carried] = rotation_in(motions_[carried]);
+        turns[carried] = rotation_in(motions_[carried], Quatd::Identity());
     const std::span<const float> before = input_.rest ? input_.rest->rotations : std::span<const float>{};
     return point_rotations(upsample_input(), turns, before, workers_);
 }

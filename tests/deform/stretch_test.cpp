@@ -68,7 +68,6 @@ TEST(Gradient, IsExactlyZeroAtRest) {
     const Mat3d gradient = gradient_of(surroundings, Mat3d::Zero(), Mat3d::Zero());
     EXPECT_EQ(gradient, Mat3d::Zero());
     EXPECT_EQ(elastic_target(surroundings, gradient, 0.4), Mat3d::Zero());
-    EXPECT_EQ(stretch_of(gradient), Mat3d::Zero());
 }
 
 // A strip pulled to `along` whose sides contracted as the material wants: across it, the edges are then
@@ -109,28 +108,6 @@ TEST(ElasticTarget, IsFiniteForWhatHandsCanDo) {
             for (const Mat3d& gradient :
                  {Mat3d(-Mat3d::Identity()), Mat3d(1e6 * Mat3d::Identity()), Mat3d(-2 * Mat3d::Identity())})
                 EXPECT_TRUE(elastic_target(surroundings, gradient, poisson).allFinite());
-    }
-}
-
-TEST(StretchOf, IsThePolarFactor) {
-    for (const Vec3d& stretches : {Vec3d(1, 1, 1), Vec3d(1.1, 1, 0.9), Vec3d(3, 3, 0.2), Vec3d(100, 1, 1e-2),
-                                   Vec3d(2, 0.7, 0), Vec3d(1 + 1e-9, 1, 1), Vec3d(50, 50, 50)}) {
-        SCOPED_TRACE(stretches.transpose());
-        const Mat3d axes = Eigen::AngleAxisd(0.8, Vec3d(1, -2, 3).normalized()).toRotationMatrix();
-        const Mat3d stretch = axes * stretches.asDiagonal() * axes.transpose();
-        const Mat3d found = stretch_of(tilt * stretch - Mat3d::Identity());
-        // The root of a rounded square: half of the digits are left of a stretch of next to nothing.
-        const double tolerance = stretches.minCoeff() > 0.01 * stretches.maxCoeff() ? 1e-13 : 1e-6;
-        EXPECT_LT((found + Mat3d::Identity() - stretch).norm(), tolerance * stretches.maxCoeff());
-    }
-}
-
-TEST(StretchOf, TakesWhatIsFlattenedToALineOrAPoint) {
-    for (const double left : {0.0, 1e-12, 1.0}) {
-        const Vec3d axis = Vec3d(2, 1, -1).normalized();
-        const Mat3d stretch = left * axis * axis.transpose();
-        const Mat3d found = stretch_of(tilt * stretch - Mat3d::Identity());
-        EXPECT_LT((found + Mat3d::Identity() - stretch).norm(), 1e-7);
     }
 }
 

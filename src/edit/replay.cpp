@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
+#include "edit/few_samples.h"
 #include "edit/median.h"
 #include "edit/session_cloud.h"
 #include "io/cloud_file.h"
@@ -70,7 +71,7 @@ public:
         const double device_seconds = clock.lap();
         upsampler_ = choice.upsampler.get();
         for (const std::string& remark : cloud.remarks) add_warning(remark);
-        if (!choice.warning.empty()) add_warning(choice.warning);
+        add_warning(choice.warning);
 
         Document document(std::move(cloud), changed(session_.settings, options_.overrides), workers_,
                           *upsampler_, options_.rehearse ? Document::Mode::rehearsal : Document::Mode::real);
@@ -175,10 +176,7 @@ private:
         take_device_warning();
     }
 
-    void take_device_warning() {
-        const std::string words = upsampler_->take_warning();
-        if (!words.empty()) add_warning(words);
-    }
+    void take_device_warning() { add_warning(upsampler_->take_warning()); }
 
     void act(Document& document, const HandleLine& line, std::size_t /*number*/, const std::string& place) {
         document.declare(line, place);
@@ -187,7 +185,8 @@ private:
         document.drag(line, place, progress_);
         checked_ = is_undone_ = false;
         if (options_.rehearse) return;
-        warn_of_strays(document);
+        add_warning(words_about(document.pipeline().strays()));
+        add_warning(words_about_few_samples(document.pipeline()));
         for (const std::string& words :
              {words_about_swallowed(document, line.handle), words_about_loose(document, line.handle)})
             if (!words.empty()) add_warning(session_.place(number) + ": " + words);
@@ -268,8 +267,7 @@ private:
     void finish_edit(Document& document, std::size_t after_line) {
         if (options_.rehearse) return;
         report_.handle_error = std::max(report_.handle_error, document.handle_error(progress_));
-        if (const std::string words = words_about_demand(document.demand(progress_)); !words.empty())
-            add_warning(words);
+        add_warning(words_about_demand(document.demand(progress_)));
         if (!options_.record_checks || checked_) return;
         checked_ = true;
         recorded_.push_back({after_line, recorded_name(recorded_.size() + 1), document.positions(progress_),
@@ -368,13 +366,9 @@ private:
                                        opened.normals, shape.positions, workers_);
     }
 
-    void warn_of_strays(const Document& document) {
-        const std::string words = words_about(document.pipeline().strays());
-        if (!words.empty()) add_warning(words);
-    }
-
+    // Once, and of nothing where there are no words.
     void add_warning(const std::string& words) {
-        if (std::ranges::find(report_.warnings, words) != report_.warnings.end()) return;
+        if (words.empty() || std::ranges::find(report_.warnings, words) != report_.warnings.end()) return;
         report_.warnings.push_back(words);
         warn_(words);
     }

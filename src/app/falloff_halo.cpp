@@ -9,13 +9,17 @@ namespace knead {
 
 namespace {
 
-// The vertices that a handle holds, each once.
-std::vector<Index> vertices_of(const Editor& editor, const std::vector<Index>& points) {
+// The vertices that the chosen handle holds, each once: where no later one does.
+std::vector<Index> vertices_of_chosen(const Editor& editor) {
+    const Handle& chosen = *chosen_handle(editor);
+    const auto number = static_cast<std::size_t>(&chosen - editor.document->handles.data());
     std::vector<bool> seen(editor.opened.order->vertices(), false);
     std::vector<Index> vertices;
-    for (const Index point : points) {
-        if (editor.ordered[point] == no_index) continue; // it has no place
-        const Index vertex = editor.opened.order->vertex[editor.ordered[point]];
+    for (const Index point : *chosen.points) {
+        const Index ordered = editor.ordered[point];
+        if (ordered == no_index) continue; // it has no place
+        if ((editor.marks[ordered] & mark_handle) != handle_mark(number)) continue;
+        const Index vertex = editor.opened.order->vertex[ordered];
         if (!seen[vertex]) vertices.push_back(vertex);
         seen[vertex] = true;
     }
@@ -38,8 +42,21 @@ std::vector<HaloDot> dots_among(const std::vector<Reached>& reached, std::size_t
 } // namespace
 
 void FalloffHalo::begin_anew() {
+    drop();
+}
+
+void FalloffHalo::drop() {
     searched_ = {};
     dots_.reset();
+    stop_.request_stop();
+}
+
+void FalloffHalo::take_found() {
+    if (!thread_ || !result_.with([](const Result& result) { return result.done; })) return;
+    thread_.reset();
+    Result found = result_.with([](Result& result) { return std::exchange(result, {}); });
+    if (!stop_.stop_requested() && !found.dots.empty())
+        dots_ = std::make_shared<const std::vector<HaloDot>>(std::move(found.dots));
 }
 
 FalloffHalo::Of FalloffHalo::due(const Editor& editor, bool wanted) {
@@ -51,42 +68,35 @@ FalloffHalo::Of FalloffHalo::due(const Editor& editor, bool wanted) {
 
 void FalloffHalo::look_at(const Editor& editor, bool wanted) {
     Of of = due(editor, wanted);
-    if (thread_ && result_.with([](const Result& result) { return result.done; })) {
-        thread_.reset();
-        Result found = result_.with([](Result& result) { return std::exchange(result, {}); });
-        if (of.points && of == searched_ && !found.dots.empty())
-            dots_ = std::make_shared<const std::vector<HaloDot>>(std::move(found.dots));
-    }
-    if (of == searched_) return;
-    dots_.reset();
-    if (!thread_) begin(editor, std::move(of)); // one at a time
+    if (!(of == searched_)) drop();
+    take_found();
+    if (!(of == searched_) && !thread_) begin(editor, std::move(of)); // one at a time
 }
 
 void FalloffHalo::begin(const Editor& editor, Of of) {
     searched_ = std::move(of);
-    if (!searched_.points) return;
+    stop_ = {};
     const PointOrder& order = *editor.opened.order;
     const bool has_twins = order.vertices() < order.points();
-    thread_ = std::make_unique<Background>([&result = result_, of = searched_, shape = editor.opened.opened,
-                                            held = vertices_of(editor, *searched_.points),
-                                            order = has_twins ? std::make_shared<const PointOrder>(order)
-                                                              : nullptr] {
-        std::vector<HaloDot> dots;
-        try {
-            std::vector<float> merged;
-            if (order) {
-                Workers workers(1);
-                merged = vertex_positions(*order, shape->positions, workers);
+    thread_ = std::make_unique<Background>(
+        [&result = result_, of = searched_, shape = editor.opened.opened, held = vertices_of_chosen(editor),
+         stop = stop_.get_token(), order = has_twins ? std::make_shared<const PointOrder>(order) : nullptr] {
+            std::vector<HaloDot> dots;
+            try {
+                std::vector<float> merged;
+                if (order) {
+                    Workers workers(1);
+                    merged = vertex_positions(*order, shape->positions, workers);
+                }
+                const std::span<const float> positions =
+                    order ? std::span<const float>(merged) : std::span<const float>(shape->positions);
+                const auto reached = reached_within(*of.graph, positions, held, of.falloff, stop);
+                dots = dots_among(reached, held.size(), of.falloff);
+            } catch (const std::bad_alloc&) { // then there is nothing to see
+                dots.clear();
             }
-            const std::span<const float> positions =
-                order ? std::span<const float>(merged) : std::span<const float>(shape->positions);
-            dots =
-                dots_among(reached_within(*of.graph, positions, held, of.falloff), held.size(), of.falloff);
-        } catch (const std::bad_alloc&) { // then there is nothing to see
-            dots.clear();
-        }
-        result.with([&](Result& r) { r = {true, std::move(dots)}; });
-    });
+            result.with([&](Result& r) { r = {true, std::move(dots)}; });
+        });
 }
 
 } // namespace knead

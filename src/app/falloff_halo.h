@@ -10,6 +10,7 @@
 #include "edit/editor.h"
 
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 namespace knead {
@@ -22,9 +23,14 @@ struct HaloDot {
     float nearness; // 1 at the handle, 0 where the falloff ends
 };
 
-// Destroying it waits for a search that goes on.
+// Destroying it stops a search that goes on.
 class FalloffHalo {
 public:
+    FalloffHalo() = default;
+    ~FalloffHalo() { stop_.request_stop(); }
+    FalloffHalo(const FalloffHalo&) = delete;
+    FalloffHalo& operator=(const FalloffHalo&) = delete;
+
     // Another cloud is looked at; what was found for the one before is dropped.
     void begin_anew();
     // Begins a search where one is due. Call it once a frame. While `wanted` is false there is nothing to
@@ -49,9 +55,12 @@ private:
     };
 
     static Of due(const Editor& editor, bool wanted);
+    void take_found();
+    void drop();
     void begin(const Editor& editor, Of of);
 
-    Of searched_; // for last
+    Of searched_; // for last; of nothing where that was dropped
+    std::stop_source stop_;
     std::shared_ptr<const std::vector<HaloDot>> dots_;
     Locked<Result> result_;
     std::unique_ptr<Background> thread_; // goes first: it writes the result

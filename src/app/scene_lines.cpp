@@ -3,6 +3,7 @@
 #include "view/framing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace knead {
@@ -77,11 +78,24 @@ void add_samples(const Editor& editor, const SceneLinesOf& what, std::vector<Ove
     }
 }
 
-// Where the handle's pull is, and how strong. What other handles hold it does not pull.
+// Of each value of mark_handle, whether points that have it can move: those of no handle, or where there is a
+// region of interest, its own.
+std::array<bool, mark_handle + 1> free_marks(const std::vector<Handle>& handles) {
+    std::array<bool, mark_handle + 1> free{true};
+    for (std::size_t h = 0; h < handles.size(); ++h) {
+        if (handles[h].role != HandleRole::region_of_interest) continue;
+        free[0] = false;
+        free[handle_mark(h)] = true;
+    }
+    return free;
+}
+
+// Where the handle's pull is, and how strong. What cannot move it does not pull.
 void add_halo(const Editor& editor, const SceneLinesOf& what, std::vector<OverlayLine>& lines) {
+    const auto free = free_marks(editor.document->handles);
     for (const HaloDot& dot : *what.halo) {
         const std::uint8_t mark = editor.marks[editor.opened.order->first_point[dot.vertex]];
-        if ((mark & (mark_hidden | mark_handle)) != 0) continue;
+        if ((mark & mark_hidden) != 0 || !free[mark & mark_handle]) continue;
         const glm::vec3 place = place_of(editor, dot.vertex);
         const float strength = 0.3F + 0.7F * dot.nearness * dot.nearness;
         const auto alpha = static_cast<std::uint32_t>(255 * strength);

@@ -139,7 +139,7 @@ void solve_coarse(CoarseLevel& coarse, std::span<const HandleMotion> handles, co
 }
 
 // What takes each coarse sample from I G(u) to v.
-void find_motions(CoarseLevel& coarse) {
+void find_corrections(CoarseLevel& coarse) {
     for (std::size_t c = 0; c < coarse.samples.sample.size(); ++c) {
         Quatd& turn = coarse.turn[c];
         turn = coarse.state.rotation[c] * coarse.turn[c].conjugate();
@@ -173,7 +173,7 @@ void carry_along(const SampleSystem& fine, const CoarseLevel& coarse, const Samp
     });
 }
 
-// How the surroundings of a coarse sample were moved: its handle's linear map, or R U.
+// How the surroundings of a coarse sample were moved: its handle's linear map, or F.
 Mat3d linear_map(const CoarseLevel& coarse, const SampleState& state, Index c) {
     const SampleSystem& system = coarse.system;
     if (system.left_out[c]) return Mat3d::Identity();
@@ -183,7 +183,7 @@ Mat3d linear_map(const CoarseLevel& coarse, const SampleState& state, Index c) {
 
 // What takes each coarse sample from the anchor to where it is now. Quaternions keep their hemispheres: a
 // neighbour that turned by 179° and one by 181° are to be blended.
-void find_motions(const CoarseFollowing& following, CoarseLevel& coarse) {
+void find_motions_from_anchor(const CoarseFollowing& following, CoarseLevel& coarse) {
     for (Index c = 0; c < coarse.samples.sample.size(); ++c) {
         const Vec3d& before = following.coarse_anchor.displacement[c];
         const Vec3d from = coarse.system.rest.position[c] + before;
@@ -232,7 +232,7 @@ double iterate(SampleSystem& fine, CoarseLevel& coarse, std::span<const HandleMo
     memory.uncorrected = state;
     find_shift(coarse, handles, state, workers);
     solve_coarse(coarse, handles, state, workers);
-    find_motions(coarse);
+    find_corrections(coarse);
     carry_along(fine, coarse, state, state, workers);
     return way;
 }
@@ -267,7 +267,7 @@ double follow_coarsely(SampleSystem& fine, CoarseLevel& coarse, std::span<const 
     follow_handles(coarse.system, handles, following.now, workers);
     turn_shift(following, coarse);
     const double way = iterate_coarse(coarse, handles, following.now, coarse_for_one * iterations, workers);
-    find_motions(following, coarse);
+    find_motions_from_anchor(following, coarse);
     carry_along(fine, coarse, following.anchor, state, workers);
     place_handles(fine, handles, state);
     return way;

@@ -191,11 +191,26 @@ struct LinkMotion {
     Mat3d gradient; // F - I
 };
 
-LinkMotion link_motion(const SampleSystem& system, const SampleState& state, std::size_t row) {
-    const Mat3d displaced = displaced_spread(system, state, row);
-    const Quatd& near = state.rotation[system.free_sample[row]];
-    const Mat3d turn = turn_of(nearest_rotation(system.spread[row] + displaced, near));
-    return {turn, gradient_of(system.surroundings[row], displaced, turn)};
+// Of these rows: calls take(row, motion). Some at once, as in find_local_rotations().
+template<typename Take>
+void for_link_motions(const SampleSystem& system, const SampleState& state, std::size_t begin,
+                      std::size_t end, Take&& take) {
+    constexpr std::size_t at_once = 16;
+    std::array<Mat3d, at_once> displaced, sum;
+    std::array<Quatd, at_once> local;
+    for (std::size_t first = begin; first < end; first += at_once) {
+        const std::size_t count = std::min(at_once, end - first);
+        for (std::size_t k = 0; k < count; ++k) {
+            displaced[k] = displaced_spread(system, state, first + k);
+            sum[k] = system.spread[first + k] + displaced[k];
+            local[k] = state.rotation[system.free_sample[first + k]];
+        }
+        nearest_rotations(std::span(sum).first(count), std::span(local).first(count));
+        for (std::size_t k = 0; k < count; ++k) {
+            const Mat3d turn = turn_of(local[k]);
+            take(first + k, LinkMotion{turn, gradient_of(system.surroundings[first + k], displaced[k], turn)});
+        }
+    }
 }
 
 // Whether S is by what pulls, links and points together; else by links.
@@ -206,9 +221,11 @@ bool has_targets_of_points(const SampleSystem& system) {
 // S of every row by its links.
 void find_targets_of_links(SampleSystem& system, const SampleState& state, Workers& workers) {
     const std::size_t rows = system.target.size();
-    workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
-        system.target[row] = elastic_target(system.surroundings[row],
-                                            link_motion(system, state, row).gradient, system.rest.poisson);
+    workers.for_chunks(rows, grain_of(rows), [&](std::size_t begin, std::size_t end) {
+        for_link_motions(system, state, begin, end, [&](std::size_t row, const LinkMotion& moved) {
+            system.target[row] =
+                elastic_target(system.surroundings[row], moved.gradient, system.rest.poisson);
+        });
     });
 }
 
@@ -234,6 +251,7 @@ void find_targets_of_points(SampleSystem& system, const SampleState& state, Work
         const Index i = system.free_sample[row];
         const Mat3d displaced = displaced_spread(system, state, row) +
                                 local_sum_of(bodies_around(system.rest.energy, system.body, i), 0);
+        // The sample's own rotation for r*: with points S is what it was.
         const Mat3d gradient = gradient_of(system.with_points[row], displaced, turn_of(state.rotation[i]));
         system.target[row] = elastic_target(system.with_points[row], gradient, system.rest.poisson);
     });
@@ -282,12 +300,14 @@ void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, co
 void start_maps(SampleSystem& system, const SampleState& state, Workers& workers) {
     const double of_points = system.rest.energy.share, of_links = 1 - of_points;
     const std::size_t rows = system.stretch.size();
-    workers.for_each(rows, grain_of(rows), [&](std::size_t row) {
-        const LinkMotion moved = link_motion(system, state, row);
-        Mat3d map = of_links * moved.gradient + of_points * moved.turn; // A⁰ - I
-        if (!system.target.empty()) map += of_points * (moved.turn * system.target[row] + system.target[row]);
-        const Quatd back = state.rotation[system.free_sample[row]].conjugate();
-        system.stretch[row] = turn_of(back) + back * map;
+    workers.for_chunks(rows, grain_of(rows), [&](std::size_t begin, std::size_t end) {
+        for_link_motions(system, state, begin, end, [&](std::size_t row, const LinkMotion& moved) {
+            Mat3d map = of_links * moved.gradient + of_points * moved.turn; // A⁰ - I
+            if (!system.target.empty())
+                map += of_points * (moved.turn * system.target[row] + system.target[row]);
+            const Quatd back = state.rotation[system.free_sample[row]].conjugate();
+            system.stretch[row] = turn_of(back) + back * map;
+        });
     });
 }
 
@@ -430,7 +450,11 @@ Mat3d sample_map(const SampleSystem& system, const SampleState& state, Index i) 
 }
 
 Mat3d sample_gradient(const SampleSystem& system, const SampleState& state, Index i) {
-    return link_motion(system, state, system.unknown[i]).gradient;
+    Mat3d gradient;
+    const std::size_t row = system.unknown[i];
+    for_link_motions(system, state, row, row + 1,
+                     [&](std::size_t, const LinkMotion& moved) { gradient = moved.gradient; });
+    return gradient;
 }
 
 double iterate(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state,

@@ -7,7 +7,6 @@
 #include "base/require.h"
 #include "base/stopwatch.h"
 #include "cloud/extent.h"
-#include "edit/sample_budget.h"
 #include "graph/balanced_weights.h"
 #include "graph/bridges.h"
 #include "graph/edge_weights.h"
@@ -39,12 +38,6 @@ void refuse_too_many_links(double links, const std::string& what_for, const std:
                         std::to_string(no_index - 1) + " links in all; " + what_to_do);
 }
 
-// How many base samples it asks for; nothing: every point.
-std::optional<std::size_t> base_of(const PipelineInput& input) {
-    const auto asked = input.settings.samples;
-    return asked ? std::optional(base_samples(*asked, input.handles.size())) : std::nullopt;
-}
-
 } // namespace
 
 Pipeline::Pipeline(const PointCloud& cloud, Workers& workers, Upsampler& upsampler)
@@ -55,7 +48,6 @@ void Pipeline::prepare(PipelineInput input, Progress& progress) {
     if (!hold_the_same(input.handles, input_.handles)) {
         arrange(input.handles, slots_);
         stale_.handles = true;
-        stale_.samples |= base_of(input) != base_of(input_);
     }
     if (input.rest != input_.rest) {
         stale_.areas = stale_.weights = stale_.energy = stale_.systems = stale_.upsampler = true;
@@ -223,7 +215,7 @@ void Pipeline::prepare_samples(Progress& progress) {
         samples_.resize(vertices);
         std::iota(samples_.begin(), samples_.end(), Index{0});
     } else {
-        auto chosen = octree_samples(order_.cube, vertex_positions(), among, *base_of(input_), OfCell::aside);
+        auto chosen = octree_samples(order_.cube, vertex_positions(), among, *input_.settings.samples, OfCell::aside);
         shuffle_in_runs(chosen);
         samples_ = relaxed(std::move(chosen), *graph_, link_lengths_, vertex_positions(), hanging_,
                            relaxing_rounds, workers_, progress);

@@ -81,6 +81,7 @@ void Pipeline::for_lone_pegs(Visit&& visit) const {
 void Pipeline::make_motions(const std::vector<HandleMotion>& motions, const SampleState& state) {
     const std::span<const HandleMotion> given_motions = all_motions(motions);
     find_maps(system_, given_motions, state, workers_);
+    const bool takes_along = !every_point_ || !rest_shape().normals.empty();
     workers_.for_each(samples_.size(), 256, [&](std::size_t s) {
         const Index handle = system_.rest.handle[s];
         const bool given = handle != no_index && system_.unknown[s] == no_index;
@@ -89,7 +90,7 @@ void Pipeline::make_motions(const std::vector<HandleMotion>& motions, const Samp
         } else {
             // Moved as its surroundings are, a sample takes what is between it and the next ones along;
             // where every point is a sample that is normals alone.
-            const bool stretches = system_.unknown[s] != no_index;
+            const bool stretches = takes_along && system_.unknown[s] != no_index;
             const Mat3d moved =
                 stretches ? sample_map(system_, state, static_cast<Index>(s)) : turn_of(state.rotation[s]);
             motions_[s] = motion_about(moved, state.displacement[s] - moved * system_.rest.position[s]);

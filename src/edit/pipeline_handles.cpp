@@ -2,7 +2,6 @@
 
 #include "base/stopwatch.h"
 #include "edit/pipeline.h"
-#include "edit/sample_budget.h"
 
 #include <algorithm>
 #include <atomic>
@@ -12,7 +11,14 @@ namespace knead {
 
 namespace {
 
+// Of the samples asked for, this many more may be spent on the borders of handles.
+constexpr double handle_share = 0.2;
+
 constexpr std::size_t grain = 1 << 14;
+
+std::size_t handle_budget(std::size_t base_samples) {
+    return static_cast<std::size_t>(handle_share * static_cast<double>(base_samples));
+}
 
 } // namespace
 
@@ -32,12 +38,11 @@ void Pipeline::prepare_handles(Progress& progress) {
         seconds_.geodesic += clock.lap();
         return;
     }
-    const std::size_t budget = handle_budget(*input_.settings.samples, base_samples_);
     const VertexShape shape{order_.cube, vertex_positions(), *graph_, *components_, hanging_};
     std::vector<bool> turning; // what is inside of them goes by samples: followed_by()
     for (Index label = 0; label < slots_.handles.size(); ++label) turning.push_back(turns_freely(label));
     const HandleSamples needed =
-        handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_, territories_, turning, budget);
+        handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_, territories_, turning, handle_budget(base_samples_));
     samples_.insert(samples_.end(), needed.added.begin(), needed.added.end());
     seconds_.sampling += clock.lap();
 
@@ -60,7 +65,7 @@ void Pipeline::prepare_handles(Progress& progress) {
 // Handles have the numbers from here on, which stay what they are while samples come and go: so what was
 // flooded of a handle stays good. Rows are not made wide for that.
 Index Pipeline::first_handle_number() const {
-    const std::size_t room = base_samples_ + handle_budget(*input_.settings.samples, base_samples_);
+    const std::size_t room = base_samples_ + handle_budget(base_samples_);
     const std::size_t handles = slots_.handles.size() + 1; // and what is outside
     const bool would_widen = base_samples_ < NarrowRow::none && room + handles > NarrowRow::none;
     return static_cast<Index>(would_widen ? samples_.size() : std::max(samples_.size(), room));

@@ -4,6 +4,7 @@
 #include "graph/csr.h"
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
 namespace knead {
@@ -17,8 +18,9 @@ struct Reached {
 // All vertices within `limit` of the nearest of the sources, which are different: the sources themselves, as
 // they are given, with 0, and then the others in the order of their distances (Dijkstra; of equal ones the
 // lower vertex first). `positions`: 3 floats a vertex. Costs what is reached, as long as neighbours have near
-// numbers (PointOrder).
+// numbers (PointOrder). `stop`: whoever asks by it has what was reached so far.
 std::vector<Reached> reached_within(const Graph& graph, std::span<const float> positions,
-                                    std::span<const Index> sources, double limit);
+                                    std::span<const Index> sources, double limit,
+                                    const std::stop_token& stop = {});
 
 } // namespace knead

@@ -29,16 +29,16 @@ Held all_of(std::span<const HeldBlock> blocks, const ComponentNumbers& component
     for (const HeldBlock& block : blocks)
         all.borders.insert(all.borders.end(), block.borders.begin(), block.borders.end());
     std::ranges::stable_sort(all.borders, {}, &BorderVertex::label);
-    std::set<Index> labels;
-    for (const BorderVertex& border : all.borders) {
-        all.parts.insert({border.label, component[border.vertex]});
-        labels.insert(border.label);
-    }
+    std::set<Index> has_one;
+    const auto add = [&](const HeldPart& part) {
+        all.parts.insert(part);
+        has_one.insert(part.label);
+    };
+    for (const BorderVertex& border : all.borders) add({border.label, component[border.vertex]});
+    const auto is_everywhere = [&](Index label) { return label < everywhere.size() && everywhere[label]; };
     for (const HeldBlock& block : blocks)
         for (const HeldPart& part : block.parts)
-            if (labels.insert(part.label).second ||
-                (part.label < everywhere.size() && everywhere[part.label]))
-                all.parts.insert(part);
+            if (is_everywhere(part.label) || !has_one.contains(part.label)) add(part);
     return all;
 }
 
@@ -98,7 +98,10 @@ Shares shares(const std::map<HeldPart, Border>& borders, const std::set<HeldPart
     const std::size_t left = budget - std::min(budget, parts.size());
     Shares more;
     std::size_t wanted = 0;
-    for (const auto& [part, border] : borders) wanted += more[part] = needed_by(border) - share[part];
+    for (const auto& [part, border] : borders) { // each needs one at least
+        const std::size_t has = parts.contains(part) ? 1 : 0;
+        wanted += more[part] = needed_by(border) - has;
+    }
     std::size_t before = 0; // of what is wanted
     for (const auto& [part, count] : more) {
         if (wanted <= left) {

@@ -39,6 +39,8 @@ protected:
         document_.handles.emplace_back().name = "hand";
         document_.handles.back().points = std::make_shared<const std::vector<Index>>(std::move(hand));
         document_.motions.resize(1);
+        editor_.marks.assign(points, 0);
+        std::fill_n(editor_.marks.begin(), held, handle_mark(0));
         editor_.chosen = "hand";
         with_falloff(20);
     }
@@ -66,6 +68,11 @@ TEST_F(Halo, ReachesToTheEndOfTheFalloffAndFades) {
         EXPECT_GE(dot.vertex, held);
         EXPECT_NEAR(dot.nearness, 1 - (dot.vertex - held + 1) / 20.0, 1e-6) << dot.vertex;
     }
+}
+
+TEST_F(Halo, IsOfWhatNoLaterHandleHolds) {
+    editor_.marks[held - 1] = handle_mark(1);
+    for (const HaloDot& dot : dots()) EXPECT_LT(dot.vertex, held - 1 + 20U);
 }
 
 TEST_F(Halo, IsAnotherForAnotherFalloffOrHandle) {

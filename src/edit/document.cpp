@@ -127,6 +127,7 @@ std::vector<float> Document::rotations(Progress& progress) {
     std::vector<float> posed;
     std::shared_ptr<const RestShape> rest;
     if (under_way_) {
+        (void)shown(progress); // of which the pipeline tells them
         posed = pipeline_.rotations(under_way_->motions, under_way_->samples);
     } else if (is_posed()) {
         const auto samples = samples_of(now(), progress);

@@ -48,14 +48,14 @@ void FalloffHalo::begin_anew() {
 void FalloffHalo::drop() {
     searched_ = {};
     dots_.reset();
-    stop_.request_stop();
+    *stop_ = true;
 }
 
 void FalloffHalo::take_found() {
     if (!thread_ || !result_.with([](const Result& result) { return result.done; })) return;
     thread_.reset();
     Result found = result_.with([](Result& result) { return std::exchange(result, {}); });
-    if (!stop_.stop_requested() && !found.dots.empty())
+    if (!*stop_ && !found.dots.empty())
         dots_ = std::make_shared<const std::vector<HaloDot>>(std::move(found.dots));
 }
 
@@ -75,12 +75,12 @@ void FalloffHalo::look_at(const Editor& editor, bool wanted) {
 
 void FalloffHalo::begin(const Editor& editor, Of of) {
     searched_ = std::move(of);
-    stop_ = {};
+    stop_ = std::make_shared<std::atomic<bool>>(false);
     const PointOrder& order = *editor.opened.order;
     const bool has_twins = order.vertices() < order.points();
     thread_ = std::make_unique<Background>(
         [&result = result_, of = searched_, shape = editor.opened.opened, held = vertices_of_chosen(editor),
-         stop = stop_.get_token(), order = has_twins ? std::make_shared<const PointOrder>(order) : nullptr] {
+         stop = stop_, order = has_twins ? std::make_shared<const PointOrder>(order) : nullptr] {
             std::vector<HaloDot> dots;
             try {
                 std::vector<float> merged;
@@ -90,7 +90,7 @@ void FalloffHalo::begin(const Editor& editor, Of of) {
                 }
                 const std::span<const float> positions =
                     order ? std::span<const float>(merged) : std::span<const float>(shape->positions);
-                const auto reached = reached_within(*of.graph, positions, held, of.falloff, stop);
+                const auto reached = reached_within(*of.graph, positions, held, of.falloff, stop.get());
                 dots = dots_among(reached, held.size(), of.falloff);
             } catch (const std::bad_alloc&) { // then there is nothing to see
                 dots.clear();

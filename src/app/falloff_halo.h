@@ -9,8 +9,8 @@
 #include "base/locked.h"
 #include "edit/editor.h"
 
+#include <atomic>
 #include <memory>
-#include <stop_token>
 #include <vector>
 
 namespace knead {
@@ -27,7 +27,7 @@ struct HaloDot {
 class FalloffHalo {
 public:
     FalloffHalo() = default;
-    ~FalloffHalo() { stop_.request_stop(); }
+    ~FalloffHalo() { *stop_ = true; }
     FalloffHalo(const FalloffHalo&) = delete;
     FalloffHalo& operator=(const FalloffHalo&) = delete;
 
@@ -60,7 +60,8 @@ private:
     void begin(const Editor& editor, Of of);
 
     Of searched_; // for last; of nothing where that was dropped
-    std::stop_source stop_;
+    // Of the search that goes on, or was the last; it has its own hold on it.
+    std::shared_ptr<std::atomic<bool>> stop_ = std::make_shared<std::atomic<bool>>(false);
     std::shared_ptr<const std::vector<HaloDot>> dots_;
     Locked<Result> result_;
     std::unique_ptr<Background> thread_; // goes first: it writes the result

@@ -70,16 +70,12 @@ HandleSpread spread_of(const HandleLabels& labels, const Graph& points, std::spa
                        const Graph& between) {
     HandleSpread spread;
     std::vector<std::size_t> held(labels.outside, 0);
-    std::size_t free = 0;
-    for (const Index label : labels.vertex) {
+    for (const Index label : labels.vertex)
         if (label < labels.outside) ++held[label];
-        if (label == no_index) ++free;
-    }
     std::erase(held, std::size_t{0});
     if (held.empty() || samples.empty()) return spread;
     spread.count = held.size();
     spread.smallest = static_cast<double>(std::ranges::min(held)) / static_cast<double>(labels.vertex.size());
-    if (free > 0) spread.free = static_cast<double>(free) / static_cast<double>(labels.vertex.size());
     spread.closest =
         closest_of(labels, points, samples, between) / std::sqrt(static_cast<double>(samples.size()));
     return spread;

@@ -15,9 +15,6 @@ struct HandleSpread {
     // samples, which is much the same whatever m is. Handles that touch count for nothing: nothing between
     // them bends. 1 without two handles.
     double closest = 1;
-    // The part of the vertices that can move, (0, 1]: that no handle holds and no region of interest leaves
-    // out; 1 without handles, or where none is left.
-    double free = 1;
 };
 
 // `labels`: who holds each vertex; what lies outside a region of interest is a neighbour like the handles,

@@ -27,6 +27,9 @@ namespace {
 
 constexpr int relaxing_rounds = 3;
 
+// Where little of the cloud is free, one vertex in so many tells of what is held inside of handles.
+constexpr std::size_t tells_inside = 1024;
+
 // Vertices that tell how large the cloud is: of all it is the same within half a per cent.
 constexpr std::size_t asked_for_size = 1 << 13;
 
@@ -47,7 +50,7 @@ void Pipeline::prepare(PipelineInput input, Progress& progress) {
     note_changes(input.settings);
     if (!hold_the_same(input.handles, input_.handles)) {
         arrange(input.handles, slots_);
-        stale_.handles = true;
+        stale_.labels = true;
     }
     if (input.rest != input_.rest) {
         stale_.areas = stale_.weights = stale_.energy = stale_.systems = stale_.upsampler = true;
@@ -57,16 +60,18 @@ void Pipeline::prepare(PipelineInput input, Progress& progress) {
     input_ = std::move(input); // which cannot fail: half of it would pass for what the stages are made of
 
     // Each stage makes those that use it stale, and is done once it returned.
+    prepare_graph(progress);
+    if (stale_.labels) {
+        prepare_labels();
+        stale_.handles = true;
+        stale_.labels = false;
+    }
     prepare_stages_without_handles(progress);
     if (stale_.handles) {
         prepare_handles(progress);
         ++samples_version_;
         stale_.influences = stale_.weights = stale_.energy = stale_.systems = true;
         stale_.handles = false;
-    }
-    if (stale_.areas) { // other twins stand for their vertices
-        prepare_areas();
-        stale_.areas = false;
     }
     if (stale_.influences) {
         prepare_influences();
@@ -107,7 +112,7 @@ void Pipeline::note_changes(const Settings& settings) {
     input_.settings = settings;
 }
 
-void Pipeline::prepare_stages_without_handles(Progress& progress) {
+void Pipeline::prepare_graph(Progress& progress) {
     if (stale_.points) {
         prepare_points(progress);
         stale_.bridges = true;
@@ -115,9 +120,13 @@ void Pipeline::prepare_stages_without_handles(Progress& progress) {
     }
     if (stale_.bridges) {
         prepare_bridges(progress);
-        stale_.samples = stale_.contacts = true;
+        stale_.labels = stale_.samples = stale_.contacts = true;
         stale_.bridges = false;
     }
+}
+
+void Pipeline::prepare_stages_without_handles(Progress& progress) {
+    prepare_graph(progress);
     if (stale_.samples) {
         prepare_samples(progress);
         stale_.areas = stale_.handles = stale_.memory = true;
@@ -202,22 +211,56 @@ void Pipeline::find_size() {
     cloud_size_ = knead::cloud_size(positions, asked.area);
 }
 
+// What is on the surface, and of what is held inside of handles little, or as much as is needed to have more
+// of them than samples.
+std::vector<Index> Pipeline::sample_candidates() const {
+    const auto is_inside = [&](Index v) { return !held_inside_.empty() && held_inside_[v] == 1; };
+    const auto vertices = static_cast<Index>(order_.vertices());
+    std::size_t inside = 0, elsewhere = 0;
+    for (Index v = 0; v < vertices; ++v)
+        if (!hangs(hanging_, v)) ++(is_inside(v) ? inside : elsewhere);
+    const std::size_t wanted = *input_.settings.samples + *input_.settings.samples / 4;
+    const std::size_t needed = wanted - std::min(wanted, elsewhere);
+    const std::size_t step = std::max<std::size_t>(1, inside / std::max(needed, inside / tells_inside + 1));
+    std::vector<Index> among;
+    among.reserve(elsewhere + inside / step + 1);
+    std::size_t met = 0; // inside
+    for (Index v = 0; v < vertices; ++v)
+        if (!hangs(hanging_, v) && (!is_inside(v) || met++ % step == 0)) among.push_back(v);
+    return among;
+}
+
+// Of each vertex 1 where it is not asked what the surface is like: outliers, and most of what is held inside
+// of handles. Empty without any.
+std::vector<std::uint8_t> Pipeline::not_asked() const {
+    std::vector<std::uint8_t> marks = held_inside_;
+    for (std::size_t v = 0; v < marks.size(); v += tells_inside) marks[v] = 0;
+    if (marks.empty()) return hanging_;
+    for (std::size_t v = 0; v < hanging_.size(); ++v) marks[v] |= hanging_[v];
+    return marks;
+}
+
 void Pipeline::prepare_samples(Progress& progress) {
     Stopwatch clock;
     progress.step("choosing samples", 0);
     const std::size_t vertices = order_.vertices();
-    std::vector<Index> among; // but outliers, which are samples only where all are
-    among.reserve(vertices);
-    for (Index v = 0; v < vertices; ++v)
-        if (!hangs(hanging_, v)) among.push_back(v);
-    every_point_ = !input_.settings.samples || *input_.settings.samples >= among.size();
+    // Outliers are samples only where all are.
+    const std::size_t on_surface = vertices - static_cast<std::size_t>(std::ranges::count(hanging_, 1));
+    every_point_ = !input_.settings.samples || *input_.settings.samples >= on_surface;
+    candidates_ = vertices;
     if (every_point_) {
         samples_.resize(vertices);
         std::iota(samples_.begin(), samples_.end(), Index{0});
     } else {
-        auto chosen = octree_samples(order_.cube, vertex_positions(), among, *input_.settings.samples, OfCell::aside);
+        const std::vector<Index> among = sample_candidates();
+        if (!held_inside_.empty()) candidates_ = among.size();
+        auto chosen =
+            octree_samples(order_.cube, vertex_positions(), among, *input_.settings.samples, OfCell::aside);
         shuffle_in_runs(chosen);
-        samples_ = relaxed(std::move(chosen), *graph_, link_lengths_, vertex_positions(), hanging_,
+        std::vector<std::uint8_t> barred = not_asked();
+        for (const Index v : chosen)
+            if (!barred.empty()) barred[v] = 0;
+        samples_ = relaxed(std::move(chosen), *graph_, link_lengths_, vertex_positions(), barred,
                            relaxing_rounds, workers_, progress);
     }
     base_samples_ = samples_.size();
@@ -257,7 +300,7 @@ void Pipeline::prepare_areas() {
     } else {
         const Asking asking = asking_for(base_samples_, all);
         asked_ = ask_vertices(*graph_, rest.positions, standing_points(), hanging_,
-                              choose_by_area(*graph_, link_lengths_, hanging_, asking.vertices, workers_),
+                              choose_by_area(*graph_, link_lengths_, not_asked(), asking.vertices, workers_),
                               asking.of_cells, workers_);
         area_of_links_ = level_areas(asked_, territories_, base_samples_);
     }
@@ -280,7 +323,7 @@ std::vector<bool> Pipeline::turns_by_samples() const {
 // Where samples are few enough that what lies between them has to be asked.
 void Pipeline::find_energy(const SampleRest& rest) {
     energy_ = {};
-    const double share = share_of_points(base_samples_, order_.vertices()); // whatever handles add
+    const double share = share_of_points(base_samples_, candidates_); // whatever handles add
     if (every_point_ || share == 0) return;
     const RestShape& shape = rest_shape();
     const PointsBetween between{*graph_,

@@ -4,9 +4,10 @@
 //
 //     neighbors                 → order, graph, components
 //     strays: bridge or not     → outliers, bridges between components, components again (graph/bridges.h)
-//     samples                   → base samples and their flood
-//     handle set                → labels, handle samples, sample graph, coarse samples; the flood from the
-//                                 borders of the handles (both flood only what they reach)
+//     handle set                → labels; whether they leave little of the cloud free, and where
+//     samples, that little      → base samples and their flood
+//     labels                    → handle samples, sample graph, coarse samples; the flood from the borders of
+//                                 the handles (it floods only what it reaches)
 //     weights, strays           → what moves each point; what carries the parts without a handle
 //                                 (edit/carried_parts.h)
 //     rest shape                → the weights of the sample graph's links
@@ -176,10 +177,15 @@ public:
 
 private:
     void note_changes(const Settings& settings);
+    void prepare_graph(Progress& progress);
+    void prepare_labels();
     void prepare_stages_without_handles(Progress& progress);
     void prepare_points(Progress& progress);
     void prepare_bridges(Progress& progress);
     void find_size();
+    void find_held_inside();
+    std::vector<Index> sample_candidates() const;
+    std::vector<std::uint8_t> not_asked() const;
     void prepare_samples(Progress& progress);
     void prepare_areas();
     void prepare_handles(Progress& progress);
@@ -229,8 +235,9 @@ private:
 
     // Which stages have to run again before the next frame.
     struct Stale {
-        bool points = true, bridges = true, samples = true, areas = true, handles = true, contacts = true,
-             influences = true, weights = true, energy = true, systems = true, upsampler = true;
+        bool points = true, bridges = true, labels = true, samples = true, areas = true, handles = true,
+             contacts = true, influences = true, weights = true, energy = true, systems = true,
+             upsampler = true;
         bool memory = false; // what a set-up freed is not given back yet
     };
     Stale stale_;
@@ -248,6 +255,10 @@ private:
     bool every_point_ = false;
     std::vector<Index> samples_;
     std::size_t base_samples_ = 0;
+    // Of each vertex 1 where handles hold it with all its neighbours, if they leave less than a fourth of the
+    // cloud free; empty else.
+    std::vector<std::uint8_t> held_inside_;
+    std::size_t candidates_ = 0; // vertices among which base samples are chosen
     InfluenceRows nearest_;                        // of each vertex; empty if every point is a sample
     AddedStarts<influences_per_row> from_handles_; // that are in these
     std::vector<Index> row_ends_;                  // of blocks of rows: find_row_ends()

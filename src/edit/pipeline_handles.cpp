@@ -11,6 +11,9 @@ namespace knead {
 
 namespace {
 
+// Where less than one in so many vertices is free, samples go there.
+constexpr std::size_t little_free = 4;
+
 // Of the samples asked for, this many more may be spent on the borders of handles.
 constexpr double handle_share = 0.2;
 
@@ -27,12 +30,34 @@ void Pipeline::find_pulled(Progress& progress) {
                              *graph_, vertex_positions(), cloud_size_, workers_, progress);
 }
 
+void Pipeline::prepare_labels() {
+    const Stopwatch clock;
+    label_vertices();
+    find_held_inside();
+    seconds_.sampling += clock.seconds();
+}
+
+// Where little of the cloud is free: samples are of use there alone.
+void Pipeline::find_held_inside() {
+    std::size_t held = 0;
+    for (const HeldBlock& block : held_blocks_)
+        for (const HeldExtent& extent : block.extents) held += extent.count;
+    const std::size_t vertices = order_.vertices();
+    const bool is_little = held < vertices && little_free * (vertices - held) < vertices;
+    std::vector<std::uint8_t> inside(is_little ? vertices : 0, 0);
+    const auto is_held = [&](Index v) { return labels_.vertex[v] != no_index; };
+    workers_.for_each(inside.size(), grain, [&](std::size_t v) {
+        inside[v] = is_held(static_cast<Index>(v)) && std::ranges::all_of(graph_->row(v), is_held) ? 1 : 0;
+    });
+    if (inside == held_inside_) return;
+    held_inside_ = std::move(inside);
+    if (!every_point_) stale_.samples = true;
+}
+
 void Pipeline::prepare_handles(Progress& progress) {
     Stopwatch clock;
     samples_.resize(base_samples_);
-    label_vertices();
     if (every_point_) { // their graph is that of the points, whatever the handles are
-        seconds_.sampling += clock.lap();
         find_pulled(progress);
         choose_coarse_samples();
         seconds_.geodesic += clock.lap();
@@ -41,8 +66,8 @@ void Pipeline::prepare_handles(Progress& progress) {
     const VertexShape shape{order_.cube, vertex_positions(), *graph_, *components_, hanging_};
     std::vector<bool> turning; // what is inside of them goes by samples: followed_by()
     for (Index label = 0; label < slots_.handles.size(); ++label) turning.push_back(turns_freely(label));
-    const HandleSamples needed =
-        handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_, territories_, turning, handle_budget(base_samples_));
+    const HandleSamples needed = handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_,
+                                                territories_, turning, handle_budget(base_samples_));
     samples_.insert(samples_.end(), needed.added.begin(), needed.added.end());
     seconds_.sampling += clock.lap();
 

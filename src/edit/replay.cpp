@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
-#include "edit/few_samples.h"
 #include "edit/median.h"
 #include "edit/session_cloud.h"
 #include "io/cloud_file.h"
@@ -186,7 +185,6 @@ private:
         checked_ = is_undone_ = false;
         if (options_.rehearse) return;
         add_warning(words_about(document.pipeline().strays()));
-        add_warning(words_about_few_samples(document.pipeline()));
         for (const std::string& words :
              {words_about_swallowed(document, line.handle), words_about_loose(document, line.handle)})
             if (!words.empty()) add_warning(session_.place(number) + ": " + words);

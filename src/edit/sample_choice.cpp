@@ -26,13 +26,12 @@ constexpr double growth = 1.15;
 // Fewer than these take hardly less: what they wait for is not theirs, and says nothing about more of them.
 constexpr double fewest_telling = 1000;
 
-// What handles ask for: two samples across the smallest, eight between any two, 20 for a border of each from
-// the fifth that they share, and 400 where the cloud can move, however little of it that is. Handles of less
-// than 1/1250 of the points get a falloff instead (edit/falloffs.h).
+// What handles ask for: two samples across the smallest, eight between any two, and 20 for a border of each
+// from the fifth that they share. Handles of less than 1/1250 of the points get a falloff instead
+// (edit/falloffs.h).
 constexpr double samples_on_smallest = 4, smallest_counted = 1.0 / 1250;
 constexpr double samples_between = 8;
 constexpr double samples_a_handle = 20 * 5;
-constexpr double samples_where_free = 400;
 
 double rung_below(double samples) {
     const auto* const above = std::ranges::upper_bound(rungs, samples);
@@ -48,8 +47,7 @@ double rung_for(double samples) {
 double wanted_by(const HandleSpread& handles) {
     const double small = samples_on_smallest / std::max(handles.smallest, smallest_counted);
     const double between = samples_between / handles.closest;
-    return std::max({small, between * between, samples_a_handle * static_cast<double>(handles.count),
-                     samples_where_free / handles.free});
+    return std::max({small, between * between, samples_a_handle * static_cast<double>(handles.count)});
 }
 
 double allowed_by(double points) {

@@ -6,8 +6,7 @@
 // while it follows the hand:
 //   - 2000 leave no more of the diagonal than 1000 do, 0.11 % on the survey's shapes and on scans of bodies
 //     (README, "Measured"), about a pixel of a cloud that fills the view;
-//   - many, small and crowded handles ask for more, and those that leave little of the cloud free, see
-//     HandleSpread;
+//   - many, small and crowded handles ask for more, see HandleSpread;
 //   - no more than 1000 or a fourth of the points, whichever is more, and up to 1000 points all of them;
 //   - a frame, its iterations and the upsampling, is to take 25 ms.
 // Every choice is a rung of 200, 500, 1000, 2000 … 20,000, or every point.

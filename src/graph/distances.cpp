@@ -14,7 +14,7 @@ namespace knead {
 
 std::vector<Reached> reached_within(const Graph& graph, std::span<const float> positions,
                                     std::span<const Index> sources, double limit,
-                                    const std::stop_token& stop) {
+                                    const std::atomic<bool>* stop) {
     require(positions.size() == 3 * graph.size(), "a position a vertex");
     using Waiting = std::pair<double, Index>;
     std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue;
@@ -40,7 +40,7 @@ std::vector<Reached> reached_within(const Graph& graph, std::span<const float> p
         }
     };
     for (const Index source : sources) go_on(source, 0);
-    while (!queue.empty() && !stop.stop_requested()) {
+    while (!queue.empty() && !(stop && *stop)) {
         const auto [way, v] = queue.top();
         queue.pop();
         if (way > distance[v]) continue; // a shorter way was found since

@@ -3,8 +3,8 @@
 
 #include "graph/csr.h"
 
+#include <atomic>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 namespace knead {
@@ -18,9 +18,9 @@ struct Reached {
 // All vertices within `limit` of the nearest of the sources, which are different: the sources themselves, as
 // they are given, with 0, and then the others in the order of their distances (Dijkstra; of equal ones the
 // lower vertex first). `positions`: 3 floats a vertex. Costs what is reached, as long as neighbours have near
-// numbers (PointOrder). `stop`: whoever asks by it has what was reached so far.
+// numbers (PointOrder). `stop`: once it holds true, what was reached so far is returned.
 std::vector<Reached> reached_within(const Graph& graph, std::span<const float> positions,
                                     std::span<const Index> sources, double limit,
-                                    const std::stop_token& stop = {});
+                                    const std::atomic<bool>* stop = nullptr);
 
 } // namespace knead

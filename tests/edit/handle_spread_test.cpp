@@ -51,7 +51,6 @@ TEST(HandleSpread, CountsHandlesAndLinksBetweenThem) {
     const HandleSpread spread = spread_of_chain(40, 45, 1);
     EXPECT_EQ(spread.count, 2U);
     EXPECT_DOUBLE_EQ(spread.smallest, 0.4);
-    EXPECT_DOUBLE_EQ(spread.free, 0.05);
     EXPECT_DOUBLE_EQ(spread.closest, 6 / 10.0);                              // from vertex 39 to vertex 45
     EXPECT_DOUBLE_EQ(spread_of_chain(40, 45, 2).closest, 4 / std::sqrt(50)); // 38, 40, 42, 44, 46
 }
@@ -70,7 +69,6 @@ TEST(HandleSpread, OneHandleOrNoneIsAloneButForWhatIsOutside) {
     const HandleSpread region = spread_of_chain(40, 45, 1, 1); // the second label is what lies outside
     EXPECT_EQ(region.count, 1U);
     EXPECT_DOUBLE_EQ(region.closest, 6 / 10.0);
-    EXPECT_DOUBLE_EQ(region.free, 0.05);
 }
 
 TEST(HandleSpread, IsMuchTheSameForAnyNumberOfSamples) {

@@ -138,6 +138,42 @@ TEST(SampleCounts, AreNoMoreForManyPieces) {
     }
 }
 
+// Foot and top leave a twentieth of the bar free.
+const std::string narrow = box_handle("foot", "fixed", "[-9,-9,-9]", "[9,9,-0.125]") +
+                           box_handle("top", "moving", "[-9,-9,0.125]", "[9,9,9]");
+
+TEST(SampleCounts, AreMostlyWhereLittleIsFree) {
+    for (const std::uint64_t asked : {100U, 1000U}) {
+        Settings settings;
+        settings.samples = asked;
+        Desk desk(bar(20'000), settings);
+        desk.play(narrow + drag(lift));
+        const Pipeline& pipeline = desk.pipeline();
+        const auto is_held = [&](Index v) { return pipeline.labels().vertex[v] != no_index; };
+        const auto inside = std::ranges::count_if(pipeline.samples(), [&](Index v) {
+            return is_held(v) && std::ranges::all_of(pipeline.graph().row(v), is_held);
+        });
+        EXPECT_LE(4 * inside, static_cast<std::ptrdiff_t>(asked)) << "evenly spread all but a twentieth";
+        EXPECT_GE(pipeline.samples().size(), asked);
+        EXPECT_LE(5 * pipeline.samples().size(), 6 * asked);
+    }
+}
+
+// Whatever handles there were before.
+TEST(SampleCounts, LieWhereTheHandlesOfTheDayWantThem) {
+    Settings settings;
+    settings.samples = 300;
+    Desk desk(bar(6000), settings), straight(bar(6000), settings);
+    desk.play(narrow + drag(lift) + undo + ends + drag(lift));
+    straight.play(ends + drag(lift));
+    EXPECT_EQ(desk.pipeline().samples(), straight.pipeline().samples());
+    EXPECT_TRUE(same_bits(desk.shape(), straight.shape()));
+    desk.play(undo + undo + undo + redo + undo + narrow + drag(lift));
+    Desk narrow_alone(bar(6000), settings);
+    narrow_alone.play(narrow + drag(lift));
+    EXPECT_TRUE(same_bits(desk.shape(), narrow_alone.shape()));
+}
+
 // Outliers are no samples of their own.
 TEST(SampleCounts, AreNoFewerForOutliers) {
     PointCloud cloud = bar(1500);

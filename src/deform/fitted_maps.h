@@ -29,7 +29,7 @@
 // cloud R lags behind, and normals with it (deform/stretch.h).
 //
 // Of the stretches U that links between samples tell, which made A = R U before, few samples see too little:
-// the bent dragon with 50 of them was 1.48 times as uneven as with every point a sample, and is 1.28 times
+// the bent dragon with 50 of them was 1.48 times as uneven as with every point a sample, and is 1.30 times
 // so; the survey's cylinder took 112 iterations to come to rest, and takes 38 (knead evaluate).
 
 #include "base/workers.h"

@@ -42,10 +42,6 @@ std::vector<HaloDot> dots_among(const std::vector<Reached>& reached, std::size_t
 } // namespace
 
 void FalloffHalo::begin_anew() {
-    drop();
-}
-
-void FalloffHalo::drop() {
     searched_ = {};
     dots_.reset();
     *stop_ = true;
@@ -68,7 +64,7 @@ FalloffHalo::Of FalloffHalo::due(const Editor& editor, bool wanted) {
 
 void FalloffHalo::look_at(const Editor& editor, bool wanted) {
     Of of = due(editor, wanted);
-    if (!(of == searched_)) drop();
+    if (!(of == searched_)) begin_anew();
     take_found();
     if (!(of == searched_) && !thread_) begin(editor, std::move(of)); // one at a time
 }

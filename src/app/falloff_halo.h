@@ -31,7 +31,7 @@ public:
     FalloffHalo(const FalloffHalo&) = delete;
     FalloffHalo& operator=(const FalloffHalo&) = delete;
 
-    // Another cloud is looked at; what was found for the one before is dropped.
+    // Drops what was found or is looked for: another cloud is looked at, say.
     void begin_anew();
     // Begins a search where one is due. Call it once a frame. While `wanted` is false there is nothing to
     // see.
@@ -56,7 +56,6 @@ private:
 
     static Of due(const Editor& editor, bool wanted);
     void take_found();
-    void drop();
     void begin(const Editor& editor, Of of);
 
     Of searched_; // for last; of nothing where that was dropped

@@ -50,32 +50,35 @@ std::string disc(const std::string& name, const std::string& role, double radius
            R"(","region":{"sphere":{"center":[0.5,0.5,0],"radius":)" + std::to_string(radius) + "}}}\n";
 }
 
-// A disc that is lifted within a region of 30 % of the plane's width.
-TEST(Normals, StandOnTheSlopeOfASmallBump) {
-    for (const std::optional<std::uint64_t> samples :
-         {std::optional<std::uint64_t>(5000), std::optional<std::uint64_t>()}) {
-        Settings settings;
-        settings.samples = samples;
-        Desk desk(made(Shape::plane, 20'000), settings);
-        desk.play(disc("around", "roi", 0.15) + disc("top", "moving", 0.05) +
-                  drag(R"({"translate":[0,0,0.05]},{"translate":[0,0,0.1]})") + settle(60));
-        const std::vector<double> angles = askew(desk, 0.06, 0.14);
-        ASSERT_GT(angles.size(), 500U);
-        EXPECT_LT(angles[angles.size() / 2], 3) << "half of them"; // by the samples' own rotations 20
-        EXPECT_LT(angles[angles.size() * 9 / 10], 8) << "all but a tenth";
-    }
+struct Bump {
+    double around, top, height; // the radii of the region and of the disc in it that is lifted, and how far
+};
+
+// Half of the normals on its slope stand within `half` degrees, and all but a tenth within 8.
+void expect_upright(const Bump& bump, std::optional<std::uint64_t> samples, double half) {
+    Settings settings;
+    settings.samples = samples;
+    Desk desk(made(Shape::plane, 20'000), settings);
+    const auto lifted = [&](double part) {
+        return R"({"translate":[0,0,)" + std::to_string(part * bump.height) + "]}";
+    };
+    desk.play(disc("around", "roi", bump.around) + disc("top", "moving", bump.top) +
+              drag(lifted(0.5) + "," + lifted(1)) + settle(60));
+    const std::vector<double> angles = askew(desk, 1.2 * bump.top, 0.93 * bump.around);
+    ASSERT_GT(angles.size(), 500U);
+    EXPECT_LT(angles[angles.size() / 2], half);
+    EXPECT_LT(angles[angles.size() * 9 / 10], 8);
 }
 
+// By the samples' own rotations half of them would be askew by more than 20.
+TEST(Normals, StandOnTheSlopeOfASmallBump) {
+    expect_upright({0.15, 0.05, 0.1}, 5000, 3);
+    expect_upright({0.15, 0.05, 0.1}, std::nullopt, 3);
+}
+
+// And here by more than 7.
 TEST(Normals, StandOnTheSlopeOfALargerBumpOfFewSamples) {
-    Settings settings;
-    settings.samples = 1000;
-    Desk desk(made(Shape::plane, 20'000), settings);
-    desk.play(disc("around", "roi", 0.45) + disc("top", "moving", 0.08) +
-              drag(R"({"translate":[0,0,0.1]},{"translate":[0,0,0.2]})") + settle(60));
-    const std::vector<double> angles = askew(desk, 0.12, 0.42);
-    ASSERT_GT(angles.size(), 5000U);
-    EXPECT_LT(angles[angles.size() / 2], 2.5) << "half of them"; // by the samples' own rotations 7
-    EXPECT_LT(angles[angles.size() * 9 / 10], 8) << "all but a tenth";
+    expect_upright({0.45, 0.08, 0.2}, 1000, 2.5);
 }
 
 } // namespace

@@ -18,6 +18,7 @@ constexpr const char* sampling_name = "sampling";
 constexpr const char* turns_name = "turns";
 constexpr const char* stiffness_name = "stiffness";
 constexpr const char* demands_name = "demands";
+constexpr const char* small_name = "small";
 
 std::string samples_name(const NamedScan& scan) {
     return std::string("samples-") + scan.name;
@@ -81,6 +82,8 @@ void evaluate_studies(const EvaluationOptions& options, Workers& workers, Upsamp
     if (is_chosen(options, stiffness_name))
         result.stiffnesses = evaluate_stiffness(workers, upsampler, progress);
     if (is_chosen(options, demands_name)) result.demands = evaluate_demands(workers, upsampler, progress);
+    if (is_chosen(options, small_name))
+        result.small_handles = evaluate_small_handles(workers, upsampler, progress);
     for (const NamedScan& scan : scans_to_sample())
         if (is_chosen(options, samples_name(scan)))
             result.scans.push_back(evaluate_scan_samples(scan, options.scans, workers, upsampler, progress));
@@ -111,7 +114,8 @@ std::vector<std::string> evaluation_names(const EvaluationOptions& options) {
     std::vector<std::string> names = task_names(options);
     for (const MadeCloud& made : made_clouds)
         if (std::ranges::find(names, made.name) == names.end()) names.emplace_back(made.name);
-    for (const char* name : {elasticity_name, sampling_name, turns_name, stiffness_name, demands_name})
+    for (const char* name :
+         {elasticity_name, sampling_name, turns_name, stiffness_name, demands_name, small_name})
         names.emplace_back(name);
     for (const NamedScan& scan : scans_to_sample()) names.push_back(samples_name(scan));
     for (const auto& path : data_files(options.scans, ".ply")) names.push_back(path.stem().string());

@@ -9,6 +9,7 @@
 #include "bench/quality.h"
 #include "bench/sampling.h"
 #include "bench/scan_samples.h"
+#include "bench/small_handles.h"
 #include "bench/stiffness.h"
 #include "bench/turns.h"
 
@@ -40,11 +41,12 @@ struct Evaluation {
     std::vector<TurnResult> turns;            // with "turns"
     std::vector<StiffnessResult> stiffnesses; // with "stiffness"
     std::vector<DemandResult> demands;        // with "demands"
+    std::vector<SmallResult> small_handles;   // with "small"
     std::vector<std::string> warnings;        // of the device
 };
 
 // The names that `shapes` may hold with these folders: the tasks, generated clouds ("made-knot"),
-// "elasticity", "sampling", "turns", "stiffness", "demands", "samples-bunny" and the others of
+// "elasticity", "sampling", "turns", "stiffness", "demands", "small", "samples-bunny" and the others of
 // scans_to_sample(), and the scans' file names without ".ply", for their properties.
 std::vector<std::string> evaluation_names(const EvaluationOptions& options);
 

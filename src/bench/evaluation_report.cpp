@@ -191,6 +191,7 @@ std::string evaluation_text(const Evaluation& evaluation) {
     if (!evaluation.stretches.empty()) text += "\n" + stretches_text(evaluation.stretches);
     if (!evaluation.stiffnesses.empty()) text += "\n" + stiffness_text(evaluation.stiffnesses);
     if (!evaluation.demands.empty()) text += "\n" + demands_text(evaluation.demands);
+    if (!evaluation.small_handles.empty()) text += "\n" + small_handles_text(evaluation.small_handles);
     if (!evaluation.clouds.empty()) text += "\n" + clouds_text(evaluation.clouds);
     return text;
 }
@@ -209,6 +210,7 @@ std::string evaluation_json(const Evaluation& evaluation) {
                     {"turns", turns_json(evaluation.turns)},
                     {"stiffness", stiffness_json(evaluation.stiffnesses)},
                     {"demands", demands_json(evaluation.demands)},
+                    {"small", small_handles_json(evaluation.small_handles)},
                     {"twist", ReportJson()}};
     for (const TaskQuality& task : evaluation.tasks) json["tasks"].push_back(json_of(task));
     for (const StretchResult& stretch : evaluation.stretches) json["elasticity"].push_back(json_of(stretch));

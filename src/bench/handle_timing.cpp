@@ -18,7 +18,13 @@ namespace {
 
 constexpr std::size_t fewest_points = 100'000;
 constexpr std::array<std::uint64_t, 2> samples_asked{1000, 5000}; // around few, the energy is that of points
-constexpr double radius_of_third = 0.03;                          // of the cloud's size
+constexpr double radius_of_third = 0.03, radius_of_disc = 0.15;   // of the cloud's size
+
+// Who else holds what, and where in their list the third handle is.
+struct Arrangement {
+    bool in_disc = false, is_first = false;
+};
+constexpr std::array<Arrangement, 3> arrangements{{{false, false}, {false, true}, {true, false}}};
 
 struct TimedStage {
     const char* name;
@@ -38,35 +44,40 @@ std::vector<Handle> two_handles(const PointCloud& cloud) {
             {"", HandleRole::moving, shared_points(std::move(automatic.moving))}};
 }
 
-Handle third_handle(const PointCloud& cloud, double radius) {
+// What lies so near the middle, or else what does not.
+Handle handle_of_disc(const PointCloud& cloud, double radius, bool inside, HandleRole role) {
     const Bounds bounds = bounds_of(cloud);
     const Vec3d middle = (bounds.lowest + bounds.highest) / 2;
     std::vector<Index> points;
     for (Index i = 0; i < cloud.size(); ++i)
-        if ((cloud.file_position(i) - middle).norm() <= radius) points.push_back(i);
-    return {"", HandleRole::moving, shared_points(std::move(points))};
+        if (((cloud.file_position(i) - middle).norm() <= radius) == inside) points.push_back(i);
+    return {"", role, shared_points(std::move(points))};
 }
 
-HandleTimingRow measure_plane(const PointCloud& cloud, std::uint64_t samples, bool is_first,
+HandleTimingRow measure_plane(const PointCloud& cloud, std::uint64_t samples, Arrangement arrangement,
                               std::size_t repeats, Upsampler& upsampler, Workers& workers,
                               Progress& progress) {
     Pipeline pipeline(cloud, workers, upsampler);
-    PipelineInput two;
-    two.settings.samples = samples;
-    two.handles = two_handles(cloud);
-    pipeline.prepare(two, progress);
-    PipelineInput three = two;
-    const Handle third = third_handle(cloud, radius_of_third * pipeline.cloud_size());
-    three.handles.insert(is_first ? three.handles.begin() : three.handles.end(), third);
+    PipelineInput without;
+    without.settings.samples = samples;
+    without.handles = two_handles(cloud);
+    pipeline.prepare(without, progress);
+    const double size = pipeline.cloud_size();
+    if (arrangement.in_disc)
+        without.handles = {handle_of_disc(cloud, radius_of_disc * size, false, HandleRole::fixed)};
+    PipelineInput with = without;
+    const Handle third = handle_of_disc(cloud, radius_of_third * size, true, HandleRole::moving);
+    with.handles.insert(arrangement.is_first ? with.handles.begin() : with.handles.end(), third);
 
     HandleTimingRow figures;
     figures.points = cloud.size();
     figures.in_handle = third.points->size();
-    figures.is_first = is_first;
+    figures.is_in_disc = arrangement.in_disc;
+    figures.is_first = arrangement.is_first;
     std::array<std::vector<double>, stages.size()> seconds;
     std::vector<double> frame, live;
     for (std::size_t change = 0; change < 2 * (repeats + 1); ++change) {
-        const PipelineInput& input = change % 2 == 0 ? three : two;
+        const PipelineInput& input = change % 2 == 0 ? with : without;
         const StageSeconds before = pipeline.seconds();
         Stopwatch clock;
         pipeline.prepare(input, progress);
@@ -100,8 +111,8 @@ HandleTiming measure_handle_timing(std::size_t most_points, const Table1Options&
     for (std::size_t points = fewest_points; points <= most_points; points *= 10) {
         const PointCloud cloud = made_cloud(Shape::plane, points, workers, progress);
         for (const std::uint64_t samples : samples_asked)
-            for (const bool is_first : {false, true})
-                timing.rows.push_back(measure_plane(cloud, samples, is_first, options.repeats,
+            for (const Arrangement& arrangement : arrangements)
+                timing.rows.push_back(measure_plane(cloud, samples, arrangement, options.repeats,
                                                     *choice.upsampler, workers, progress));
     }
     if (std::string words = choice.upsampler->take_warning(); !words.empty())
@@ -110,7 +121,7 @@ HandleTiming measure_handle_timing(std::size_t most_points, const Table1Options&
 }
 
 std::string handle_timing_text(const HandleTiming& timing) {
-    std::vector<std::string> heading{"points", "samples", "in handle", "place"};
+    std::vector<std::string> heading{"points", "samples", "in handle", "free", "place"};
     for (const TimedStage& stage : stages) heading.emplace_back(stage.name);
     for (const char* name : {"frame", "live again", "spread"}) heading.emplace_back(name);
     TextTable table{{machine_text(timing.machine)},
@@ -118,11 +129,12 @@ std::string handle_timing_text(const HandleTiming& timing) {
                      " and " + timing.device},
                     {"A third handle on the plane comes or goes, at this place in the list: the stages that "
                      "run again, and the first frame."},
+                    {"Free is what two handles at opposite edges leave, or a disc of 15 % around it."},
                     {""},
                     heading};
     for (const HandleTimingRow& row : timing.rows) {
         std::vector<std::string> line{grouped(row.points), grouped(row.samples), grouped(row.in_handle),
-                                      row.is_first ? "first" : "last"};
+                                      row.is_in_disc ? "disc" : "most", row.is_first ? "first" : "last"};
         for (const TimedStage& stage : stages) line.push_back(duration_text((row.*stage.after).median));
         line.push_back(duration_text(row.frame.median));
         line.push_back(duration_text(row.live.median));
@@ -146,6 +158,7 @@ std::string handle_timing_json(const HandleTiming& timing) {
         json["rows"].push_back({{"points", row.points},
                                 {"samples", row.samples},
                                 {"in_handle", row.in_handle},
+                                {"free", row.is_in_disc ? "disc" : "most"},
                                 {"place", row.is_first ? "first" : "last"},
                                 {"seconds", seconds}});
     }

@@ -50,6 +50,10 @@ struct DemandResult;
 std::string demands_text(std::span<const DemandResult> results);
 ReportJson demands_json(std::span<const DemandResult> results);
 
+struct SmallResult;
+std::string small_handles_text(std::span<const SmallResult> results);
+ReportJson small_handles_json(std::span<const SmallResult> results);
+
 struct StiffnessResult;
 std::string stiffness_text(std::span<const StiffnessResult> results);
 ReportJson stiffness_json(std::span<const StiffnessResult> results);

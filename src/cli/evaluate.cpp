@@ -54,7 +54,7 @@ void add_evaluate(CLI::App& app, Job& job) {
     command->add_option(
         "--shape", arguments->shapes,
         "Only these: bar, cactus, cylinder, plane (the survey's), made-bar (and a long one twisted), "
-        "made-solid-bar, made-knot, made-creature; elasticity, sampling, turns, stiffness, demands; "
+        "made-solid-bar, made-knot, made-creature; elasticity, sampling, turns, stiffness, demands, small; "
         "samples-bunny, samples-armadillo, samples-dragon, samples-horse, samples-lidar, samples-room; "
         "a scan without .ply; with --page, \"page\": nothing (default: all)");
     command

@@ -15,10 +15,14 @@ TEST(HandleTiming, MeasuresEveryStage) {
     options.device = "reference";
     SilentProgress progress;
     const HandleTiming timing = measure_handle_timing(100'000, options, progress);
-    ASSERT_EQ(timing.rows.size(), 4U); // few samples and more, a handle at the end and at the beginning
-    EXPECT_TRUE(timing.rows.back().is_first);
-    EXPECT_GT(timing.rows.back().samples, 5000U);
-    EXPECT_LE(timing.rows.back().samples, 6003U); // a fifth more, and one a handle
+    // Few samples and more, a handle at the end and at the beginning, and where little is free.
+    ASSERT_EQ(timing.rows.size(), 6U);
+    EXPECT_TRUE(timing.rows[4].is_first);
+    EXPECT_TRUE(timing.rows[5].is_in_disc);
+    for (const HandleTimingRow& row : std::span(timing.rows).last(3)) {
+        EXPECT_GT(row.samples, 5000U);
+        EXPECT_LE(row.samples, 6003U); // a fifth more, and one a handle
+    }
     const HandleTimingRow& row = timing.rows.front();
     EXPECT_FALSE(row.is_first);
     EXPECT_EQ(row.points, 100'000U);

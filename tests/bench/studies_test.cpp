@@ -7,6 +7,7 @@
 #include "bench/report.h"
 #include "bench/sampling.h"
 #include "bench/scan_samples.h"
+#include "bench/small_handles.h"
 #include "bench/stiffness.h"
 #include "bench/turns.h"
 #include "support/scratch_folder.h"
@@ -134,6 +135,29 @@ TEST_F(Studies, ImpossibleDemandsAreSharedOutAndSaid) {
     ASSERT_TRUE(result.uneven);
     EXPECT_LT(*result.uneven, 0.5); // coarse slabs, of 1500 points
     EXPECT_EQ(demands_json({&result, 1}).at(0).at("said"), result.words);
+}
+
+TEST_F(Studies, SmallHandlesAreSeenBesideEveryPointASample) {
+    ShapeOptions sampling;
+    sampling.points = 4000;
+    DeformationTask task = generated_task("made-plane", sampling, workers, progress);
+    constexpr std::uint64_t samples[] = {200};
+    const auto results = pose_small(task, samples, workers, *upsampler, progress);
+    ASSERT_EQ(results.size(), 2U);
+    EXPECT_FALSE(results[0].asked);
+    EXPECT_EQ(results[0].deviation.largest, 0); // the yardstick itself
+    EXPECT_GT(results[1].deviation.rms, 0);
+    EXPECT_LT(results[1].deviation.rms, 0.01);
+    for (const SmallResult& result : results) {
+        EXPECT_TRUE(result.at_rest);
+        EXPECT_GT(result.askew.half, 0);
+        EXPECT_LT(result.askew.tenth, 10);
+        EXPECT_GE(result.askew.tenth, result.askew.half);
+    }
+    const ReportJson json = small_handles_json(results);
+    EXPECT_EQ(json.at(1).at("asked_samples"), 200);
+    EXPECT_TRUE(json.at(0).at("holds").is_null());
+    EXPECT_NE(small_handles_text(results).find("every point"), std::string::npos);
 }
 
 TEST_F(Studies, StiffnessLooksTheSameAtEverySize) {

@@ -183,6 +183,7 @@ private:
     void prepare_points(Progress& progress);
     void prepare_bridges(Progress& progress);
     void find_size();
+    std::vector<bool> labels_that_leave_little() const;
     void find_held_inside();
     std::vector<Index> sample_candidates() const;
     std::vector<std::uint8_t> not_asked() const;
@@ -255,8 +256,8 @@ private:
     bool every_point_ = false;
     std::vector<Index> samples_;
     std::size_t base_samples_ = 0;
-    // Of each vertex 1 where handles hold it with all its neighbours, if they leave less than a fourth of the
-    // cloud free; empty else.
+    // Of each vertex 1 where handles that hold much hold it with all its neighbours, if these leave less than
+    // a fourth of the cloud; empty else.
     std::vector<std::uint8_t> held_inside_;
     std::size_t candidates_ = 0; // vertices among which base samples are chosen
     InfluenceRows nearest_;                        // of each vertex; empty if every point is a sample

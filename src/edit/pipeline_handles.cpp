@@ -37,15 +37,33 @@ void Pipeline::prepare_labels() {
     seconds_.sampling += clock.seconds();
 }
 
+// Of each label whether it holds much, one in so many of the vertices that are free or more; nothing where
+// they leave more than one in so many of all. What holds less is as good as free: it may come and go, and the
+// samples stay.
+std::vector<bool> Pipeline::labels_that_leave_little() const {
+    std::vector<std::size_t> count(slots_.handles.size() + 1, 0); // and what is outside
+    for (const HeldBlock& block : held_blocks_)
+        for (const HeldExtent& extent : block.extents) count[extent.label] += extent.count;
+    const std::size_t vertices = order_.vertices();
+    const std::size_t free = vertices - std::accumulate(count.begin(), count.end(), std::size_t{0});
+    std::vector<bool> much;
+    std::size_t held = 0; // by those
+    for (const std::size_t each : count) {
+        much.push_back(little_free * each >= free);
+        if (much.back()) held += each;
+    }
+    if (free == 0 || little_free * (vertices - held) >= vertices) much.clear();
+    return much;
+}
+
 // Where little of the cloud is free: samples are of use there alone.
 void Pipeline::find_held_inside() {
-    std::size_t held = 0;
-    for (const HeldBlock& block : held_blocks_)
-        for (const HeldExtent& extent : block.extents) held += extent.count;
-    const std::size_t vertices = order_.vertices();
-    const bool is_little = held < vertices && little_free * (vertices - held) < vertices;
-    std::vector<std::uint8_t> inside(is_little ? vertices : 0, 0);
-    const auto is_held = [&](Index v) { return labels_.vertex[v] != no_index; };
+    const std::vector<bool> holds_much = labels_that_leave_little();
+    std::vector<std::uint8_t> inside(holds_much.empty() ? 0 : order_.vertices(), 0);
+    const auto is_held = [&](Index v) {
+        const Index label = labels_.vertex[v];
+        return label != no_index && holds_much[label];
+    };
     workers_.for_each(inside.size(), grain, [&](std::size_t v) {
         inside[v] = is_held(static_cast<Index>(v)) && std::ranges::all_of(graph_->row(v), is_held) ? 1 : 0;
     });

@@ -159,6 +159,20 @@ TEST(SampleCounts, AreMostlyWhereLittleIsFree) {
     }
 }
 
+// A handle that holds little of what is free comes and goes, and base samples stay.
+TEST(SampleCounts, StayWhereASmallHandleComes) {
+    Settings settings;
+    settings.samples = 300;
+    Desk desk(bar(20'000), settings);
+    desk.play(narrow + drag(lift));
+    const std::vector<Index> before = desk.pipeline().samples();
+    desk.play(undo + box_handle("more", "fixed", "[-9,-9,-0.04]", "[-0.3,9,0.04]") + drag(lift));
+    const std::vector<Index> after = desk.pipeline().samples();
+    constexpr std::size_t base = 300;
+    EXPECT_TRUE(std::ranges::equal(std::span(before).first(base), std::span(after).first(base)));
+    EXPECT_NE(before, after);
+}
+
 // Whatever handles there were before.
 TEST(SampleCounts, LieWhereTheHandlesOfTheDayWantThem) {
     Settings settings;

@@ -22,6 +22,11 @@ Eigen::Vector4d beyond_one(const Quatd& q) {
     return {q.w() - 1, q.x(), q.y(), q.z()};
 }
 
+// A - R of a handle.
+Mat3d growth_of(const HandleMotion& motion) {
+    return motion.linear - motion.rotation.toRotationMatrix();
+}
+
 // How far p is sent by a handle.
 Vec3d sent(const HandleMotion& motion, const Vec3d& p) {
     return (motion.linear - Mat3d::Identity()) * p + motion.offset;
@@ -71,8 +76,17 @@ template<typename Given>
     }
 }
 
+// And what handles that pull say, in the same words as their samples do.
+template<typename Given>
+void add_pulled_turns(SampleSystem& system, double smoothing, Given&& given) {
+    for (const SoftHold& hold : system.rest.pulled)
+        if (const Index sample = turns_with(system, hold); sample != no_index)
+            Eigen::Map<Eigen::Vector4d>(system.sides.data() + 4 * std::size_t{system.unknown[hold.sample]}) +=
+                smoothing * hold.weight * beyond_one(given(sample));
+}
+
 // The right-hand side, four numbers a row: what own(begin, end) writes for these rows of the samples
-// themselves, and what add_given() does.
+// themselves, and what add_given() and add_pulled_turns() do.
 template<typename Own, typename Given>
 void assemble_rotations(SampleSystem& system, double smoothing, double BodyPair::*coefficient, Own&& own,
                         Given&& given, Workers& workers) {
@@ -81,6 +95,7 @@ void assemble_rotations(SampleSystem& system, double smoothing, double BodyPair:
         own(begin, end);
         for (std::size_t row = begin; row < end; ++row) add_given(system, row, smoothing, coefficient, given);
     });
+    add_pulled_turns(system, smoothing, given);
 }
 
 // Calls take(sample, quaternion) with the solution, normalised, where it did not vanish.
@@ -145,6 +160,13 @@ Mat3d points_around(const SampleSystem& system, const SampleState& state, Index 
            local_sum_of(bodies_around(system.rest.energy, system.body, i), system.midway);
 }
 
+// What the scaling of a handle adds to M of a link to a sample of it, times what it is of the link.
+Vec3d grown(const SampleSystem& system, Index link, Index sample, const Vec3d& edge) {
+    const Index handle = system.rest.handle[sample];
+    if (system.unknown[sample] != no_index || handle == no_index) return Vec3d::Zero();
+    return double{system.rest.held_part[link]} * (system.growth[handle] * edge);
+}
+
 // The sum of step 1. What is the sample's own in it, R_i e - (1 - γ/2) M_i e, is one product with Σ w e eᵀ.
 Mat3d local_sum(const SampleSystem& system, const SampleState& state, std::size_t row) {
     const Graph& graph = system.rest.graph;
@@ -156,7 +178,9 @@ Mat3d local_sum(const SampleSystem& system, const SampleState& state, std::size_
     Mat3d sum = system.spread[row] + own * system.spread[row];
     for (Index link = graph.first[i]; link < graph.first[i + 1]; ++link) {
         const Index j = graph.neighbor[link];
-        const Vec3d turned = of_other * (system.turn[j] * (system.rest.position[j] - position));
+        const Vec3d edge = system.rest.position[j] - position;
+        Vec3d turned = of_other * (system.turn[j] * edge);
+        if (system.grows) turned += of_other * grown(system, link, j, edge);
         sum += (state.displacement[j] - displacement - turned) * system.weighted_edge[link].transpose();
     }
     if (!system.rest.energy.first.empty()) sum += points_around(system, state, i);
@@ -208,7 +232,8 @@ void for_link_motions(const SampleSystem& system, const SampleState& state, std:
         nearest_rotations(std::span(sum).first(count), std::span(local).first(count));
         for (std::size_t k = 0; k < count; ++k) {
             const Mat3d turn = turn_of(local[k]);
-            take(first + k, LinkMotion{turn, gradient_of(system.surroundings[first + k], displaced[k], turn)});
+            take(first + k,
+                 LinkMotion{turn, gradient_of(system.surroundings[first + k], displaced[k], turn)});
         }
     }
 }
@@ -242,6 +267,13 @@ void find_turns(SampleSystem& system, const SampleState& state, Workers& workers
 // A - I of a sample that turns by itself.
 Mat3d stretched_turn(const SampleSystem& system, const SampleState& state, std::size_t s) {
     return turn_of(state.rotation[s]) + state.rotation[s] * system.stretch[system.unknown[s]];
+}
+
+// A - I of a sample that does not: of its handle, if it has one.
+Mat3d map_of_handle(const SampleSystem& system, std::span<const HandleMotion> handles, std::size_t s) {
+    const Index handle = system.rest.handle[s];
+    if (handle == no_index) return Mat3d::Zero();
+    return handles[handle].linear - Mat3d::Identity();
 }
 
 // S of every row by its links and points.
@@ -284,14 +316,16 @@ void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, co
             const Mat3d& turn = system.turn[s];
             set_four(state.displacement[s], body.way);
             set_columns(turn, body.turn);
-            set_columns(body.turned ? turn : stretched_turn(system, state, s), body.map);
-        } else {
+            set_columns(body.turned ? map_of_handle(system, handles, s) : stretched_turn(system, state, s),
+                        body.map);
+        } else if (s < samples + system.rest.energy.handles()) {
             const auto handle = static_cast<Index>(s - samples);
             set_four(handles[handle].offset, body.way);
             set_columns(handles[handle].linear - Mat3d::Identity(), body.map);
-            body.turn = body.map;
-            if (says(system.rest.turns_freely, handle))
-                set_columns(turn_of(system.free_turn[handle]), body.turn);
+            const bool free = says(system.rest.turns_freely, handle);
+            set_columns(turn_of(free ? system.free_turn[handle] : handles[handle].rotation), body.turn);
+        } else {
+            set_columns(growth_of(handles[s - samples - system.rest.energy.handles()]), body.turn);
         }
     });
 }
@@ -386,6 +420,7 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
             const Index j = rest.graph.neighbor[link];
             edges += system.weighted_edge[link];
             turned += system.turn[j] * system.weighted_edge[link];
+            if (system.grows) turned += grown(system, link, j, system.weighted_edge[link]);
             if (!(system.unknown[j] < rows)) given += rest.weight[link] * state.displacement[j];
         }
         turned += system.turn[i] * edges;
@@ -409,13 +444,19 @@ double solve_positions(SampleSystem& system, std::span<const HandleMotion> handl
 } // namespace
 
 void place_handles(SampleSystem& system, std::span<const HandleMotion> handles, SampleState& state) {
+    constexpr double rounding = 1e-12;
+    system.grows = false;
+    for (std::size_t h = 0; h < system.growth.size(); ++h) {
+        system.growth[h] = 2 * growth_of(handles[h]);
+        system.grows |= system.growth[h].norm() > rounding;
+    }
     for (std::size_t s = 0; s < system.rest.handle.size(); ++s) {
         if (system.rest.handle[s] == no_index) continue;
         const HandleMotion& motion = handles[system.rest.handle[s]];
         state.displacement[s] = sent(motion, system.rest.position[s]);
         if (system.unknown[s] != no_index) continue; // it turns as its surroundings want
         state.rotation[s] = motion.rotation;
-        system.turn[s] = motion.linear - Mat3d::Identity();
+        system.turn[s] = turn_of(motion.rotation);
     }
     if (!system.stretch.empty()) state.handles.assign(handles.begin(), handles.end());
 }
@@ -440,7 +481,7 @@ void find_maps(SampleSystem& system, std::span<const HandleMotion> handles, cons
     if (system.stretch.empty()) return;
     for (std::size_t s = 0; s < system.turn.size(); ++s)
         if (system.unknown[s] == no_index && system.rest.handle[s] != no_index)
-            system.turn[s] = Mat3d(handles[system.rest.handle[s]].linear - Mat3d::Identity());
+            system.turn[s] = turn_of(handles[system.rest.handle[s]].rotation);
     find_free_turns(system, state);
     find_first_answers(system, handles, state, workers);
 }

@@ -217,7 +217,7 @@ Links links_of(const PointsBetween& between, const Vec3d& position, std::span<co
 } // namespace
 
 ContributionFinder::ContributionFinder(const PointsBetween& between)
-    : between_(between), place_(between.sample.size() + between.handles, no_index) {}
+    : between_(between), place_(between.sample.size() + 2 * between.handles, no_index) {}
 
 // Where the element of a body stands.
 std::size_t ContributionFinder::place_of(Index body) {
@@ -252,6 +252,26 @@ Mat3d ContributionFinder::add_gradients(Index vertex, const Vec3d& position, con
     return matrix_of(slope);
 }
 
+// Adds how much of the links around a vertex lies within handles. `squares`: Σ |e|².
+void ContributionFinder::add_growths(Index vertex, const Vec3d& position, double squares) {
+    const auto grows = [&](Index handle) {
+        return handle != no_index && !says(between_.turns_freely, handle);
+    };
+    const auto add = [&](Index handle, double square) {
+        if (grows(handle))
+            found_.element[place_of(static_cast<Index>(between_.sample.size() + between_.handles) + handle)]
+                .share += square / squares;
+    };
+    const Index own = between_.label[vertex];
+    for (const Index other : row_) {
+        const Index handle = between_.label[other];
+        if (!grows(own) && !grows(handle)) continue;
+        const double square = (position_of(between_, other) - position).squaredNorm();
+        add(own, 0.5 * square);
+        add(handle, 0.5 * square);
+    }
+}
+
 // As the base sample says that is the nearest to the vertex; 1 where handles alone are around it.
 double ContributionFinder::area_of_links(Index vertex) const {
     if (between_.area_of_links.empty()) return 1;
@@ -279,6 +299,7 @@ const Contribution& ContributionFinder::find(Index vertex) {
     found_.measure =
         3 / found_.dimension * square_length * share_of_directions(links.pull) * area_of_links(vertex);
     const Mat3d slope = add_gradients(vertex, position, surroundings.inverse);
+    add_growths(vertex, position, links.spread.trace());
     for (const Index body : found_.body) place_[body] = no_index;
     drop_nothing(found_);
     const Mat3d correction = correction_of(slope, along);

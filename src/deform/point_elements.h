@@ -39,6 +39,7 @@ private:
     std::size_t place_of(Index body);
     double area_of_links(Index vertex) const;
     Mat3d add_gradients(Index vertex, const Vec3d& position, const Mat3d& inverse);
+    void add_growths(Index vertex, const Vec3d& position, double squares);
 
     const PointsBetween& between_;
     std::vector<Index> row_;   // neighbours of the vertex that do not hang

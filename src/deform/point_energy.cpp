@@ -282,7 +282,7 @@ PointEnergy point_energy(const PointsBetween& between, Workers& workers) {
     require(between.asked.size() == between.each.size(), "an entry each that is asked");
     PointEnergy energy;
     energy.samples = between.sample.size();
-    energy.bodies = energy.samples + between.handles;
+    energy.bodies = energy.samples + 2 * between.handles;
     energy.spread.assign(energy.samples, Mat3d::Zero());
     energy.confidence.assign(energy.samples, 0);
     if (energy.samples == 0) return energy;

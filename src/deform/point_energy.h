@@ -26,6 +26,11 @@
 // Σ_s p_s ∇v_sᵀ what the blend makes of the positions themselves: linear in the place, turns have no more
 // slope than they should. (Balanced weights, graph/balanced_weights.h, have a G near the identity already.)
 //
+// Handles want turned what they turn, R, not stretched what they stretch, A - R: the surface beyond is not
+// theirs. But what lies within them is, as of the links of samples (sample_system.h): a body of its own wants
+// A - R at their points and beside them, to the part φ of the squares of the links there that lies within,
+// all of those between two held vertices and half of those that lead out. It moves nothing.
+//
 // Gradients are those of least squares over the neighbours of a point. ω = 3/dim · a h² c stands for the
 // surface around it, with h² the mean square length of its links, c its share of all directions
 // (graph/edge_weights.h), a what these fall short of its area (graph/territory_areas.h), and dim = tr P; so
@@ -71,8 +76,10 @@ struct PairFits {
 
 struct PointEnergy {
     double share = 1;        // that it has of the whole energy, 0 … 1; links have the others'
-    std::size_t samples = 0; // bodies below are samples, the others handles
+    std::size_t samples = 0; // bodies below are samples, then come the handles, and what they grow by
     std::size_t bodies = 0;
+
+    std::size_t handles() const { return (bodies - samples) / 2; }
     std::vector<Index> first; // one entry a sample, and the end; empty: no energy
     std::vector<Index> body;  // of each pair: s, ascending within t, which is among them
     std::vector<BodyPair> pair;
@@ -102,7 +109,8 @@ struct PointsBetween {
     std::vector<bool> turns_by_samples;    // of each handle: whether it is one of these, and samples that it
                                            // holds are in the rows around; may end early
     std::span<const Vec3d> sample;         // rest positions
-    std::size_t handles;                   // handle h is body sample.size() + h
+    std::size_t handles;                   // handle h is body sample.size() + h, and what it grows by the
+                                           // one so many later
 };
 
 // How much of the energy is that of the points, 0 … 1, where so many samples are chosen among so many

@@ -157,36 +157,52 @@ void for_diagonal(SparseMatrix& matrix, Change&& change) {
                 change(matrix.value[static_cast<std::size_t>(at)], column);
 }
 
-// β/ℓ² L + C, of the pattern of L.
-SparseMatrix rotation_matrix(const SampleSystem& system, const SparseMatrix& laplacian) {
+// L + μ.
+SparseMatrix pulled_matrix(const SparseMatrix& laplacian, const std::vector<double>& pull) {
     SparseMatrix matrix = laplacian;
+    if (!pull.empty()) for_diagonal(matrix, [&](double& value, std::size_t row) { value += pull[row]; });
+    return matrix;
+}
+
+// β/ℓ² (L + μ) + C, of the pattern of L.
+SparseMatrix rotation_matrix(const SampleSystem& system, const SparseMatrix& laplacian) {
+    SparseMatrix matrix = pulled_matrix(laplacian, system.turn_pull);
     for (double& value : matrix.value) value *= system.smoothing;
     for_diagonal(matrix, [&](double& value, std::size_t row) { value += system.confidence[row]; });
     return matrix;
 }
 
-// L + μ.
 SparseMatrix position_matrix(const SampleSystem& system, const SparseMatrix& laplacian) {
-    SparseMatrix matrix = laplacian;
-    if (!system.pull.empty())
-        for_diagonal(matrix, [&](double& value, std::size_t row) { value += system.pull[row]; });
-    return matrix;
+    return pulled_matrix(laplacian, system.pull);
 }
 
-// L, with so little more on the diagonal that increments are as good as harmonic, but vanish where no handle
-// gives any.
-SparseMatrix increment_matrix(const SparseMatrix& laplacian) {
-    SparseMatrix matrix = laplacian;
+// L + μ, with so little more on the diagonal that increments are as good as harmonic, but vanish where no
+// handle gives any.
+SparseMatrix increment_matrix(const SampleSystem& system, const SparseMatrix& laplacian) {
+    SparseMatrix matrix = pulled_matrix(laplacian, system.turn_pull);
     for_diagonal(matrix, [](double& value, std::size_t /*row*/) { value *= 1 + 1e-9; });
     return matrix;
 }
 
+void find_samples_of_handles(SampleSystem& system) {
+    system.sample_of_handle.clear();
+    for (Index s = 0; s < system.rest.handle.size(); ++s) {
+        const Index handle = system.rest.handle[s];
+        if (handle == no_index || system.unknown[s] != no_index) continue;
+        if (handle >= system.sample_of_handle.size()) system.sample_of_handle.resize(handle + 1, no_index);
+        system.sample_of_handle[handle] = s;
+    }
+}
+
 void find_pull(SampleSystem& system) {
-    system.pull.assign(system.rest.pulled.empty() ? 0 : system.moving_rows, 0);
+    const std::size_t rows = system.rest.pulled.empty() ? 0 : system.free_sample.size();
+    system.pull.assign(rows, 0);
+    system.turn_pull.assign(rows, 0);
     for (const SoftHold& hold : system.rest.pulled) {
         const Index row = system.unknown[hold.sample];
         require(row < system.moving_rows && hold.weight > 0, "only free samples of held parts are pulled");
         system.pull[row] += hold.weight;
+        if (turns_with(system, hold) != no_index) system.turn_pull[row] += hold.weight;
     }
 }
 
@@ -259,7 +275,7 @@ void number_bodies(SampleSystem& system) {
         system.body[s].placed = !(system.unknown[s] < system.moving_rows);
         system.body[s].turned = system.unknown[s] == no_index;
         const Index handle = system.rest.handle[s];
-        if (handle != no_index && energy.samples + handle < energy.bodies)
+        if (handle != no_index && handle < energy.handles())
             system.body[energy.samples + handle].from = s;
     }
 }
@@ -319,7 +335,7 @@ OrderedLaplacian order_and_find_surroundings(SampleSystem& system, Workers& work
 FactorOutcome factorize(SampleSystem& system, const OrderedLaplacian& of_moving, Workers& workers) {
     const std::size_t rows = system.free_sample.size();
     const bool more = hinges(system);
-    system.has_increments = more || !system.pull.empty();
+    system.has_increments = more || system.pull != system.turn_pull;
     const SparseMatrix of_links = more ? laplacian(system, rows, nullptr) : SparseMatrix{};
     const SparseMatrix& of_ways = more ? of_links : of_moving.matrix;
     const bool other_turns = !system.rest.energy.first.empty();
@@ -333,8 +349,9 @@ FactorOutcome factorize(SampleSystem& system, const OrderedLaplacian& of_moving,
         else if (which == 1)
             outcomes[1] = system.rotations.factorize(rotation_matrix(system, of_turns), order);
         else
-            outcomes[2] = system.increments.factorize(
-                increment_matrix(of_ways), more && other_turns ? minimum_degree_order(of_links) : order);
+            outcomes[2] =
+                system.increments.factorize(increment_matrix(system, of_ways),
+                                            more && other_turns ? minimum_degree_order(of_links) : order);
     });
     for (std::size_t which = 0; which < (system.has_increments ? 3U : 2U); ++which)
         if (!outcomes[which].solved) return outcomes[which];
@@ -350,6 +367,7 @@ bool is_leaf(const SampleRest& rest, Index sample) {
 
 FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& workers) {
     require(rest.weight.size() == rest.graph.neighbor.size(), "a weight a link");
+    require(rest.held_part.empty() || rest.held_part.size() == rest.weight.size(), "a part a link, or none");
     require(rest.energy.first.empty() || rest.energy.samples == rest.graph.size(), "bodies are the samples");
     require(rest.position.size() == rest.graph.size() && rest.handle.size() == rest.graph.size(),
             "an entry a sample");
@@ -373,8 +391,14 @@ FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& worke
     set_poisson(system, system.rest.poisson, workers);
     system.turn.assign(system.rest.handle.size(), Mat3d::Zero());
     system.free_turn.assign(system.rest.turns_freely.size(), Quatd::Identity());
+    Index handles = 0;
+    for (const Index handle : system.rest.handle)
+        if (handle != no_index) handles = std::max(handles, handle + 1);
+    system.growth.assign(system.rest.held_part.empty() ? 0 : handles, Mat3d::Zero());
+    system.grows = false;
     system.sides.assign(4 * system.free_sample.size(), 0);
 
+    find_samples_of_handles(system);
     find_pull(system);
     find_beds(system, square_length);
     return factorize(system, of_moving, workers);

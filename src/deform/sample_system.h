@@ -16,9 +16,11 @@
 //     2. (β/ℓ² L + C) r = C r* with the handles' rotations given, normalised; C_i = Σ_j w_ij |e_ij|²/ℓ², ℓ² =
 //     mean |e|²,
 //     3. L x = b with the handles' positions given; b_i = Σ_j w_ij ½(M_i + M_j)(p_i - p_j), M = R S with S
-//     the elastic target of deform/stretch.h (the identity for ν = 0), or the whole linear map on a handle,
+//     the elastic target of deform/stretch.h (the identity for ν = 0), and on a handle, of a link of which φ
+//     lies on it, R + 2φ (A - R) with A its whole linear map,
 //
-// with L the graph's weighted Laplacian.
+// with L the graph's weighted Laplacian. (With A itself, as if every link lay half on the handle, a handle
+// that stretches what it holds pushed all beyond it away by as much as half a link of the samples grew.)
 //
 // γ is 1, but for stiffnesses below .001, where it goes to 0: γ = α²/(α² + 10⁻⁸). On a circle the chord
 // between two samples has the direction midway between both their turns, and step 3 lays it there. Step 1
@@ -86,7 +88,10 @@ struct HandleMotion {
                        // (edit/handle_motion.h); for whoever tells of it, nothing computes with it
 };
 
-// A free sample that a handle with a falloff pulls.
+// A free sample that a handle with a falloff pulls: to where it sends the place, and, where it says how it
+// turns, to its own rotation. (One that is held at a single place is as good as nowhere held, the more so the
+// denser the samples are: its turn would count by chance.) In step 3, L + μ stands in the place of L, and
+// μ u in b, with u the way; and likewise in step 2.
 struct SoftHold {
     Index sample = 0;
     Index handle = 0;
@@ -121,6 +126,7 @@ struct SampleRest {
     Graph graph;                    // between samples
     std::vector<double> weight;     // of each link of the graph, the same in both directions, > 0; those of
                                     // leaves are made lighter by build_system()
+    std::vector<float> held_part;   // φ of each link from a free sample to a held one, 0 … 1; empty: 0
     std::vector<Vec3d> position;    // p, relative to the cloud's origin
     std::vector<Index> handle;      // of each sample; no_index where it is free
     std::vector<bool> turns_freely; // of each handle: whether it gives positions only; may end early
@@ -152,12 +158,14 @@ struct SampleSystem {
     double smoothing = 0;           // β/ℓ²
     double midway = 1;              // γ; with 0, rotations follow from displacements alone
     std::vector<double> confidence; // C, of each row
-    SparseFactor rotations;         // β/ℓ² L + C
+    SparseFactor rotations;         // β/ℓ² (L + μ) + C
     SparseFactor positions;         // L + μ, of the moving rows
-    SparseFactor increments; // L of all rows, where that is not what `positions` holds; by links alone where
-                             // it hinges()
+    SparseFactor increments; // L + μ of all rows, where that is not what `positions` holds; by links alone
+                             // where it hinges()
     bool has_increments = false;
-    std::vector<double> pull; // Σ μ of each moving row; empty where nothing is pulled
+    std::vector<double> pull;            // Σ μ of each row; empty where nothing is pulled
+    std::vector<double> turn_pull;       // the same of what is pulled to turn, too
+    std::vector<Index> sample_of_handle; // of each that says how it turns and has one: any; may end early
     std::vector<Bed> beds;
     std::vector<BedPart> bed_parts;
     std::vector<Index> bed_part; // of each of rest.pulled; no_index where it has no bed
@@ -169,7 +177,9 @@ struct SampleSystem {
     std::vector<Surroundings>
         with_points; // the same by links and points; empty where there is no rest.energy
 
-    std::vector<Mat3d> turn;      // M - I, of each sample
+    std::vector<Mat3d> turn;      // M - I, of each sample; of a handle's R - I
+    std::vector<Mat3d> growth;    // 2 (A - R) of each handle
+    bool grows = false;           // whether any handle scales what it holds, and it counts
     std::vector<Body> body;       // of rest.energy, samples and then handles
     std::vector<Quatd> free_turn; // of each handle that `rest.turns_freely` tells of
     std::vector<Mat3d> target;    // S - I, of each row; empty for ν = 0
@@ -185,11 +195,16 @@ inline bool hinges(const SampleSystem& system) {
     return system.free_sample.size() > system.moving_rows;
 }
 
+// The sample of a handle that says how what it pulls is to turn; no_index where it does not say.
+inline Index turns_with(const SampleSystem& system, const SoftHold& hold) {
+    return hold.handle < system.sample_of_handle.size() ? system.sample_of_handle[hold.handle] : no_index;
+}
+
 // Whether a free sample has one link alone, to a sample that has more.
 bool is_leaf(const SampleRest& rest, Index sample);
 
 // Prepares both systems: a factorisation of each, of one ordering unless a handle leaves rotation free; a
-// third (`increments`) where one does, or where one with a falloff pulls. Samples whose component holds no
+// third (`increments`) where one does. Samples whose component holds no
 // handle are left out and stay at rest. On a bad outcome the system must not be iterated.
 FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& workers);
 

@@ -19,18 +19,6 @@ constexpr std::size_t handles_at_once = 16;
 constexpr double strength = 4;
 constexpr double nearest = 0.0012; // of the cloud's size: nearer than this the pull does not grow any more
 
-constexpr double small_handle = 0.03;  // of the cloud's size: the radius of one that needs no falloff
-constexpr double small_falloff = 0.06; // of the cloud's size, of a handle of one point
-
-// What each handle holds in all.
-std::vector<HeldExtent> extents_of(std::size_t handles, std::span<const HeldBlock> blocks) {
-    std::vector<HeldExtent> extents(handles);
-    for (const HeldBlock& block : blocks)
-        for (const HeldExtent& here : block.extents)
-            if (here.label < handles) extents[here.label].add(here);
-    return extents;
-}
-
 // The vertices, ascending, of the handles that are `wanted`.
 std::vector<std::vector<Index>> held_vertices(const std::vector<bool>& wanted,
                                               std::span<const HeldBlock> blocks,
@@ -44,6 +32,16 @@ std::vector<std::vector<Index>> held_vertices(const std::vector<bool>& wanted,
             if (is_wanted(label[v])) vertices[label[v]].push_back(static_cast<Index>(v));
     }
     return vertices;
+}
+
+// Of the vertices of small patches, where a handle has a falloff of its own.
+std::unordered_map<Index, double> least_falloffs(std::span<const SmallPatch> patches,
+                                                 const std::vector<bool>& has_falloff) {
+    std::unordered_map<Index, double> least;
+    for (const SmallPatch& patch : patches)
+        if (has_falloff[patch.handle])
+            for (const Index v : patch.vertices) least.emplace(v, patch.falloff);
+    return least;
 }
 
 // Vertices of one handle each that hang together.
@@ -134,35 +132,43 @@ double spread_at(const SampleRest& rest, Index sample) {
 
 } // namespace
 
-double least_falloff(const HeldExtent& held, double cloud_size) {
-    return small_falloff * std::max(0.0, cloud_size - held.radius() / small_handle);
-}
-
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> label,
                                    const ComponentNumbers& part, std::span<const HeldBlock> blocks,
+                                   std::span<const SmallPatch> patches, const Vicinities& near,
                                    std::span<const Index> samples, const Graph& graph,
-                                   std::span<const float> positions, double cloud_size, Workers& workers,
-                                   Progress& progress) {
-    const std::vector<HeldExtent> extents = extents_of(handles.size(), blocks);
-    std::vector<double> falloff(handles.size(), 0);
-    std::vector<bool> pulls(handles.size(), false);
+                                   std::span<const float> positions, Workers& workers, Progress& progress) {
+    std::vector<bool> has_falloff(handles.size()), pulls(handles.size());
     for (std::size_t h = 0; h < handles.size(); ++h) {
-        if (extents[h].count > 0)
-            falloff[h] = std::max(handles[h].falloff, least_falloff(extents[h], cloud_size));
-        pulls[h] = falloff[h] > 0;
+        has_falloff[h] = handles[h].falloff > 0;
+        pulls[h] = has_falloff[h] || !near[h].empty();
     }
     if (std::ranges::none_of(pulls, std::identity{})) return {};
     const std::vector<std::vector<Index>> held = held_vertices(pulls, blocks, label);
     std::unordered_map<Index, Index> sample_of;
     for (Index s = 0; s < samples.size(); ++s)
         if (label[samples[s]] == no_index) sample_of.emplace(samples[s], s);
+    const std::unordered_map<Index, double> least = least_falloffs(patches, has_falloff);
     const auto pulled_by = [&](Index h) {
         std::vector<Pulled> pulled;
-        for (const Reached& near : reached_within(graph, positions, held[h], falloff[h])) {
-            const auto sample = sample_of.find(near.vertex);
-            if (sample != sample_of.end() && near.distance < falloff[h])
-                pulled.push_back({sample->second, h, near.distance / falloff[h], falloff[h], near.source});
+        const auto add = [&](Index vertex, double distance, double falloff, Index source) {
+            const auto sample = sample_of.find(vertex);
+            if (sample != sample_of.end() && distance < falloff)
+                pulled.push_back({sample->second, h, distance / falloff, falloff, source});
+        };
+        if (!has_falloff[h]) {
+            for (const NearPatch& each : near[h])
+                add(each.vertex, each.distance, patches[each.patch].falloff, each.source);
+            return pulled;
         }
+        const auto falloff_at = [&](Index source) {
+            const auto at_least = least.find(source);
+            return at_least == least.end() ? handles[h].falloff
+                                           : std::max(handles[h].falloff, at_least->second);
+        };
+        double farthest = 0;
+        for (const Index source : held[h]) farthest = std::max(farthest, falloff_at(source));
+        for (const Reached& each : reached_within(graph, positions, held[h], farthest))
+            add(each.vertex, each.distance, falloff_at(each.source), each.source);
         return pulled;
     };
     std::vector<Pulled> pulled;
@@ -177,14 +183,14 @@ std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span
         });
         for (std::size_t k = 0; k < count; ++k) pulled.insert(pulled.end(), some[k].begin(), some[k].end());
     }
-    const Patches patches = free_patches(handles, held, label, graph, positions);
+    const Patches beds = free_patches(handles, held, label, graph, positions);
     NearestOfHandle nearest_sample(label, part, samples, positions);
     for (Pulled& one : pulled) {
         if (!handles[one.handle].free_rotation) continue;
         one.turner = nearest_sample.to(one.held);
         if (one.turner == no_index) continue; // nothing tells how it turns
-        one.bed = patches.of[one.held];
-        one.as_turner = share_of_turner(patches.extents[one.bed].radius(), one.falloff);
+        one.bed = beds.of[one.held];
+        one.as_turner = share_of_turner(beds.extents[one.bed].radius(), one.falloff);
     }
     return pulled;
 }

@@ -5,6 +5,7 @@
 #include "base/workers.h"
 #include "deform/sample_system.h"
 #include "edit/handles.h"
+#include "edit/small_patches.h"
 #include "graph/held_blocks.h"
 #include "graph/neighbors.h"
 
@@ -25,20 +26,15 @@ struct Pulled {
     double as_turner = 0;
 };
 
-// How far a handle that holds this pulls what is around it, whatever its own falloff is. One that is smaller
-// than 3 % of the cloud has up to 6 %: a surface cannot carry a point, and what pulls at one draws out a
-// spike, the sharper the more samples there are. 0 for a larger one.
-double least_falloff(const HeldExtent& held, double cloud_size);
-
 // Who is pulled by whom. `label`: the handle of each vertex, and `blocks` what find_held() made of these;
-// `part`: the component of each vertex; `samples`: the vertex of each sample; `positions`: 3 floats a vertex;
-// `cloud_size`: in their unit. Held samples are not pulled, and each handle's falloff is at least its least
-// one.
+// `patches`: those of the handles that are small, and `near` what is around them; `part`: the component of
+// each vertex; `samples`: the vertex of each sample; `positions`: 3 floats a vertex. Held samples are not
+// pulled, and the falloff of a small patch is at least its least one.
 std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span<const Index> label,
                                    const ComponentNumbers& part, std::span<const HeldBlock> blocks,
+                                   std::span<const SmallPatch> patches, const Vicinities& near,
                                    std::span<const Index> samples, const Graph& graph,
-                                   std::span<const float> positions, double cloud_size, Workers& workers,
-                                   Progress& progress);
+                                   std::span<const float> positions, Workers& workers, Progress& progress);
 
 // How strongly, with the samples' graph, weights and rest positions in `rest`. The pull is that of a bed of
 // springs whose stiffness over that of the surface is the inverse of a length squared: it looks alike for any

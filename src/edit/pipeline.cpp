@@ -7,6 +7,7 @@
 #include "base/require.h"
 #include "base/stopwatch.h"
 #include "cloud/extent.h"
+#include "edit/held_parts.h"
 #include "graph/balanced_weights.h"
 #include "graph/bridges.h"
 #include "graph/edge_weights.h"
@@ -364,6 +365,9 @@ void Pipeline::prepare_systems() {
     if (stale_.weights) find_link_weights(rest);
     stale_.weights = false;
     rest.weight = link_weights_;
+    rest.held_part = held_parts(
+        {rest.graph, samples_, labels_.vertex, *graph_, link_lengths_, vertex_positions(), nearest_},
+        workers_);
     rest.cloud_size = cloud_size_;
     rest.stiffness = input_.settings.stiffness;
     rest.poisson = input_.settings.poisson;

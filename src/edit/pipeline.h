@@ -35,6 +35,7 @@
 #include "edit/handle_slots.h"
 #include "edit/posed_shapes.h"
 #include "edit/rest_shape.h"
+#include "edit/small_patches.h"
 #include "graph/changing_territories.h"
 #include "graph/neighbors.h"
 #include "graph/point_order.h"
@@ -196,7 +197,8 @@ private:
     std::vector<std::pair<Index, Index>> find_hinges(std::span<const BorderVertex> borders) const;
     std::vector<FloodStart> handle_starts(std::span<const BorderVertex> borders) const;
     Index followed_by(std::size_t point) const;
-    void find_pulled(Progress& progress);
+    Vicinities find_vicinities(Progress& progress);
+    void find_pulled(const Vicinities& near, Progress& progress);
     void choose_coarse_samples();
     void label_vertices();
     void label_hanging();
@@ -272,6 +274,7 @@ private:
     HandleSlots slots_; // by which the stages tell handles
     HandleLabels labels_;
     std::vector<HeldBlock> held_blocks_; // of those
+    std::vector<SmallPatch> small_patches_; // of handles
     std::vector<Pulled> pulled_;
     std::optional<Numbering> standing_; // standing_points(), where they are not all the first ones
     LooseParts strays_;

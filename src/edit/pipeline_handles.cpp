@@ -1,6 +1,7 @@
 // The stages of a Pipeline that run again when the handles change.
 
 #include "base/stopwatch.h"
+#include "edit/bed_samples.h"
 #include "edit/pipeline.h"
 
 #include <algorithm>
@@ -19,15 +20,34 @@ constexpr double handle_share = 0.2;
 
 constexpr std::size_t grain = 1 << 14;
 
+// So many samples handles need at the least.
+std::size_t parts_with_border(std::span<const HeldBlock> held, const Components& components) {
+    std::vector<HeldPart> parts;
+    for (const HeldBlock& block : held)
+        for (const BorderVertex& border : block.borders)
+            parts.push_back({border.label, components.component[border.vertex]});
+    std::sort(parts.begin(), parts.end());
+    return static_cast<std::size_t>(std::unique(parts.begin(), parts.end()) - parts.begin());
+}
+
 std::size_t handle_budget(std::size_t base_samples) {
     return static_cast<std::size_t>(handle_share * static_cast<double>(base_samples));
 }
 
 } // namespace
 
-void Pipeline::find_pulled(Progress& progress) {
-    pulled_ = pulled_samples(slots_.handles, labels_.vertex, components_->component, held_blocks_, samples_,
-                             *graph_, vertex_positions(), cloud_size_, workers_, progress);
+// What is around what is small of the handles.
+Vicinities Pipeline::find_vicinities(Progress& progress) {
+    const std::size_t handles = slots_.handles.size();
+    small_patches_ =
+        small_patches(handles, labels_.vertex, held_blocks_, *graph_, vertex_positions(), cloud_size_);
+    return vicinities(handles, small_patches_, labels_.vertex, held_blocks_, *graph_, vertex_positions(),
+                      workers_, progress);
+}
+
+void Pipeline::find_pulled(const Vicinities& near, Progress& progress) {
+    pulled_ = pulled_samples(slots_.handles, labels_.vertex, components_->component, held_blocks_,
+                             small_patches_, near, samples_, *graph_, vertex_positions(), workers_, progress);
 }
 
 void Pipeline::prepare_labels() {
@@ -75,8 +95,9 @@ void Pipeline::find_held_inside() {
 void Pipeline::prepare_handles(Progress& progress) {
     Stopwatch clock;
     samples_.resize(base_samples_);
+    const Vicinities near = find_vicinities(progress);
     if (every_point_) { // their graph is that of the points, whatever the handles are
-        find_pulled(progress);
+        find_pulled(near, progress);
         choose_coarse_samples();
         seconds_.geodesic += clock.lap();
         return;
@@ -84,8 +105,14 @@ void Pipeline::prepare_handles(Progress& progress) {
     const VertexShape shape{order_.cube, vertex_positions(), *graph_, *components_, hanging_};
     std::vector<bool> turning; // what is inside of them goes by samples: followed_by()
     for (Index label = 0; label < slots_.handles.size(); ++label) turning.push_back(turns_freely(label));
-    const HandleSamples needed = handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_,
-                                                territories_, turning, handle_budget(base_samples_));
+    const std::size_t budget = handle_budget(base_samples_);
+    const std::size_t at_least = parts_with_border(held_blocks_, *components_);
+    const std::vector<Index> in_beds =
+        bed_samples(small_patches_, near, samples_, hanging_, vertex_positions(), cloud_size_,
+                    (budget - std::min(budget, at_least)) / 2);
+    HandleSamples needed = handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_, territories_,
+                                          turning, budget - in_beds.size());
+    needed.added.insert(needed.added.end(), in_beds.begin(), in_beds.end());
     samples_.insert(samples_.end(), needed.added.begin(), needed.added.end());
     seconds_.sampling += clock.lap();
 
@@ -100,7 +127,7 @@ void Pipeline::prepare_handles(Progress& progress) {
     const std::vector<WideRow> more = rows_without(from_handles_, nearest_, needed.added);
     rows.insert(rows.end(), more.begin(), more.end());
     sample_graph_ = knead::sample_graph(rows, borders, workers_);
-    find_pulled(progress);
+    find_pulled(near, progress);
     choose_coarse_samples();
     seconds_.geodesic += clock.lap();
 }
@@ -146,7 +173,7 @@ std::vector<std::pair<Index, Index>> Pipeline::find_hinges(std::span<const Borde
 // samples all along its border, turns with each of them, and those start for it. (What is wider would be torn
 // off between its samples: the border lies where the handle says, and what is beside it where samples with
 // turns of their own say. A lone one would be torn off where samples are few: weights of samples share out
-// what is right at one of them, too.)
+// what is right at one of them, too.) And free samples that were added start like base samples.
 std::vector<FloodStart> Pipeline::handle_starts(std::span<const BorderVertex> borders) const {
     const std::vector<std::pair<Index, Index>> hinges = find_hinges(borders);
     const auto is_peg = [&](Index label, Index vertex) {
@@ -158,7 +185,8 @@ std::vector<FloodStart> Pipeline::handle_starts(std::span<const BorderVertex> bo
         if (!is_peg(border.label, border.vertex))
             starts.push_back({border.vertex, nearest_.first_handle + border.label});
     for (auto s = static_cast<Index>(base_samples_); s < samples_.size(); ++s)
-        if (is_peg(labels_.vertex[samples_[s]], samples_[s])) starts.push_back({samples_[s], s});
+        if (const Index label = labels_.vertex[samples_[s]]; label == no_index || is_peg(label, samples_[s]))
+            starts.push_back({samples_[s], s});
     return starts;
 }
 

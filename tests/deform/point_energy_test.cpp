@@ -61,7 +61,9 @@ struct Bodies {
 
     Bodies(const Held& held, const Mat3d& all, const Vec3d& shift) : map(held.sample.size() + 2, all) {
         for (const Vec3d& p : held.sample) way.emplace_back(all * p + shift);
-        way.resize(map.size(), shift); // handles: about the origin
+        way.resize(map.size(), shift);             // handles: about the origin
+        map.resize(map.size() + 2, Mat3d::Zero()); // which do not grow
+        way.resize(map.size(), Vec3d::Zero());
     }
 };
 
@@ -102,8 +104,9 @@ TEST(PointEnergy, KnowsNoResidualOfTurnsWhereAllIsMovedByOneLinearMap) {
         Mat3d sum = Mat3d::Zero(), target = Mat3d::Zero();
         for (Index at = energy.first[t]; at < energy.first[t + 1]; ++at) {
             const PairSlopes& slopes = energy.slopes[at];
-            sum += bodies.way[energy.body[at]] * slopes.way_slope.transpose() + map * slopes.map_slope;
-            target += map * slopes.target_spread;
+            const Index s = energy.body[at];
+            sum += bodies.way[s] * slopes.way_slope.transpose() + bodies.map[s] * slopes.map_slope;
+            target += bodies.map[s] * slopes.target_spread;
         }
         EXPECT_LT((sum - target).norm(), 1e-11 * target.norm());
         EXPECT_LT((target - map * energy.spread[t]).norm(), 1e-12 * target.norm()); // weights sum to 1

@@ -80,12 +80,21 @@ private:
         }
     }
 
+    // M_j of a link from i.
+    Mat3d linear_of(Index j, Index i) const {
+        if (rest_.handle[j] == no_index || rest_.held_part.empty()) return linear_[j];
+        double part = 0;
+        for (Index link = rest_.graph.first[i]; link < rest_.graph.first[i + 1]; ++link)
+            if (rest_.graph.neighbor[link] == j) part = rest_.held_part[link];
+        return linear_[j] + 2 * part * (scaled_[rest_.handle[j]] - linear_[j]);
+    }
+
     Star star(Index i) const {
         Star star;
         for_links(i, [&](Index j, double weight, const Vec3d& e) {
             star.weights += weight;
             star.lengths += weight * e.squaredNorm();
-            const Mat3d midway = linear_[i] + 0.5 * gamma() * (linear_[j] - linear_[i]);
+            const Mat3d midway = linear_[i] + 0.5 * gamma() * (linear_of(j, i) - linear_[i]);
             const Vec3d expected = midway * e;
             star.spread += weight * (rotation[i] * e + position[j] - position[i] - expected) * e.transpose();
         });
@@ -117,11 +126,13 @@ private:
     }
 
     void place(const std::vector<HandleMotion>& handles) {
+        scaled_.clear();
+        for (const HandleMotion& motion : handles) scaled_.push_back(motion.linear);
         for (Index s = 0; s < rest_.graph.size(); ++s) {
             if (rest_.handle[s] == no_index) continue;
             const HandleMotion& motion = handles[rest_.handle[s]];
             rotation[s] = motion.rotation;
-            linear_[s] = motion.linear;
+            linear_[s] = motion.rotation.toRotationMatrix();
             position[s] = motion.linear * rest_.position[s] + motion.offset;
         }
     }
@@ -156,7 +167,7 @@ private:
         Eigen::MatrixXd side = Eigen::MatrixXd::Zero(laplacian_.rows(), 3);
         for (const Index i : free_)
             for_links(i, [&](Index j, double weight, const Vec3d& e) {
-                side.row(row_[i]) -= weight * (0.5 * (linear_[i] + linear_[j]) * e).transpose();
+                side.row(row_[i]) -= weight * (0.5 * (linear_[i] + linear_of(j, i)) * e).transpose();
                 if (row_[j] < 0) side.row(row_[i]) += weight * position[j].transpose();
             });
         const Eigen::MatrixXd solved = laplacian_.ldlt().solve(side);
@@ -167,6 +178,7 @@ private:
     std::vector<int> row_; // of each sample; -1 where it is not unknown
     std::vector<Index> free_;
     std::vector<Mat3d> linear_;
+    std::vector<Mat3d> scaled_; // of each handle
     Eigen::MatrixXd laplacian_;
 };
 

@@ -32,7 +32,7 @@ struct Bent {
                   drag("{}"));
         const SampleRest& rest = desk.pipeline().system().rest;
         EXPECT_TRUE(build_system(rest, system, machine.workers).solved);
-        handles.resize(rest.energy.bodies - rest.energy.samples);
+        handles.resize(rest.energy.handles());
         state = rest_state(system);
     }
 
@@ -77,6 +77,7 @@ struct Dense {
             found.block<3, 3>(own, 0) = (bent.state.rotation[t] * system.stretch[row]).transpose();
             for (Index at = energy.first[t]; at < energy.first[t + 1]; ++at) {
                 const Index s = energy.body[at];
+                if (s >= energy.samples + energy.handles()) continue; // no handle grows
                 const bool is_sample = s < energy.samples;
                 if (is_sample && system.unknown[s] != no_index)
                     matrix.block<3, 3>(own, 3 * system.unknown[s]) += energy.map_products[at].transpose();

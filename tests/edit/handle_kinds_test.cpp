@@ -83,6 +83,56 @@ TEST(HandleKinds, ASinglePointDrawsNoSpike) {
     EXPECT_NEAR(fine.at_distance(0.15), coarse.at_distance(0.15), 0.05);
 }
 
+// A point that says how it turns turns what is around it, and not by chance the less the more samples there
+// are: a turn that is given at one place is as good as nowhere given.
+TEST(HandleKinds, ThePointsTurnCountsAlikeWithAnyNumberOfSamples) {
+    expect_alike(Shape::plane, 20'000, {5000, 2000, 500}, 0.004, [](Desk& desk) {
+        desk.play(R"({"op":"handle","name":"edge","role":"fixed",)"
+                  R"("region":{"box":{"min":[-1,-1,-1],"max":[0.05,2,1]}}})"
+                  "\n"
+                  R"({"op":"handle","name":"top","role":"moving",)"
+                  R"("region":{"sphere":{"center":[0.5,0.5,0],"radius":0.006}}})"
+                  "\n"
+                  R"({"op":"drag","handle":"top","pivot":[0.5,0.5,0],"frames":[)" +
+                  turns('y', 15, 60) + "]}\n" + settle(200));
+        // The free edge goes along.
+        const Vec3d middle = desk.document().cloud().origin;
+        EXPECT_GT(farthest(
+                      desk, [&](const Vec3d& p) { return (p + middle).x() > 0.95; }, stays),
+                  0.2);
+    });
+}
+
+// Several points far apart are as many single points, and so is one beside a large part of the same handle.
+TEST(HandleKinds, PointsOfOneHandleDrawNoSpikesEither) {
+    const auto lifted_by = [](const std::string& region) {
+        Settings settings;
+        settings.samples = 3000;
+        Desk desk(made(Shape::plane, 20'000), settings);
+        desk.play(R"({"op":"handle","name":"edge","role":"fixed",)"
+                  R"("region":{"box":{"min":[-1,-1,-1],"max":[0.05,2,1]}}})"
+                  "\n"
+                  R"({"op":"handle","name":"top","role":"moving",)" +
+                  region + "}\n" + drag(R"({"translate":[0,0,0.2]})") + settle(100));
+        const PointCloud& cloud = desk.document().cloud();
+        return Profile{desk.shape(), cloud.positions, Vec3d(0.75, 0.5, 0) - cloud.origin}.at_distance(0.03);
+    };
+    const auto nearest = [](double x, double y) {
+        const PointCloud plane = made(Shape::plane, 20'000);
+        Index best = 0;
+        const auto way = [&](Index i) { return (plane.file_position(i) - Vec3d(x, y, 0)).norm(); };
+        for (Index i = 0; i < plane.size(); ++i)
+            if (way(i) < way(best)) best = i;
+        return std::to_string(best);
+    };
+    const std::string point = nearest(0.75, 0.5);
+    const double alone = lifted_by(R"("points":[)" + point + "]");
+    const double with_others =
+        lifted_by(R"("points":[)" + point + "," + nearest(0.3, 0.2) + "," + nearest(0.3, 0.8) + "]");
+    EXPECT_GT(alone, 0.8);
+    EXPECT_GT(with_others, alone - 0.02);
+}
+
 TEST(HandleKinds, AFalloffCarriesWhatIsAroundAndEndsThere) {
     const Profile without = lifted(1000, "", "0.1");
     const Profile with = lifted(1000, R"(,"falloff":0.15)", "0.1");

@@ -1,0 +1,56 @@
+#pragma once
+// The parts of handles that are so small that they pull what is around them, and what that is.
+//
+// A surface cannot carry a point, and what pulls at one draws out a spike, the sharper the more samples there
+// are. A handle of three points far apart is three of these, and so is a stray that a lasso caught beside a
+// large part; so patches are looked at, and not what a handle holds in all.
+
+#include "base/progress.h"
+#include "base/workers.h"
+#include "graph/csr.h"
+#include "graph/held_blocks.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace knead {
+
+// How far what holds this pulls what is around it, whatever the handle's own falloff is. What is smaller than
+// 3 % of the cloud has up to 6 %, a single point. 0 for what is larger.
+inline constexpr double largest_small_falloff = 0.06; // of the cloud's size
+double least_falloff(const HeldExtent& held, double cloud_size);
+
+// What a handle holds that hangs together, if it is small. What one free vertex lies between hangs together,
+// too: a selection with holes is one patch.
+struct SmallPatch {
+    Index handle = 0;
+    double radius = 0;           // HeldExtent::radius()
+    double falloff = 0;          // least_falloff(), > 0
+    double reach = 0;            // of its first vertex to the farthest
+    std::vector<Index> vertices; // all different
+};
+
+// Those that have a free vertex beside them, of the first `handles` labels. `label`: who holds each vertex;
+// `blocks`: what find_held() made of that; `positions`: 3 floats a vertex. Of a large patch only some of what
+// lies along its border is looked at.
+std::vector<SmallPatch> small_patches(std::size_t handles, std::span<const Index> label,
+                                      std::span<const HeldBlock> blocks, const Graph& graph,
+                                      std::span<const float> positions, double cloud_size);
+
+// A free vertex within the falloff of a patch.
+struct NearPatch {
+    Index vertex = 0;
+    Index source = 0;    // the vertex of the patch that it is nearest to along the surface
+    Index patch = 0;     // its place in the list
+    double distance = 0; // from there, below the patch's falloff
+};
+
+// Of each handle what is nearer to small patches of it than to all others, ascending by distance: what lies
+// beside a large one goes by that.
+using Vicinities = std::vector<std::vector<NearPatch>>;
+Vicinities vicinities(std::size_t handles, std::span<const SmallPatch> patches, std::span<const Index> label,
+                      std::span<const HeldBlock> blocks, const Graph& graph, std::span<const float> positions,
+                      Workers& workers, Progress& progress);
+
+} // namespace knead

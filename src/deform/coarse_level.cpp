@@ -173,7 +173,7 @@ void carry_along(const SampleSystem& fine, const CoarseLevel& coarse, const Samp
     });
 }
 
-// How the surroundings of a coarse sample were moved: its handle's linear map, or F.
+// How the surroundings of a coarse sample were moved: its handle's rotation, or F.
 Mat3d linear_map(const CoarseLevel& coarse, const SampleState& state, Index c) {
     const SampleSystem& system = coarse.system;
     if (system.left_out[c]) return Mat3d::Identity();

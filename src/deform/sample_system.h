@@ -204,8 +204,8 @@ inline Index turns_with(const SampleSystem& system, const SoftHold& hold) {
 bool is_leaf(const SampleRest& rest, Index sample);
 
 // Prepares both systems: a factorisation of each, of one ordering unless a handle leaves rotation free; a
-// third (`increments`) where one does. Samples whose component holds no
-// handle are left out and stay at rest. On a bad outcome the system must not be iterated.
+// third (`increments`) where one does, or pulls with no sample to say how it turns. Samples whose component
+// holds no handle are left out and stay at rest. On a bad outcome the system must not be iterated.
 FactorOutcome build_system(SampleRest rest, SampleSystem& system, Workers& workers);
 
 // The matrices of steps 2 and 3 of a system that was built, as they were factorised: for comparing solvers.

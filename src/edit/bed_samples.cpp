@@ -12,8 +12,8 @@ namespace {
 constexpr double nearest_spacing = 0.0072; // of the cloud's size
 constexpr double spacing_by_way = 0.15;
 
-// Of very many points around a handle, so many are asked.
-constexpr std::size_t enough_points = 4096;
+// A patch with so many samples around it wants no more.
+constexpr std::size_t enough_samples = 256;
 
 struct Candidate {
     Vec3d position;
@@ -30,6 +30,7 @@ struct Ground {
     Vec3d lowest = Vec3d::Constant(std::numeric_limits<double>::infinity());
     Vec3d highest = -lowest;
     std::size_t most_lacking = 0;
+    double farthest = 0; // the largest `away`
 
     void add(const Candidate& point) {
         points.push_back(point);
@@ -45,32 +46,37 @@ struct Ground {
                 point.away = std::min(point.away, (point.position - place).norm());
         const auto most = std::ranges::max_element(points, {}, &Candidate::lack);
         most_lacking = static_cast<std::size_t>(most - points.begin());
+        farthest = 0;
+        for (const Candidate& point : points) farthest = std::max(farthest, point.away);
     }
 
-    // Whether a sample there may make any point lack less.
+    // Whether a sample there may be nearer to any point than all others.
     bool is_near(const Vec3d& place) const {
-        const Vec3d outside = (lowest - place).cwiseMax(place - highest);
-        return outside.maxCoeff() < (highest - lowest).maxCoeff();
+        const Vec3d outside = (lowest - place).cwiseMax(place - highest).cwiseMax(0);
+        return outside.norm() < farthest;
     }
 };
 
+// What lies around a handle with so many small patches.
 Ground ground_of(std::span<const SmallPatch> patches, std::span<const NearPatch> near,
-                 const std::vector<Index>& base, std::span<const std::uint8_t> hanging,
-                 std::span<const float> positions, double cloud_size) {
+                 std::span<const std::uint8_t> hanging, std::span<const float> positions, double cloud_size) {
     Ground ground;
     std::vector<Vec3d> samples;
-    const std::size_t stride = 1 + near.size() / enough_points;
-    for (std::size_t k = 0; k < near.size(); ++k) {
-        const Index vertex = near[k].vertex;
-        const Vec3d place = point_at(positions, vertex);
-        if (std::ranges::binary_search(base, vertex)) {
+    std::vector<Index> of;
+    for (const NearPatch& each : near) {
+        of.push_back(each.patch);
+        const Vec3d place = point_at(positions, each.vertex);
+        if (each.is_sample) {
             samples.push_back(place);
-        } else if (k % stride == 0 && !hangs(hanging, vertex)) {
-            const double way = patches[near[k].patch].radius + near[k].distance;
+        } else if (!hangs(hanging, each.vertex)) {
+            const double way = patches[each.patch].radius + each.distance;
             ground.add(
-                {place, near[k].distance, nearest_spacing * cloud_size + spacing_by_way * way, vertex});
+                {place, each.distance, nearest_spacing * cloud_size + spacing_by_way * way, each.vertex});
         }
     }
+    std::ranges::sort(of);
+    const auto count = static_cast<std::size_t>(std::unique(of.begin(), of.end()) - of.begin());
+    if (samples.size() > enough_samples * count) return {};
     ground.add_samples(samples);
     return ground;
 }
@@ -78,16 +84,13 @@ Ground ground_of(std::span<const SmallPatch> patches, std::span<const NearPatch>
 } // namespace
 
 std::vector<Index> bed_samples(std::span<const SmallPatch> patches, const Vicinities& near,
-                               std::span<const Index> base, std::span<const std::uint8_t> hanging,
-                               std::span<const float> positions, double cloud_size, std::size_t most) {
+                               std::span<const std::uint8_t> hanging, std::span<const float> positions,
+                               double cloud_size, std::size_t most) {
     std::vector<Index> chosen;
-    if (patches.empty()) return chosen;
-    std::vector<Index> ascending(base.begin(), base.end());
-    std::ranges::sort(ascending);
     std::vector<Ground> grounds;
     for (const std::vector<NearPatch>& around : near)
-        if (!around.empty())
-            grounds.push_back(ground_of(patches, around, ascending, hanging, positions, cloud_size));
+        if (most > 0 && !around.empty())
+            grounds.push_back(ground_of(patches, around, hanging, positions, cloud_size));
     while (chosen.size() < most && !grounds.empty()) {
         const Ground& poorest = *std::ranges::max_element(grounds, {}, &Ground::lack);
         if (!(poorest.lack() > 1)) break;

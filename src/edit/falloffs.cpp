@@ -155,20 +155,16 @@ std::vector<Pulled> pulled_samples(const std::vector<Handle>& handles, std::span
             if (sample != sample_of.end() && distance < falloff)
                 pulled.push_back({sample->second, h, distance / falloff, falloff, source});
         };
-        if (!has_falloff[h]) {
-            for (const NearPatch& each : near[h])
+        const double own = handles[h].falloff;
+        for (const NearPatch& each : near[h])
+            if (patches[each.patch].falloff > own)
                 add(each.vertex, each.distance, patches[each.patch].falloff, each.source);
-            return pulled;
+        if (!(own > 0)) return pulled;
+        for (const Reached& each : reached_within(graph, positions, held[h], own)) {
+            const auto of_patch = least.find(each.source);
+            if (of_patch == least.end() || of_patch->second <= own)
+                add(each.vertex, each.distance, own, each.source);
         }
-        const auto falloff_at = [&](Index source) {
-            const auto at_least = least.find(source);
-            return at_least == least.end() ? handles[h].falloff
-                                           : std::max(handles[h].falloff, at_least->second);
-        };
-        double farthest = 0;
-        for (const Index source : held[h]) farthest = std::max(farthest, falloff_at(source));
-        for (const Reached& each : reached_within(graph, positions, held[h], farthest))
-            add(each.vertex, each.distance, falloff_at(each.source), each.source);
         return pulled;
     };
     std::vector<Pulled> pulled;

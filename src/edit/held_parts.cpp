@@ -21,7 +21,7 @@ LinksAround links_around(const SampledCloud& cloud, Index vertex) {
         levels += cloud.lengths[cloud.graph.first[vertex] + k];
         length += (point_at(cloud.positions, row[k]) - place).norm();
     }
-    if (row.empty()) return {};
+    if (!(length > 0)) return {};
     return {levels / static_cast<double>(row.size()), length / levels};
 }
 
@@ -36,6 +36,7 @@ std::optional<double> way_to(const SampledCloud& cloud, Index vertex, Index hand
 // Of a link between these vertices.
 float held_part(const SampledCloud& cloud, Index free, Index held) {
     const LinksAround around = links_around(cloud, held);
+    if (!(around.length > 0)) return 0.5F;
     const Index handle = cloud.label[held];
     const std::optional<double> in_handle = way_to(cloud, held, handle);
     const std::optional<double> outside = way_to(cloud, free, handle);
@@ -43,7 +44,7 @@ float held_part(const SampledCloud& cloud, Index free, Index held) {
         (point_at(cloud.positions, free) - point_at(cloud.positions, held)).norm() / around.length;
     const double whole = in_handle && outside ? *in_handle + *outside : straight;
     const double on_handle = (in_handle ? *in_handle : 0.5 * whole) + 0.5 * around.levels;
-    return whole > 0 ? static_cast<float>(std::clamp(on_handle / whole, 0.0, 1.0)) : 0.5F;
+    return static_cast<float>(std::clamp(on_handle / whole, 0.0, 1.0));
 }
 
 } // namespace

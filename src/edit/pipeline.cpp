@@ -182,6 +182,7 @@ void Pipeline::prepare_bridges(Progress& progress) {
     graph_ = neighbors_;
     hanging_.clear();
     labels_ = {}; // and who knew the former ones begins anew
+    hold_much_.clear();
     held_blocks_.clear();
     mover_numbers_ = {};
     std::optional<JoinedGraph> joined =

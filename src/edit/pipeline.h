@@ -261,6 +261,7 @@ private:
     // Of each vertex 1 where handles that hold much hold it with all its neighbours, if these leave less than
     // a fourth of the cloud; empty else.
     std::vector<std::uint8_t> held_inside_;
+    std::vector<bool> hold_much_; // these handles, by label
     std::size_t candidates_ = 0; // vertices among which base samples are chosen
     InfluenceRows nearest_;                        // of each vertex; empty if every point is a sample
     AddedStarts<influences_per_row> from_handles_; // that are in these

@@ -41,8 +41,8 @@ Vicinities Pipeline::find_vicinities(Progress& progress) {
     const std::size_t handles = slots_.handles.size();
     small_patches_ =
         small_patches(handles, labels_.vertex, held_blocks_, *graph_, vertex_positions(), cloud_size_);
-    return vicinities(handles, small_patches_, labels_.vertex, held_blocks_, *graph_, vertex_positions(),
-                      workers_, progress);
+    return vicinities(handles, small_patches_, samples_, labels_.vertex, held_blocks_, *graph_,
+                      vertex_positions(), workers_, progress);
 }
 
 void Pipeline::find_pulled(const Vicinities& near, Progress& progress) {
@@ -57,39 +57,61 @@ void Pipeline::prepare_labels() {
     seconds_.sampling += clock.seconds();
 }
 
-// Of each label whether it holds much, one in so many of the vertices that are free or more; nothing where
-// they leave more than one in so many of all. What holds less is as good as free: it may come and go, and the
-// samples stay.
+// Of each label whether it holds much, which may end early: all but the smallest, which hold less than one in
+// so many of the vertices that are free, all together. Those may come and go, and the samples stay. Nothing
+// where the others leave more than one in so many of all vertices.
 std::vector<bool> Pipeline::labels_that_leave_little() const {
     std::vector<std::size_t> count(slots_.handles.size() + 1, 0); // and what is outside
     for (const HeldBlock& block : held_blocks_)
         for (const HeldExtent& extent : block.extents) count[extent.label] += extent.count;
     const std::size_t vertices = order_.vertices();
-    const std::size_t free = vertices - std::accumulate(count.begin(), count.end(), std::size_t{0});
-    std::vector<bool> much;
-    std::size_t held = 0; // by those
-    for (const std::size_t each : count) {
-        much.push_back(little_free * each >= free);
-        if (much.back()) held += each;
+    const std::size_t held = std::accumulate(count.begin(), count.end(), std::size_t{0});
+    std::vector<std::size_t> label(count.size());
+    std::iota(label.begin(), label.end(), std::size_t{0});
+    std::ranges::stable_sort(label, {}, [&](std::size_t each) { return count[each]; });
+    std::vector<bool> much(count.size(), true);
+    std::size_t small = 0; // held by those that do not
+    for (const std::size_t each : label) {
+        if (little_free * (small + count[each]) >= vertices - held) break;
+        small += count[each];
+        much[each] = false;
     }
-    if (free == 0 || little_free * (vertices - held) >= vertices) much.clear();
+    if (held == vertices || little_free * (vertices - held + small) >= vertices) return {};
+    while (!much.empty() && !much.back()) much.pop_back();
     return much;
 }
 
-// Where little of the cloud is free: samples are of use there alone.
+// Where little of the cloud is free: samples are of use there alone. Looks again at what changed hands, and
+// at what is beside it, as long as the same handles hold much.
 void Pipeline::find_held_inside() {
-    const std::vector<bool> holds_much = labels_that_leave_little();
-    std::vector<std::uint8_t> inside(holds_much.empty() ? 0 : order_.vertices(), 0);
-    const auto is_held = [&](Index v) {
-        const Index label = labels_.vertex[v];
-        return label != no_index && holds_much[label];
+    std::vector<bool> hold_much = labels_that_leave_little();
+    const auto is_held = [&](Index v) { return says(hold_much, labels_.vertex[v]); };
+    const auto is_inside = [&](Index v) -> std::uint8_t {
+        return is_held(v) && std::ranges::all_of(graph_->row(v), is_held) ? 1 : 0;
     };
-    workers_.for_each(inside.size(), grain, [&](std::size_t v) {
-        inside[v] = is_held(static_cast<Index>(v)) && std::ranges::all_of(graph_->row(v), is_held) ? 1 : 0;
-    });
-    if (inside == held_inside_) return;
-    held_inside_ = std::move(inside);
-    if (!every_point_) stale_.samples = true;
+    bool changed = false;
+    if (hold_much == hold_much_ && !hold_much.empty()) {
+        const auto look_at = [&](Index v) {
+            const std::uint8_t now = is_inside(v);
+            changed |= now != held_inside_[v];
+            held_inside_[v] = now;
+        };
+        for (std::size_t block = 0; block < labels_.changed.size(); ++block)
+            for (std::size_t v = block * rows_in_block;
+                 labels_.changed[block] && v < std::min((block + 1) * rows_in_block, order_.vertices());
+                 ++v) {
+                look_at(static_cast<Index>(v));
+                std::ranges::for_each(graph_->row(v), look_at);
+            }
+    } else {
+        std::vector<std::uint8_t> inside(hold_much.empty() ? 0 : order_.vertices());
+        workers_.for_each(inside.size(), grain,
+                          [&](std::size_t v) { inside[v] = is_inside(static_cast<Index>(v)); });
+        changed = inside != held_inside_;
+        held_inside_ = std::move(inside);
+        hold_much_ = std::move(hold_much);
+    }
+    if (changed && !every_point_) stale_.samples = true;
 }
 
 void Pipeline::prepare_handles(Progress& progress) {
@@ -107,9 +129,8 @@ void Pipeline::prepare_handles(Progress& progress) {
     for (Index label = 0; label < slots_.handles.size(); ++label) turning.push_back(turns_freely(label));
     const std::size_t budget = handle_budget(base_samples_);
     const std::size_t at_least = parts_with_border(held_blocks_, *components_);
-    const std::vector<Index> in_beds =
-        bed_samples(small_patches_, near, samples_, hanging_, vertex_positions(), cloud_size_,
-                    (budget - std::min(budget, at_least)) / 2);
+    const std::vector<Index> in_beds = bed_samples(small_patches_, near, hanging_, vertex_positions(),
+                                                   cloud_size_, (budget - std::min(budget, at_least)) / 2);
     HandleSamples needed = handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_, territories_,
                                           turning, budget - in_beds.size());
     needed.added.insert(needed.added.end(), in_beds.begin(), in_beds.end());

@@ -15,6 +15,14 @@ constexpr double small_handle = 0.03; // of the cloud's size: the radius of what
 // What has been looked at and is so many times as large is not looked at any further.
 constexpr double surely_large = 2;
 
+// Of the vertices of a surface about so many lie within the largest falloff of a point. So many of them are
+// enough around each handle, and around all.
+constexpr double part_around = 0.03;
+constexpr double enough_around_one = 4096, enough_around_all = 1 << 18;
+
+// Handles are searched round so many at a time, and in between it is asked whether to go on.
+constexpr std::size_t handles_at_once = 16;
+
 enum class Known : std::uint8_t { nothing, here, large, small };
 
 // Searches through what hangs together, from any vertex of it.
@@ -79,6 +87,7 @@ private:
 struct Sources {
     std::vector<Index> vertices;
     std::unordered_map<Index, Index> patch; // of those of small ones
+    std::vector<Index> patches;             // all of these
     double limit = 0;
 };
 
@@ -91,6 +100,7 @@ std::vector<Sources> sources_of(std::size_t handles, std::span<const SmallPatch>
             of_handle.vertices.push_back(v);
             of_handle.patch.emplace(v, p);
         }
+        of_handle.patches.push_back(p);
         of_handle.limit = std::max(of_handle.limit, patches[p].falloff);
     }
     const auto is_near = [&](Index vertex, const SmallPatch& patch) {
@@ -102,12 +112,18 @@ std::vector<Sources> sources_of(std::size_t handles, std::span<const SmallPatch>
             if (border.label >= handles || sources[border.label].limit == 0) continue;
             Sources& of_handle = sources[border.label];
             if (!of_handle.patch.contains(border.vertex) &&
-                std::ranges::any_of(patches, [&](const SmallPatch& patch) {
-                    return patch.handle == border.label && is_near(border.vertex, patch);
-                }))
+                std::ranges::any_of(of_handle.patches,
+                                    [&](Index p) { return is_near(border.vertex, patches[p]); }))
                 of_handle.vertices.push_back(border.vertex);
         }
     return sources;
+}
+
+// Vertices, which come along a curve, may be taken one of so many.
+std::size_t stride_of(std::size_t vertices, std::size_t handles) {
+    const double around = part_around * static_cast<double>(vertices);
+    return 1 + static_cast<std::size_t>(std::max(around / enough_around_one,
+                                                 around * static_cast<double>(handles) / enough_around_all));
 }
 
 } // namespace
@@ -130,23 +146,35 @@ std::vector<SmallPatch> small_patches(std::size_t handles, std::span<const Index
     return patches;
 }
 
-Vicinities vicinities(std::size_t handles, std::span<const SmallPatch> patches, std::span<const Index> label,
+Vicinities vicinities(std::size_t handles, std::span<const SmallPatch> patches,
+                      std::span<const Index> samples, std::span<const Index> label,
                       std::span<const HeldBlock> blocks, const Graph& graph, std::span<const float> positions,
                       Workers& workers, Progress& progress) {
     Vicinities result(handles);
     if (patches.empty()) return result;
     const std::vector<Sources> sources = sources_of(handles, patches, blocks, positions);
-    progress.step("finding what handles pull", 0);
-    workers.for_each(handles, 1, [&](std::size_t handle) {
+    std::vector<Index> ascending(samples.begin(), samples.end());
+    std::ranges::sort(ascending);
+    const auto searched = std::ranges::count_if(sources, [](const Sources& from) { return from.limit > 0; });
+    const std::size_t stride = stride_of(label.size(), static_cast<std::size_t>(searched));
+    const auto search = [&](std::size_t handle) {
         const Sources& from = sources[handle];
         if (from.limit == 0) return;
         for (const Reached& near : reached_within(graph, positions, from.vertices, from.limit)) {
             const auto patch = from.patch.find(near.source);
-            if (label[near.vertex] == no_index && patch != from.patch.end() &&
-                near.distance < patches[patch->second].falloff)
-                result[handle].push_back({near.vertex, near.source, patch->second, near.distance});
+            if (label[near.vertex] != no_index || patch == from.patch.end() ||
+                near.distance >= patches[patch->second].falloff)
+                continue;
+            const bool is_sample = std::ranges::binary_search(ascending, near.vertex);
+            if (is_sample || near.vertex % stride == 0)
+                result[handle].push_back({near.vertex, near.source, patch->second, near.distance, is_sample});
         }
-    });
+    };
+    for (std::size_t first = 0; first < handles; first += handles_at_once) {
+        progress.step("finding what handles pull", static_cast<double>(first) / static_cast<double>(handles));
+        workers.for_each(std::min(handles_at_once, handles - first), 1,
+                         [&](std::size_t k) { search(first + k); });
+    }
     return result;
 }
 

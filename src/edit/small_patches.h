@@ -38,18 +38,21 @@ std::vector<SmallPatch> small_patches(std::size_t handles, std::span<const Index
                                       std::span<const HeldBlock> blocks, const Graph& graph,
                                       std::span<const float> positions, double cloud_size);
 
-// A free vertex within the falloff of a patch.
+// A free vertex within the falloff of a patch, which is a sample or may become one.
 struct NearPatch {
     Index vertex = 0;
     Index source = 0;    // the vertex of the patch that it is nearest to along the surface
     Index patch = 0;     // its place in the list
     double distance = 0; // from there, below the patch's falloff
+    bool is_sample = false;
 };
 
 // Of each handle what is nearer to small patches of it than to all others, ascending by distance: what lies
-// beside a large one goes by that.
+// beside a large one goes by that. Of all vertices there are those of `samples`, and of the others some that
+// lie as evenly, the same around all handles: of large clouds and many handles few.
 using Vicinities = std::vector<std::vector<NearPatch>>;
-Vicinities vicinities(std::size_t handles, std::span<const SmallPatch> patches, std::span<const Index> label,
+Vicinities vicinities(std::size_t handles, std::span<const SmallPatch> patches,
+                      std::span<const Index> samples, std::span<const Index> label,
                       std::span<const HeldBlock> blocks, const Graph& graph, std::span<const float> positions,
                       Workers& workers, Progress& progress);
 

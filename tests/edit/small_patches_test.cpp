@@ -28,8 +28,8 @@ struct Sheet {
     std::vector<SmallPatch> patches() const {
         return small_patches(1, label, blocks, cloud.graph, cloud.positions, size);
     }
-    Vicinities near(const std::vector<SmallPatch>& patches) {
-        return vicinities(1, patches, label, blocks, cloud.graph, cloud.positions, machine.workers,
+    Vicinities near(const std::vector<SmallPatch>& patches, const std::vector<Index>& samples = {}) {
+        return vicinities(1, patches, samples, label, blocks, cloud.graph, cloud.positions, machine.workers,
                           machine.progress);
     }
 
@@ -103,11 +103,11 @@ std::vector<double> ways_to_middle(const Cloud& cloud, const std::vector<Index>&
 TEST(BedSamples, LieAroundAPointAndDenserBesideIt) {
     Sheet sheet([](const Vec3d& p) { return is_at(p, 50, 50); });
     const std::vector<SmallPatch> patches = sheet.patches();
-    const Vicinities near = sheet.near(patches);
-    // A tenth as large as it is, and so as dense, for the spacings to be more than one.
+    // As if it were a tenth as large, for spacings that are no smaller than the grid's not to be all there
+    // is.
     constexpr double tenth = 0.1;
     const auto chosen = [&](const std::vector<Index>& base, std::size_t most) {
-        return bed_samples(patches, near, base, {}, sheet.cloud.positions, tenth * size, most);
+        return bed_samples(patches, sheet.near(patches, base), {}, sheet.cloud.positions, tenth * size, most);
     };
     const std::vector<Index> all = chosen({}, 1000);
     EXPECT_TRUE(all_different(all));
@@ -124,13 +124,22 @@ TEST(BedSamples, LieAroundAPointAndDenserBesideIt) {
     for (const Index v : chosen(some, 1000)) EXPECT_EQ(std::ranges::find(some, v), some.end());
 }
 
+TEST(BedSamples, AreNoMoreThanThereAreVertices) {
+    Sheet sheet([](const Vec3d& p) { return is_at(p, 50, 50); });
+    const std::vector<SmallPatch> patches = sheet.patches();
+    Vicinities near = sheet.near(patches);
+    near[0].resize(1);
+    near[0][0].distance = 5; // far from all else
+    EXPECT_EQ(bed_samples(patches, near, {}, sheet.cloud.positions, size, 10).size(), 1U);
+}
+
 TEST(BedSamples, AreNoOutliers) {
     Sheet sheet([](const Vec3d& p) { return is_at(p, 50, 50); });
     const std::vector<SmallPatch> patches = sheet.patches();
     std::vector<std::uint8_t> hanging(sheet.cloud.size(), 0);
     for (std::size_t v = 0; v < hanging.size(); ++v) hanging[v] = sheet.cloud.at(v).x() > 50;
     const std::vector<Index> chosen =
-        bed_samples(patches, sheet.near(patches), {}, hanging, sheet.cloud.positions, size, 100);
+        bed_samples(patches, sheet.near(patches), hanging, sheet.cloud.positions, size, 100);
     EXPECT_GT(chosen.size(), 3U);
     for (const Index v : chosen) EXPECT_LE(sheet.cloud.at(v).x(), 50);
 }

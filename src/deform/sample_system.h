@@ -180,7 +180,7 @@ struct SampleSystem {
     std::vector<Mat3d> turn;      // M - I, of each sample; of a handle's R - I
     std::vector<Mat3d> growth;    // 2 (A - R) of each handle
     bool grows = false;           // whether any handle scales what it holds, and it counts
-    std::vector<Body> body;       // of rest.energy, samples and then handles
+    std::vector<Body> body;       // of rest.energy: samples, handles, and what those grow by
     std::vector<Quatd> free_turn; // of each handle that `rest.turns_freely` tells of
     std::vector<Mat3d> target;    // S - I, of each row; empty for ν = 0
     std::vector<Mat3d> stretch;   // Rᵀ A - I of each row; empty where there is no rest.energy

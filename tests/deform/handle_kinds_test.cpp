@@ -73,24 +73,25 @@ TEST(FreeRotation, OfASampleWithoutLinksIsNoSingularSystem) {
     EXPECT_LT((posed(system, state, samples) - motion.linear * Vec3d(9, 9, 9) - motion.offset).norm(), 1e-12);
 }
 
+// Equation (1) alone.
+std::vector<Quatd> turns_at_start(const SampleRest& rest, const std::vector<HandleMotion>& handles) {
+    SampleSystem system;
+    EXPECT_TRUE(test::built(rest, system).solved);
+    Workers workers(2);
+    SampleState state = rest_state(system);
+    follow_handles(system, handles, state, workers);
+    return state.rotation;
+}
+
 TEST(Pull, TurnsWhatItPulls) {
-    // Equation (1) alone, with and without a pull.
     SampleRest rest = test::bar(1200);
     const std::vector<HandleMotion> handles{
         {}, test::motion_about(Vec3d::UnitZ(), 90 * degrees, Vec3d::Zero(), Vec3d::Zero())};
-    const auto started = [&](const SampleRest& with) {
-        SampleSystem system;
-        EXPECT_TRUE(test::built(with, system).solved);
-        Workers workers(2);
-        SampleState state = rest_state(system);
-        follow_handles(system, handles, state, workers);
-        return state.rotation;
-    };
-    const auto plain = started(rest);
+    const auto plain = turns_at_start(rest, handles);
     for (Index s = 0; s < rest.handle.size(); ++s)
         if (rest.handle[s] == no_index && rest.position[s].z() > 1)
             rest.pulled.push_back({s, 1, 1e4, rest.position[s]});
-    const auto pulled = started(rest);
+    const auto pulled = turns_at_start(rest, handles);
     for (std::size_t s = 0; s < plain.size(); ++s) {
         const double left = pulled[s].angularDistance(handles[1].rotation);
         ASSERT_LE(left, plain[s].angularDistance(handles[1].rotation) + 1e-9);
@@ -112,20 +113,12 @@ TEST(Pull, OfAHandleThatLeavesRotationFreeLetsTurnsThrough) {
         if (rest.handle[s] == no_index && std::abs(rest.position[s].z()) < 0.2) peg = s;
     rest.handle[peg] = 2;
     rest.turns_freely = {false, false, true};
-    const auto started = [&](const SampleRest& with) {
-        SampleSystem system;
-        EXPECT_TRUE(test::built(with, system).solved);
-        Workers workers(2);
-        SampleState state = rest_state(system);
-        follow_handles(system, handles, state, workers);
-        return state.rotation;
-    };
-    const auto plain = started(rest);
+    const auto plain = turns_at_start(rest, handles);
     for (Index s = 0; s < rest.handle.size(); ++s)
         if (rest.handle[s] == no_index && (rest.position[s] - rest.position[peg]).norm() < 0.6)
             rest.pulled.push_back({s, 2, 10, rest.position[peg], 0, peg, 0});
     ASSERT_FALSE(rest.pulled.empty());
-    const auto pulled = started(rest);
+    const auto pulled = turns_at_start(rest, handles);
     for (std::size_t s = 0; s < plain.size(); ++s)
         ASSERT_LT((plain[s].coeffs() - pulled[s].coeffs()).norm(), 1e-5); // a billionth on the diagonal
 }

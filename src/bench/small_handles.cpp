@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 namespace knead {
@@ -17,7 +16,7 @@ constexpr unsigned settle_limit = 1000;
 constexpr std::size_t points = 40'000;
 constexpr double moved = 0.01; // of D: points that went further count for normals
 
-// The plane's normals and its surface, vertex by vertex, where nothing holds a point and it moved.
+// Of normals and surface, vertex by vertex, where nothing holds a point and it moved.
 Askew askew_of(Document& document, const std::vector<float>& posed, Workers& workers, Progress& progress) {
     const Pipeline& pipeline = document.pipeline();
     const PointOrder& order = pipeline.order();

@@ -23,7 +23,7 @@ constexpr double enough_around_one = 4096, enough_around_all = 1 << 18;
 // Handles are searched round so many at a time, and in between it is asked whether to go on.
 constexpr std::size_t handles_at_once = 16;
 
-enum class Known : std::uint8_t { nothing, here, large, small };
+enum class Known : std::uint8_t { nothing, met, large };
 
 // Searches through what hangs together, from any vertex of it.
 class PatchSearch {
@@ -51,13 +51,14 @@ public:
         }
         patch.radius = extent.radius();
         patch.falloff = is_small ? least_falloff(extent, cloud_size_) : 0;
-        for (const Index v : patch.vertices) known_[v] = patch.falloff > 0 ? Known::small : Known::large;
+        if (patch.falloff == 0)
+            for (const Index v : patch.vertices) known_[v] = Known::large;
         return patch;
     }
 
 private:
     void meet(Index vertex, SmallPatch& patch) {
-        known_[vertex] = Known::here;
+        known_[vertex] = Known::met;
         patch.vertices.push_back(vertex);
     }
 
@@ -171,7 +172,8 @@ Vicinities vicinities(std::size_t handles, std::span<const SmallPatch> patches,
         }
     };
     for (std::size_t first = 0; first < handles; first += handles_at_once) {
-        progress.step("finding what handles pull", static_cast<double>(first) / static_cast<double>(handles));
+        progress.step("finding what is around small handles",
+                      static_cast<double>(first) / static_cast<double>(handles));
         workers.for_each(std::min(handles_at_once, handles - first), 1,
                          [&](std::size_t k) { search(first + k); });
     }

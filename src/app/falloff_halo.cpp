@@ -2,7 +2,10 @@
 
 #include "graph/distances.h"
 
+#include <algorithm>
 #include <new>
+#include <span>
+#include <unordered_map>
 #include <utility>
 
 namespace knead {
@@ -26,17 +29,34 @@ std::vector<Index> vertices_of_chosen(const Editor& editor) {
     return vertices;
 }
 
-// Some of what lies around the handle, all over as dense.
-std::vector<HaloDot> dots_among(const std::vector<Reached>& reached, std::size_t held, double falloff) {
-    const std::size_t around = reached.size() - held;
-    const std::size_t count = std::min(around, most_halo_dots);
+// How far what is small of the handle pulls, by vertices.
+std::unordered_map<Index, double> falloffs_of_small(const Editor& editor) {
+    std::unordered_map<Index, double> falloffs;
+    for (const SmallPatch* patch : small_patches(editor, *chosen_handle(editor)))
+        for (const Index vertex : patch->vertices) falloffs.emplace(vertex, patch->falloff);
+    return falloffs;
+}
+
+// All that the handle pulls, by how little.
+std::vector<HaloDot> pulled(std::span<const Reached> reached, double own,
+                            const std::unordered_map<Index, double>& falloffs_of_small) {
     std::vector<HaloDot> dots;
-    dots.reserve(count);
-    for (std::size_t k = 0; k < count; ++k) {
-        const Reached& each = reached[held + k * around / count];
-        dots.push_back({each.vertex, static_cast<float>(1 - each.distance / falloff)});
+    for (const Reached& each : reached) {
+        const auto small = falloffs_of_small.find(each.source);
+        const double falloff = std::max(own, small != falloffs_of_small.end() ? small->second : 0);
+        if (each.distance <= falloff)
+            dots.push_back({each.vertex, static_cast<float>(1 - each.distance / falloff)});
     }
     return dots;
+}
+
+// Some of them, all over as dense.
+std::vector<HaloDot> thinned(const std::vector<HaloDot>& dots) {
+    const std::size_t count = std::min(dots.size(), most_halo_dots);
+    std::vector<HaloDot> some;
+    some.reserve(count);
+    for (std::size_t k = 0; k < count; ++k) some.push_back(dots[k * dots.size() / count]);
+    return some;
 }
 
 } // namespace
@@ -58,8 +78,10 @@ void FalloffHalo::take_found() {
 FalloffHalo::Of FalloffHalo::due(const Editor& editor, bool wanted) {
     const Handle* const handle = wanted && editor.document ? chosen_handle(editor) : nullptr;
     if (!handle || !editor.document->graph || handle->role == HandleRole::region_of_interest) return {};
-    const double falloff = std::max(handle->falloff, least_falloff(editor, *handle));
-    return falloff > 0 ? Of{handle->points, falloff, editor.document->graph} : Of{};
+    const bool is_small = !small_patches(editor, *handle).empty();
+    if (!is_small && handle->falloff <= 0) return {};
+    return {handle->points, handle->falloff, is_small ? editor.document->small_patches : nullptr,
+            editor.document->graph};
 }
 
 void FalloffHalo::look_at(const Editor& editor, bool wanted) {
@@ -70,13 +92,15 @@ void FalloffHalo::look_at(const Editor& editor, bool wanted) {
 }
 
 void FalloffHalo::begin(const Editor& editor, Of of) {
+    const double farthest = std::max(of.falloff, least_falloff(editor, *chosen_handle(editor)));
     searched_ = std::move(of);
     stop_ = std::make_shared<std::atomic<bool>>(false);
     const PointOrder& order = *editor.opened.order;
     const bool has_twins = order.vertices() < order.points();
     thread_ = std::make_unique<Background>(
         [&result = result_, of = searched_, shape = editor.opened.opened, held = vertices_of_chosen(editor),
-         stop = stop_, order = has_twins ? std::make_shared<const PointOrder>(order) : nullptr] {
+         farthest, of_small = falloffs_of_small(editor), stop = stop_,
+         order = has_twins ? std::make_shared<const PointOrder>(order) : nullptr] {
             std::vector<HaloDot> dots;
             try {
                 std::vector<float> merged;
@@ -86,8 +110,9 @@ void FalloffHalo::begin(const Editor& editor, Of of) {
                 }
                 const std::span<const float> positions =
                     order ? std::span<const float>(merged) : std::span<const float>(shape->positions);
-                const auto reached = reached_within(*of.graph, positions, held, of.falloff, stop.get());
-                dots = dots_among(reached, held.size(), of.falloff);
+                const auto reached = reached_within(*of.graph, positions, held, farthest, stop.get());
+                dots = thinned(pulled(std::span(reached).subspan(std::min(held.size(), reached.size())),
+                                      of.falloff, of_small));
             } catch (const std::bad_alloc&) { // then there is nothing to see
                 dots.clear();
             }

@@ -45,7 +45,8 @@ private:
     // What dots are of.
     struct Of {
         std::shared_ptr<const std::vector<Index>> points; // of the handle; null: of nothing
-        double falloff = 0;
+        double falloff = 0;                                    // its own
+        std::shared_ptr<const PatchesOfHandles> small_patches; // of the document; null without any of it
         std::shared_ptr<const Graph> graph;
         bool operator==(const Of&) const = default;
     };

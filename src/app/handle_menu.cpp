@@ -58,8 +58,8 @@ void falloff_menu(const Ui& ui, const Handle& handle) {
     if (ImGui::MenuItem(lowest.c_str(), nullptr, handle.falloff <= least * diagonal)) pull(0);
     if (least > 0)
         explain(
-            "A handle as small as this pulls at least so far: at a point alone the surface would be drawn "
-            "out to a spike");
+            "What is as small or thin as this pulls at least so far: at a point or a line alone the surface "
+            "would be drawn out to a spike");
     for (const double part : {0.02, 0.05, 0.1, 0.2, 0.4}) {
         if (part <= least) continue;
         const bool is_now = std::abs(handle.falloff - part * diagonal) < 1e-9 * diagonal;

@@ -61,6 +61,18 @@ DeformationTask disc_task(const std::string& name, const PointCloud& plane, doub
     return task;
 }
 
+// What lies within .2 along x and few points to the sides moves, and what is further away than `free` stays.
+DeformationTask line_task(const std::string& name, const PointCloud& plane, double free,
+                          const HandlePose& pose) {
+    DeformationTask task = disc_task(name, plane, 0, free, pose);
+    task.handle.clear();
+    for (Index i = 0; i < plane.size(); ++i) {
+        const Vec3d way = plane.file_position(i) - task.pivot;
+        if (std::abs(way.x()) <= 0.2 && std::abs(way.y()) <= 0.005) task.handle.push_back(i);
+    }
+    return task;
+}
+
 // One edge of the square stays, and a point in its middle turns the rest.
 DeformationTask point_turned(const PointCloud& plane) {
     DeformationTask task =
@@ -133,6 +145,8 @@ std::vector<SmallResult> evaluate_small_handles(Workers& workers, Upsampler& ups
         disc_task("a disc of 6 %, tilted by 40°", plane, 0.06 * diagonal, whole, turned(40, Vec3d::UnitX())),
         disc_task("a disc of 6 %, turned by 90°", plane, 0.06 * diagonal, whole, turned(90, Vec3d::UnitZ())),
         disc_task("a disc of 6 %, twice as large", plane, 0.06 * diagonal, whole, scaled(Vec3d::Constant(2))),
+        line_task("a line, lifted", plane, whole, up),
+        line_task("a line, tipped by 40°", plane, whole, turned(40, Vec3d::UnitY())),
         longer_tube(workers, progress),
     };
     const std::uint64_t samples[] = {1000, 5000};

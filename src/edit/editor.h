@@ -182,7 +182,10 @@ bool poses_may_change(const Editor& editor);
 // Whether handles are yet to be where the document has them, or will have them once it has taken back, made,
 // reset or committed what it was told: what is moved then begins elsewhere, and about another pivot.
 bool handles_may_be_elsewhere(const Editor& editor);
-// How far the handle pulls what is around it, whatever its own falloff is; 0 for one that is large enough.
+// What is small or thin of a handle of the document. Empty until it is prepared.
+std::vector<const SmallPatch*> small_patches(const Editor& editor, const Handle& handle);
+// How far that pulls what is around it at the most, whatever the handle's own falloff is; 0 where nothing
+// does.
 double least_falloff(const Editor& editor, const Handle& handle);
 // Of one of the document's: how many points follow it, those not that later handles hold, too.
 std::size_t followers_of(const Editor& editor, const Handle& handle);

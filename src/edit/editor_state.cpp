@@ -151,22 +151,19 @@ bool is_or_will_be_posed(const Editor& editor) {
     return editor.document->posed || editor.drag || !editor.earlier_drags.empty();
 }
 
+std::vector<const SmallPatch*> small_patches(const Editor& editor, const Handle& handle) {
+    std::vector<const SmallPatch*> found;
+    const std::shared_ptr<const PatchesOfHandles>& small = editor.document->small_patches;
+    if (!small || handle.role == HandleRole::region_of_interest) return found;
+    for (const SmallPatch& patch : small->patches)
+        if (small->points[patch.handle] == handle.points) found.push_back(&patch);
+    return found;
+}
+
 double least_falloff(const Editor& editor, const Handle& handle) {
-    if (handle.role == HandleRole::region_of_interest) return 0;
-    const std::span<const float> opened = editor.opened.opened->positions;
-    HeldExtent held;
-    std::optional<Vec3d> first;
-    // The window asks in every picture: of very many points some tell how far they are spread.
-    constexpr std::size_t enough_points = 4096;
-    const std::vector<Index>& points = *handle.points;
-    const std::size_t stride = 1 + points.size() / enough_points;
-    for (std::size_t k = 0; k < points.size(); k += stride) {
-        if (editor.ordered[points[k]] == no_index) continue;
-        const Vec3d at = point_at(opened, editor.ordered[points[k]]);
-        if (!first) first = at;
-        held.add(at - *first);
-    }
-    return held.count > 0 ? least_falloff(held, editor.document->cloud_size) : 0;
+    double least = 0;
+    for (const SmallPatch* patch : small_patches(editor, handle)) least = std::max(least, patch->falloff);
+    return least;
 }
 
 Box3 box_of(const Editor& editor) {

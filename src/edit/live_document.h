@@ -58,6 +58,7 @@ struct DocumentView {
     std::shared_ptr<const Graph> graph;           // of the vertices; null until it was built
     std::shared_ptr<const Components> components; // and what hangs together in it; null as long
     double cloud_size = 0;                        // Pipeline::cloud_size(); 0 as long
+    std::shared_ptr<const PatchesOfHandles> small_patches; // of handles, once those are prepared
     std::shared_ptr<const std::vector<float>>
         spacings; // of the points as opened; null until the graph was built
     std::shared_ptr<const std::vector<Index>> sample_vertices; // where the samples are; null before a drag

@@ -85,6 +85,7 @@ void LivePublisher::view(const Document& document, const LiveRecording& recordin
     view->graph = pipeline.shared_graph();
     view->components = pipeline.shared_components();
     view->cloud_size = pipeline.cloud_size();
+    view->small_patches = pipeline.small_patches();
     note_spacings(pipeline);
     view->spacings = spacings_;
     note_samples(pipeline);

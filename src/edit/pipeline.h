@@ -152,6 +152,8 @@ public:
     // which is not below samples().size(), those of handles, by their labels.
     Influence influence(Index vertex) const;
     Index first_handle_motion() const { return static_cast<Index>(first_handle_motion_); }
+    // What is small of the handles that were prepared last.
+    std::shared_ptr<const PatchesOfHandles> small_patches() const { return small_patches_; }
     const SampleSystem& system() const { return system_; }
     const RestShape& opened() const { return *opened_; } // the shape in the file
     std::shared_ptr<const RestShape> keep_opened() const { return opened_; }
@@ -261,8 +263,8 @@ private:
     // Of each vertex 1 where handles that hold much hold it with all its neighbours, if these leave less than
     // a fourth of the cloud; empty else.
     std::vector<std::uint8_t> held_inside_;
-    std::vector<bool> hold_much_; // these handles, by label
-    std::size_t candidates_ = 0; // vertices among which base samples are chosen
+    std::vector<bool> hold_much_;                  // these handles, by label
+    std::size_t candidates_ = 0;                   // vertices among which base samples are chosen
     InfluenceRows nearest_;                        // of each vertex; empty if every point is a sample
     AddedStarts<influences_per_row> from_handles_; // that are in these
     std::vector<Index> row_ends_;                  // of blocks of rows: find_row_ends()
@@ -275,7 +277,7 @@ private:
     HandleSlots slots_; // by which the stages tell handles
     HandleLabels labels_;
     std::vector<HeldBlock> held_blocks_; // of those
-    std::vector<SmallPatch> small_patches_; // of handles
+    std::shared_ptr<const PatchesOfHandles> small_patches_ = std::make_shared<const PatchesOfHandles>();
     std::vector<Pulled> pulled_;
     std::optional<Numbering> standing_; // standing_points(), where they are not all the first ones
     LooseParts strays_;

@@ -39,15 +39,18 @@ std::size_t handle_budget(std::size_t base_samples) {
 // What is around what is small of the handles.
 Vicinities Pipeline::find_vicinities(Progress& progress) {
     const std::size_t handles = slots_.handles.size();
-    small_patches_ =
-        small_patches(handles, labels_.vertex, held_blocks_, *graph_, vertex_positions(), cloud_size_);
-    return vicinities(handles, small_patches_, samples_, labels_.vertex, held_blocks_, *graph_,
+    PatchesOfHandles found{
+        knead::small_patches(handles, labels_.vertex, held_blocks_, *graph_, vertex_positions(), cloud_size_),
+        {}};
+    for (const Handle& handle : slots_.handles) found.points.push_back(handle.points);
+    small_patches_ = std::make_shared<const PatchesOfHandles>(std::move(found));
+    return vicinities(handles, small_patches_->patches, samples_, labels_.vertex, held_blocks_, *graph_,
                       vertex_positions(), workers_, progress);
 }
 
 void Pipeline::find_pulled(const Vicinities& near, Progress& progress) {
     pulled_ = pulled_samples(slots_.handles, labels_.vertex, components_->component, held_blocks_,
-                             small_patches_, near, samples_, *graph_, vertex_positions(), workers_, progress);
+                             small_patches_->patches, near, samples_, *graph_, vertex_positions(), workers_, progress);
 }
 
 void Pipeline::prepare_labels() {
@@ -129,7 +132,7 @@ void Pipeline::prepare_handles(Progress& progress) {
     for (Index label = 0; label < slots_.handles.size(); ++label) turning.push_back(turns_freely(label));
     const std::size_t budget = handle_budget(base_samples_);
     const std::size_t at_least = parts_with_border(held_blocks_, *components_);
-    const std::vector<Index> in_beds = bed_samples(small_patches_, near, hanging_, vertex_positions(),
+    const std::vector<Index> in_beds = bed_samples(small_patches_->patches, near, hanging_, vertex_positions(),
                                                    cloud_size_, (budget - std::min(budget, at_least)) / 2);
     HandleSamples needed = handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_, territories_,
                                           turning, budget - in_beds.size());

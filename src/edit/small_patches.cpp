@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <numbers>
 #include <unordered_map>
 
 namespace knead {
@@ -13,7 +15,10 @@ namespace {
 constexpr double small_handle = 0.03; // of the cloud's size: the radius of what needs no falloff
 
 // What has been looked at and is so many times as large is not looked at any further.
-constexpr double surely_large = 2;
+constexpr double surely_large = 1.25;
+
+// Nor is what is long, once it holds more than this part of the cloud.
+constexpr double most_of_long = 0.03;
 
 // Of the vertices of a surface about so many lie within the largest falloff of a point. So many of them are
 // enough around each handle, and around all.
@@ -24,6 +29,45 @@ constexpr double enough_around_one = 4096, enough_around_all = 1 << 18;
 constexpr std::size_t handles_at_once = 16;
 
 enum class Known : std::uint8_t { nothing, met, large };
+
+// How large a patch is, from its vertices as they are met.
+class PatchShape {
+public:
+    PatchShape(const Graph& graph, std::span<const float> positions) : graph_(graph), positions_(positions) {}
+
+    // `way`: there from the first one; `holes`: how much of the free vertices beside it lies among the
+    // patch's own; `leaving`: which part of its links goes to others.
+    void add(const Vec3d& way, Index vertex, double holes, double leaving) {
+        extent_.add(way);
+        inside_ += 1 + holes;
+        leaving_ += leaving;
+        if (leaving == 0) return;
+        double length = 0;
+        for (const Index near : graph_.row(vertex))
+            length += (point_at(positions_, near) - point_at(positions_, vertex)).norm();
+        lengths_ += length / static_cast<double>(graph_.row(vertex).size());
+        ++borders_;
+    }
+
+    std::size_t count() const { return extent_.count; }
+    double radius() const { return extent_.radius(); }
+    // 2 · area / length of the border: of a disc its radius, of what is long how wide it is. With ρ vertices
+    // an area, all linked to those within r, these have k = π ρ r² links of 2/3 r in the mean, and 2/3 ρ² r³
+    // cross a border's unit of length; for the ratio, 2/π · mean length · vertices / Σ parts that leave,
+    // ρ and k need not be known.
+    double width() const {
+        return leaving_ > 0 ? 2 / std::numbers::pi * (lengths_ / borders_) * inside_ / leaving_
+                            : std::numeric_limits<double>::infinity();
+    }
+
+private:
+    const Graph& graph_;
+    std::span<const float> positions_;
+    HeldExtent extent_;
+    double inside_ = 0; // vertices
+    double leaving_ = 0;
+    double lengths_ = 0, borders_ = 0; // the mean ones of the links of vertices with some that leave
+};
 
 // Searches through what hangs together, from any vertex of it.
 class PatchSearch {
@@ -39,18 +83,16 @@ public:
     SmallPatch from(Index start) {
         SmallPatch patch;
         patch.handle = label_[start];
-        HeldExtent extent;
+        PatchShape shape(graph_, positions_);
         bool is_small = true;
         meet(start, patch);
         for (std::size_t next = 0; is_small && next < patch.vertices.size(); ++next) {
             const Vec3d way = point_at(positions_, patch.vertices[next]) - point_at(positions_, start);
-            extent.add(way);
             patch.reach = std::max(patch.reach, way.norm());
-            is_small = extent.radius() <= surely_large * small_handle * cloud_size_ &&
-                       meet_neighbors(patch.vertices[next], patch);
+            is_small = look_around(patch.vertices[next], way, patch, shape) && !is_large(shape);
         }
-        patch.radius = extent.radius();
-        patch.falloff = is_small ? least_falloff(extent, cloud_size_) : 0;
+        patch.radius = std::min(shape.radius(), shape.width());
+        patch.falloff = is_small ? least_falloff(patch.radius, cloud_size_) : 0;
         if (patch.falloff == 0)
             for (const Index v : patch.vertices) known_[v] = Known::large;
         return patch;
@@ -62,18 +104,38 @@ private:
         patch.vertices.push_back(vertex);
     }
 
-    // False once one of them belongs to a large patch.
-    bool meet_neighbors(Index vertex, SmallPatch& patch) {
-        const auto meet_one = [&](Index other) {
-            if (label_[other] != patch.handle) return true;
-            if (known_[other] == Known::nothing) meet(other, patch);
-            return known_[other] != Known::large;
-        };
+    bool is_large(const PatchShape& shape) const {
+        const double enough = surely_large * small_handle * cloud_size_;
+        return shape.radius() > enough &&
+               (shape.width() > enough ||
+                static_cast<double>(shape.count()) > most_of_long * static_cast<double>(label_.size()));
+    }
+
+    // Meets what hangs together with a vertex. False once one of them belongs to a large patch.
+    bool look_around(Index vertex, const Vec3d& way, SmallPatch& patch, PatchShape& shape) {
+        double holes = 0, leaving = 0;
         for (const Index near : graph_.row(vertex)) {
-            if (!meet_one(near)) return false;
-            if (label_[near] == no_index && !std::ranges::all_of(graph_.row(near), meet_one)) return false;
+            if (!meet_one(near, patch)) return false;
+            if (label_[near] != no_index) continue;
+            std::size_t own = 0;
+            for (const Index beyond : graph_.row(near)) {
+                if (!meet_one(beyond, patch)) return false;
+                own += label_[beyond] == patch.handle ? 1 : 0;
+            }
+            const bool is_hole = 2 * own > graph_.row(near).size();
+            if (is_hole)
+                holes += 1 / static_cast<double>(own); // so many vertices tell of it
+            else
+                ++leaving;
         }
+        shape.add(way, vertex, holes, leaving / static_cast<double>(graph_.row(vertex).size()));
         return true;
+    }
+
+    bool meet_one(Index vertex, SmallPatch& patch) {
+        if (label_[vertex] != patch.handle) return true;
+        if (known_[vertex] == Known::nothing) meet(vertex, patch);
+        return known_[vertex] != Known::large;
     }
 
     std::span<const Index> label_;
@@ -129,8 +191,8 @@ std::size_t stride_of(std::size_t vertices, std::size_t handles) {
 
 } // namespace
 
-double least_falloff(const HeldExtent& held, double cloud_size) {
-    return largest_small_falloff * std::max(0.0, cloud_size - held.radius() / small_handle);
+double least_falloff(double radius, double cloud_size) {
+    return largest_small_falloff * std::max(0.0, cloud_size - radius / small_handle);
 }
 
 std::vector<SmallPatch> small_patches(std::size_t handles, std::span<const Index> label,

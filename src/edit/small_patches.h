@@ -11,6 +11,7 @@
 #include "graph/held_blocks.h"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,16 +20,22 @@ namespace knead {
 // How far what holds this pulls what is around it, whatever the handle's own falloff is. What is smaller than
 // 3 % of the cloud has up to 6 %, a single point. 0 for what is larger.
 inline constexpr double largest_small_falloff = 0.06; // of the cloud's size
-double least_falloff(const HeldExtent& held, double cloud_size);
+double least_falloff(double radius, double cloud_size);
 
 // What a handle holds that hangs together, if it is small. What one free vertex lies between hangs together,
 // too: a selection with holes is one patch.
 struct SmallPatch {
     Index handle = 0;
-    double radius = 0;           // HeldExtent::radius()
+    double radius = 0;           // HeldExtent::radius(), or how wide it is, if it is thin
     double falloff = 0;          // least_falloff(), > 0
     double reach = 0;            // of its first vertex to the farthest
     std::vector<Index> vertices; // all different
+};
+
+// The small patches of handles, for whoever looks on from elsewhere.
+struct PatchesOfHandles {
+    std::vector<SmallPatch> patches;
+    std::vector<std::shared_ptr<const std::vector<Index>>> points; // Handle::points of each label
 };
 
 // Those that have a free vertex beside them, of the first `handles` labels. `label`: who holds each vertex;

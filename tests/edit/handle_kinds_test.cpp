@@ -133,6 +133,25 @@ TEST(HandleKinds, PointsOfOneHandleDrawNoSpikesEither) {
     EXPECT_GT(with_others, alone - 0.02);
 }
 
+// Nor does a line at its ends, which a surface cannot carry either.
+TEST(HandleKinds, ALineDrawsNoSpikesAtItsEnds) {
+    for (const std::uint64_t samples : {1000U, 5000U}) {
+        Settings settings;
+        settings.samples = samples;
+        Desk desk(made(Shape::plane, 20'000), settings);
+        desk.play(
+            R"({"op":"handle","name":"edge","role":"fixed",)"
+            R"("region":{"box":{"min":[-1,-1,-1],"max":[0.05,2,1]}}})"
+            "\n"
+            R"({"op":"handle","name":"line","role":"moving",)"
+            R"("region":{"box":{"min":[0.49,0.3,-1],"max":[0.51,0.7,1]}}})"
+            "\n"
+            R"({"op":"drag","handle":"line","pivot":[0.5,0.5,0],"frames":[)" +
+            turns('x', 10, 40) + "]}\n" + settle(200));
+        EXPECT_LT(widest_seam(desk), samples == 1000 ? 0.16 : 0.11) << samples;
+    }
+}
+
 TEST(HandleKinds, AFalloffCarriesWhatIsAroundAndEndsThere) {
     const Profile without = lifted(1000, "", "0.1");
     const Profile with = lifted(1000, R"(,"falloff":0.15)", "0.1");
@@ -329,7 +348,7 @@ TEST(HandleKinds, AFreeLineIsAHingeWithoutASeam) {
             };
             bowed[free] = farthest(desk, on_the_left, stays);
         }
-        EXPECT_GT(bowed[true], 5 * bowed[false]) << samples; // the fold goes on beyond what leaves it free
+        EXPECT_GT(bowed[true], 4 * bowed[false]) << samples; // the fold goes on beyond what leaves it free
     }
 }
 

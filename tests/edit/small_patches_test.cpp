@@ -86,6 +86,38 @@ TEST(SmallPatches, ASelectionWithHolesIsOneLargeOne) {
     EXPECT_TRUE(sheet.patches().empty());
 }
 
+// A curve that turns back on itself is as thin as a straight one.
+TEST(SmallPatches, ALongLineIsThin) {
+    Sheet line([](const Vec3d& p) { return std::abs(p.y() - 50) < 0.5 && std::abs(p.x() - 50) <= 30; });
+    Sheet ring([](const Vec3d& p) { return std::abs(std::hypot(p.x() - 50, p.y() - 50) - 30) < 0.8; });
+    for (Sheet* sheet : {&line, &ring}) {
+        const std::vector<SmallPatch> patches = sheet->patches();
+        ASSERT_EQ(patches.size(), 1U);
+        EXPECT_EQ(patches[0].vertices.size(),
+                  static_cast<std::size_t>(std::ranges::count(sheet->label, 0U)));
+        EXPECT_NEAR(patches[0].radius, sheet == &line ? 1 : 1.4, 0.3);
+        EXPECT_GT(sheet->near(patches)[0].size(), 200U);
+    }
+}
+
+// But for what is as wide as the disc that is large enough, and what lies along the cloud's own edge, on
+// one side of which nothing is.
+TEST(SmallPatches, AWideStripIsNone) {
+    Sheet narrow([](const Vec3d& p) { return std::abs(p.y() - 49.5) < 1; });
+    EXPECT_EQ(narrow.patches().size(), 1U);
+    Sheet wide([](const Vec3d& p) { return std::abs(p.y() - 50) < 2.1; });
+    EXPECT_TRUE(wide.patches().empty());
+    Sheet along_edge([](const Vec3d& p) { return p.y() < 2.1; });
+    EXPECT_TRUE(along_edge.patches().empty());
+}
+
+TEST(SmallPatches, AStripWithHolesIsAsWideAsWithout) {
+    Sheet sheet([](const Vec3d& p) {
+        return std::abs(p.y() - 50) < 8.1 && std::lround(p.x()) % 3 + std::lround(p.y()) % 3 > 0;
+    });
+    EXPECT_TRUE(sheet.patches().empty());
+}
+
 TEST(SmallPatches, WhatIsHeldAllAroundPullsNothing) {
     Sheet sheet([](const Vec3d& /*p*/) { return true; });
     EXPECT_TRUE(sheet.patches().empty());

@@ -89,6 +89,30 @@ TEST_F(Halo, IsAnotherForAnotherFalloffOrHandle) {
     EXPECT_TRUE(dots().empty());
 }
 
+// The first point is a patch of its own that pulls as far as 40, the others pull nothing.
+TEST_F(Halo, IsAroundWhatIsSmallWhereTheHandleHasNoFalloff) {
+    const auto small = [&](Index vertex) {
+        PatchesOfHandles patches;
+        patches.points = {nullptr, document_.handles.back().points};
+        patches.patches.push_back({1, 0, 40, 0, {vertex}});
+        document_.small_patches = std::make_shared<const PatchesOfHandles>(std::move(patches));
+    };
+    small(0);
+    with_falloff(0);
+    EXPECT_TRUE(dots().empty()) << "all else is nearer to the others";
+    small(held - 1);
+    with_falloff(0);
+    const std::vector<HaloDot> found = dots();
+    ASSERT_EQ(found.size(), 40U);
+    for (const HaloDot& dot : found)
+        EXPECT_NEAR(dot.nearness, 1 - (dot.vertex - held + 1) / 40.0, 1e-6) << dot.vertex;
+    with_falloff(50);
+    EXPECT_EQ(dots().size(), 50U) << "its own is larger";
+    document_.handles.back().points = std::make_shared<const std::vector<Index>>(Index{held}, Index{0});
+    with_falloff(0);
+    EXPECT_TRUE(dots().empty()) << "they are of another handle";
+}
+
 TEST_F(Halo, IsNotThereWhereItIsNotWanted) {
     EXPECT_EQ(dots().size(), 20U);
     EXPECT_TRUE(dots(false).empty());

@@ -26,6 +26,9 @@ bool something_is_hidden(const Ui& ui) {
 bool handle_is_chosen(const Ui& ui) {
     return ui.has_cloud() && chosen_handle(ui.editor);
 }
+bool handle_or_selection_is_there(const Ui& ui) {
+    return handle_is_chosen(ui) || something_is_selected(ui);
+}
 bool handle_can_be_named(const Ui& ui) {
     return ui.has_cloud() && handle_to_name(ui.editor);
 }
@@ -150,6 +153,12 @@ void choose_next_handle(const Ui& ui) {
     for (int i = 0; i < count; ++i)
         if (handles[order[static_cast<std::size_t>(i)]].name == ui.editor.chosen) at = i;
     ui.tell(ChooseHandle{handles[order[static_cast<std::size_t>((at + direction + count) % count)]].name});
+}
+
+void delete_handle(const Ui& ui) {
+    if (handle_is_chosen(ui)) return ui.tell(DeleteHandle{ui.editor.chosen});
+    add_toast(ui.state, {Notice::Kind::information,
+                         "No point is ever deleted, and no handle is chosen. V hides what is selected."});
 }
 
 void name_handle(const Ui& ui) {
@@ -316,8 +325,8 @@ const Action handle_actions[] = {
      std::nullopt, mirror<1>, handle_is_chosen},
     {"Handles/Mirror", "Along Z", "", "Makes the same handle, mirrored, on the other side along z",
      std::nullopt, mirror<2>, handle_is_chosen},
-    {"Handles", "Delete", "Del", "Deletes the chosen handle; its points stay", on(Key::del),
-     [](const Ui& ui) { ui.tell(DeleteHandle{ui.editor.chosen}); }, handle_is_chosen, nullptr, true},
+    {"Handles", "Delete", "Del", "Deletes the chosen handle; its points stay", on(Key::del), delete_handle,
+     handle_or_selection_is_there, nullptr, true},
 };
 
 const Action view_actions[] = {

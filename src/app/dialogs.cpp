@@ -3,6 +3,7 @@
 #include "app/ui.h"
 #include "app/widgets.h"
 #include "base/counts.h"
+#include "edit/kept_original.h"
 #include "edit/known_files.h"
 
 #include <algorithm>
@@ -91,8 +92,9 @@ void unsaved_question(const Ui& ui) {
 
 struct OverwritingWords {
     const char* title = "";
-    const char* what_is_lost = "";
+    std::string what_is_lost;
     const char *go_on = "Overwrite", *elsewhere = "Another name…";
+    const char* keep = nullptr; // the original; null: that is no question
 };
 
 OverwritingWords words_about(const Ui& ui, const WishSaveTo& target) {
@@ -103,10 +105,13 @@ OverwritingWords words_about(const Ui& ui, const WishSaveTo& target) {
             "its place, and theirs is gone for good.",
             "Save anyway", "Save as…"};
     if (ui.has_cloud() && real_name(target.file) == real_name(ui.editor.opened.file))
-        return {
-            "Overwrite the input?",
-            "This is the cloud that you opened. Sessions recorded on it will no longer fit, and the points "
-            "as they were are gone for good."};
+        return {"Overwrite the input?",
+                "This is the cloud that you opened. Overwritten, it no longer fits the sessions recorded on "
+                "it, and the points as they were are gone for good, unless you keep the original beside it, "
+                "as " +
+                    name_of_original(ui.editor.opened.file).filename().string() +
+                    ". Your session then goes by that.",
+                "Overwrite", "Another name…", "Keep the original"};
     return {"Overwrite this file?", "What is in it now will be gone."};
 }
 
@@ -123,10 +128,13 @@ void overwriting_question(const Ui& ui) {
     wrapped_text(target->file);
     faint_text(words.what_is_lost);
     ImGui::Dummy({0, ui.scaled(8)});
-    const std::optional<int> answer = answers(std::array{words.go_on, words.elsewhere}, 1);
+    const std::optional<int> answer = words.keep
+                                          ? answers(std::array{words.go_on, words.elsewhere, words.keep}, 2)
+                                          : answers(std::array{words.go_on, words.elsewhere}, 1);
     const bool gives_up = !answer && pressed(ImGuiKey_Escape);
-    if (answer == 0) {
+    if (answer == 0 || answer == 2) {
         target->ask = false;
+        target->keeps_original = answer == 2;
         ui.wish(*target);
     } else if (answer == 1 || (gives_up && !target->anyway)) {
         ui.wish(WishBrowse{target->purpose});
@@ -144,7 +152,10 @@ std::string without_place(std::string words) {
     const std::size_t at = words.find(after_key);
     if (at == std::string::npos) return words;
     words.erase(0, at + after_key.size());
-    if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+    const auto is_letter = [](unsigned char one) { return std::isalpha(one) != 0; };
+    const std::string first_word = words.substr(0, words.find(' '));
+    if (std::ranges::all_of(first_word, is_letter) && !words.empty()) // a file keeps its name
+        words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
     return words;
 }
 

@@ -18,8 +18,8 @@ namespace knead {
 
 // All that lives as long as the window.
 struct Loop {
-    explicit Loop(const EditorOptions& chosen)
-        : options(chosen), window(chosen.width, chosen.height), editor(chosen.threads) {}
+    Loop(const EditorOptions& chosen, int width, int height)
+        : options(chosen), window(width, height), editor(chosen.threads) {}
 
     const EditorOptions& options;
     Window window;

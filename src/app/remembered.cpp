@@ -3,6 +3,7 @@
 #include "app/kept_text.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -19,6 +20,15 @@ struct NamedAxis {
 };
 constexpr NamedAxis axes[] = {{"z", UpAxis::z}, {"y", UpAxis::y}, {"-y", UpAxis::minus_y}};
 
+// "1440x900"
+void take_size(const std::string& value, Remembered& choices) {
+    int width = 0, height = 0;
+    if (std::sscanf(value.c_str(), "%5dx%5d", &width, &height) != 2) return;
+    if (width < 640 || height < 420) return; // nobody chose that
+    choices.width = width;
+    choices.height = height;
+}
+
 } // namespace
 
 Remembered read_remembered() {
@@ -30,6 +40,7 @@ Remembered read_remembered() {
             if (const auto axis = std::ranges::find(axes, value, &NamedAxis::name); axis != std::end(axes))
                 choices.up = axis->up;
         if (name == "samples") choices.choose_samples = value != "by-hand";
+        if (name == "size") take_size(value, choices);
     }
     return choices;
 }
@@ -37,7 +48,8 @@ Remembered read_remembered() {
 void remember(const Remembered& choices) {
     const std::string up = std::ranges::find(axes, choices.up, &NamedAxis::up)->name;
     keep_text(settings_name,
-              "up " + up + "\n" + (choices.choose_samples ? "samples automatic\n" : "samples by-hand\n"));
+              "up " + up + "\n" + (choices.choose_samples ? "samples automatic\n" : "samples by-hand\n") +
+                  "size " + std::to_string(choices.width) + "x" + std::to_string(choices.height) + "\n");
 }
 
 } // namespace knead

@@ -130,6 +130,14 @@ void set_theme(Loop& loop) {
     loop.window.renew_fonts();
 }
 
+void remember_size(const Window& window) {
+    Remembered choices = read_remembered();
+    const Window::Size size = window.size_of_choice();
+    choices.width = size.width;
+    choices.height = size.height;
+    remember(choices);
+}
+
 // Names may come in any script; what letters they need is known once they are there.
 void take_in_letters(Loop& loop) {
     const std::size_t before = loop.foreign_letters.size();
@@ -140,10 +148,12 @@ void take_in_letters(Loop& loop) {
 } // namespace
 
 void run_editor(const EditorOptions& options) {
-    Loop loop(options);
+    const Remembered remembered = read_remembered();
+    const bool is_sized = options.width > 0;
+    Loop loop(options, is_sized ? options.width : remembered.width,
+              is_sized ? options.height : remembered.height);
     set_theme(loop);
     loop.state.recent = read_recent_files();
-    const Remembered remembered = read_remembered();
     loop.state.display.up = remembered.up;
     loop.state.choose_samples = remembered.choose_samples;
     loop.state.lost = find_lost_work(default_journal_folder());
@@ -151,6 +161,7 @@ void run_editor(const EditorOptions& options) {
     bool news = true;
     while (!loop.work.closing) {
         if (options.told_to_stop && options.told_to_stop()) throw Cancelled();
+        loop.window.set_endless(hand_is_full(loop) && !options.observer);
         loop.window.take_in(options.observer ? 0.001 : patience(loop, news));
         lay_out(loop);
         const bool played = be_played(loop);
@@ -168,6 +179,7 @@ void run_editor(const EditorOptions& options) {
                                     {loop.window.drawn_by(), loop.state.measured.drawn, !loop.is_coarse});
         loop.frames_to_draw = std::max(0, loop.frames_to_draw - 1);
     }
+    if (!options.observer) remember_size(loop.window);
     if (loop.editor.document) leave_session(loop.editor.document->session, loop.editor.camera);
     // Whoever closes the window has saved what they wanted to keep.
     if (loop.editor.live) loop.editor.live->discard_journal();

@@ -34,10 +34,10 @@ struct EditorOptions {
     std::optional<std::filesystem::path> cloud; // instead of the session's
     std::string device;                         // as make_upsampler() takes it
     unsigned threads = 0;                       // 0: one a core
-    int width = 1440, height = 900;             // of the window, on a display of scale 1
-    SettingsChange settings;                    // of a cloud that is opened
-    std::function<bool()> told_to_stop;         // by a signal; may be empty
-    EditorObserver* observer = nullptr;         // not owned
+    int width = 0, height = 0; // of the window, on a display of scale 1; 0: as it was left the last time
+    SettingsChange settings;   // of a cloud that is opened
+    std::function<bool()> told_to_stop; // by a signal; may be empty
+    EditorObserver* observer = nullptr; // not owned
 };
 
 // Returns when the user closed the window. Throws Cancelled where it was told to stop, which keeps the

@@ -51,8 +51,9 @@ struct WishSaveTo {        // asks before anything is overwritten
     BrowseFor purpose = BrowseFor::save_session;
     std::filesystem::path file;
     bool ask = true;
-    SaveColumns columns = {}; // of a cloud
-    bool anyway = false;      // although somebody else changed it since it was read or written here
+    SaveColumns columns = {};    // of a cloud
+    bool anyway = false;         // although somebody else changed it since it was read or written here
+    bool keeps_original = false; // of the cloud that it takes the place of
 };
 struct WishDiscard {}; // the unsaved work; what it kept waiting comes now
 struct WishDemonstration {

@@ -81,6 +81,21 @@ std::optional<Key> key_of(int glfw_key, int scancode) {
     }
 }
 
+glm::dvec2 cursor_of(GLFWwindow* window) {
+    glm::dvec2 place(0.0);
+    glfwGetCursorPos(window, &place.x, &place.y);
+    return place;
+}
+
+// Where a cursor comes in again that leaves a window of so many pixels: it does on its last ones, since it
+// may not get beyond those of the screen.
+double inside_of(double place, int pixels) {
+    constexpr double edge = 1, inwards = 2; // so that it does not leave at once again
+    const double last = pixels - 1;
+    if (place >= edge && place <= last - edge) return place;
+    return place < edge ? last - edge - inwards : edge + inwards;
+}
+
 std::optional<MouseButton> button_of(int glfw_button) {
     switch (glfw_button) {
     case GLFW_MOUSE_BUTTON_LEFT:
@@ -101,6 +116,7 @@ struct Window::Callbacks {
 
     static void cursor(GLFWwindow* window, double x, double y) {
         Window& self = of(window);
+        if (self.endless_) return; // it may be from before the cursor was put elsewhere
         self.cursor_ = {x, y};
         self.events_.emplace_back(Input(MouseMove{self.cursor_, held_now(window)}));
     }
@@ -108,6 +124,7 @@ struct Window::Callbacks {
         const std::optional<MouseButton> which = button_of(glfw_button);
         if (!which) return;
         Window& self = of(window);
+        if (self.endless_) self.look_where_cursor_is();
         if (action == GLFW_PRESS)
             self.press(*which, modifiers_of(mods));
         else
@@ -150,8 +167,25 @@ struct Window::Callbacks {
 // Keys mean what the cursor points at, which tells of its moves alone: not where it was before the first of
 // them.
 void Window::look_where_cursor_is() {
-    glfwGetCursorPos(window_, &cursor_.x, &cursor_.y);
+    cursor_ = cursor_of(window_) + gone_round_;
     events_.emplace_back(Input(MouseMove{cursor_, held_now(window_)}));
+}
+
+void Window::set_endless(bool endless) {
+    if (endless == endless_) return;
+    endless_ = endless;
+    gone_round_ = glm::dvec2(0.0);
+    look_where_cursor_is();
+}
+
+void Window::keep_cursor_inside() {
+    if (!glfwGetWindowAttrib(window_, GLFW_FOCUSED)) return;
+    const glm::dvec2 place = cursor_of(window_);
+    const glm::dvec2 inside(inside_of(place.x, size().width), inside_of(place.y, size().height));
+    if (inside != place) glfwSetCursorPos(window_, inside.x, inside.y);
+    // There are displays on which nobody may put it elsewhere.
+    if (glm::distance(cursor_of(window_), inside) < 1) gone_round_ += place - inside;
+    if (cursor_ != cursor_of(window_) + gone_round_) look_where_cursor_is();
 }
 
 void Window::press(MouseButton button, Modifiers held) {
@@ -256,6 +290,15 @@ Window::Size Window::framebuffer() const {
     return size;
 }
 
+Window::Size Window::size_of_choice() const {
+    const Size now =
+        before_full_screen_ ? Size{before_full_screen_->width, before_full_screen_->height} : size();
+    const auto unscaled = [&](int pixels) {
+        return static_cast<int>(std::lround(static_cast<float>(pixels) / content_scale()));
+    };
+    return {unscaled(now.width), unscaled(now.height)};
+}
+
 float Window::content_scale() const {
     float x = 1, y = 1;
     glfwGetWindowContentScale(window_, &x, &y);
@@ -272,6 +315,7 @@ void Window::take_in(double seconds) {
         glfwWaitEventsTimeout(seconds);
     else
         glfwPollEvents();
+    if (endless_) keep_cursor_inside();
 }
 
 namespace {

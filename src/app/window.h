@@ -38,6 +38,8 @@ public:
     Size size() const;        // in the coordinates of events and of ImGui
     Size framebuffer() const; // in pixels; 0 while minimised
     float content_scale() const;
+    // As a display of scale 1 would have it, and before it filled the screen: what the next one is made of.
+    Size size_of_choice() const;
 
     // Takes in what happened; waits for it up to so many seconds (0: not at all).
     void take_in(double seconds);
@@ -45,6 +47,10 @@ public:
 
     // ImGui's fonts are others from the next frame on.
     void renew_fonts();
+
+    // While that is so, the cursor comes in again on the other side where it leaves the window, and events tell
+    // how far it went in all: the hand never comes to an end.
+    void set_endless(bool endless);
 
     // On the whole of the screen that most of the window is on, or where it was before.
     void set_full_screen(bool full);
@@ -63,6 +69,7 @@ private:
     friend struct Callbacks;
     void press(MouseButton button, Modifiers held);
     void look_where_cursor_is();
+    void keep_cursor_inside();
 
     GLFWwindow* window_ = nullptr;
     std::vector<WindowEvent> events_;
@@ -71,7 +78,9 @@ private:
         int x = 0, y = 0, width = 0, height = 0;
     };
     std::optional<Place> before_full_screen_;
-    glm::dvec2 cursor_{0.0};
+    glm::dvec2 cursor_{0.0}; // as events tell it
+    bool endless_ = false;
+    glm::dvec2 gone_round_{0.0}; // how far events are ahead of where the cursor is
 
     // Keys pressed since the last frame: ImGui looks at the keyboard once a frame, and would miss those that
     // were released again before.

@@ -193,7 +193,7 @@ void save(Work& work, const WishSaveTo& wish) {
         remember_choosing(wish.file, work.editor.chooses_samples);
         work.state.last_session = wish.file;
     } else {
-        save_cloud(work.editor, wish.file, wish.columns, wish.anyway);
+        save_cloud(work.editor, wish.file, wish.columns, wish.anyway, wish.keeps_original);
         work.state.last_export = wish.file;
     }
     if (work.state.after.waiting_for_save) work.state.after.save_was_posted = true;
@@ -250,11 +250,15 @@ void fulfil(Work& work, const WishOrbiting& wish) {
 void fulfil(Work& work, const WishUpAxis& wish) {
     work.state.display.up = wish.up;
     set_up(work.editor.camera, wish.up);
-    remember({wish.up, work.state.choose_samples});
+    Remembered choices = read_remembered();
+    choices.up = wish.up;
+    remember(choices);
 }
 void fulfil(Work& work, const WishChooseSamples& wish) {
     work.state.choose_samples = wish.by_themselves;
-    remember({work.state.display.up, wish.by_themselves});
+    Remembered choices = read_remembered();
+    choices.choose_samples = wish.by_themselves;
+    remember(choices);
     apply(work.editor, ChooseSamples{wish.by_themselves});
 }
 void fulfil(Work& work, const WishBrowseLabels&) {

@@ -180,8 +180,9 @@ void apply(Editor& editor, const Command& command) {
     }
 }
 
-void save_cloud(Editor& editor, std::filesystem::path target, SaveColumns columns, bool anyway) {
-    editor.live->save_cloud(std::move(target), columns, anyway);
+void save_cloud(Editor& editor, std::filesystem::path target, SaveColumns columns, bool anyway,
+                bool keeps_original) {
+    editor.live->save_cloud(std::move(target), columns, anyway, keeps_original);
     editor.saving = true;
 }
 

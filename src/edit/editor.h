@@ -142,7 +142,8 @@ void apply(Editor& editor, const Command& command);
 bool refresh(Editor& editor);
 
 // Write the shape as it is, or the session so far, as LiveDocument does; until they are done, `saving`.
-void save_cloud(Editor& editor, std::filesystem::path target, SaveColumns columns, bool anyway);
+void save_cloud(Editor& editor, std::filesystem::path target, SaveColumns columns, bool anyway,
+                bool keeps_original = false);
 void save_session(Editor& editor, std::filesystem::path target, bool anyway);
 
 // Feeds one input of the hand to the tools and applies what they say. Returns whether it was used.

@@ -157,6 +157,7 @@ bool refresh_view(Editor& editor) {
     if (view == editor.document) return false;
     const bool other_handles = !hold_the_same(view->handles, editor.document->handles);
     editor.document = std::move(view);
+    editor.opened.file = editor.document->cloud;
     if (other_handles) mark_handles(editor);
     const StepNumber done = editor.document->last_step;
     std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first <= done; });

@@ -34,6 +34,9 @@ const Handle* handle_that_holds(const Editor& editor, Index ordered) {
 
 constexpr double click_radius = 8; // pixels
 
+// Of what lies in a region: where less is seen, it is told.
+constexpr double much_seen = 0.9;
+
 } // namespace
 
 std::vector<std::uint8_t> hidden_points(const Editor& editor) {
@@ -62,6 +65,8 @@ void carry_out(Editor& editor, const SelectRegion& command) {
     const std::vector<std::uint8_t> hidden = hidden_points(editor);
     points_in_region(editor.camera, editor.viewport, editor.frame.positions(), hidden, command.region, inside,
                      editor.workers);
+    const auto count = [&] { return std::ranges::count(inside, std::uint8_t{1}); };
+    const auto there = count();
     if (!command.through) {
         const VisibleSurface surface =
             visible_surface(editor.camera, editor.viewport, editor.frame.positions(), hidden,
@@ -70,6 +75,9 @@ void carry_out(Editor& editor, const SelectRegion& command) {
                      editor.workers);
     }
     change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });
+    const bool leaves_much = static_cast<double>(count()) < much_seen * static_cast<double>(there);
+    if (leaves_much && command.mode != SelectMode::remove)
+        editor.just_done = "Only what you see is selected (T selects what lies behind, too)";
 }
 
 // A click chooses the handle that it hits; elsewhere it selects the one point, or nothing, or what is around

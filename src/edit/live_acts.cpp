@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "edit/handle_motion.h"
+#include "edit/kept_original.h"
 #include "edit/live_opening.h"
 #include "edit/measures.h"
 #include "edit/way_back.h"
@@ -194,6 +195,50 @@ void LiveWork::carry_out(task::SaveCloud& task) {
     come_to_rest();
     if (!task.anyway && hold_back({task.target, task.columns})) return;
     look_for_others(task.target);
+    std::filesystem::path copy; // of the original; empty: none is kept
+    if (task.keeps_original && real_name(task.target) == real_name(recording_->cloud()))
+        copy = copy_original();
+    try {
+        write(task);
+    } catch (...) {
+        std::error_code ignored;
+        if (!copy.empty()) std::filesystem::remove(copy, ignored);
+        throw;
+    }
+    take_note(files_.known, task.target);
+    say(Notice::Kind::information, "Saved the cloud as " + task.target.string());
+    if (!copy.empty()) go_by_copy(copy);
+    publish_view();
+}
+
+// While it still is what was read.
+std::filesystem::path LiveWork::copy_original() {
+    const std::filesystem::path& cloud = recording_->cloud();
+    begin_digest();
+    if (files_.digest && files_.digest->get()) recording_->set_sha256(*files_.digest->get());
+    if (stamp_of(cloud) != files_.cloud_stamp)
+        throw Error(Trouble::input, cloud.string(),
+                    "is not the file any more that was opened, so the original cannot be kept");
+    std::filesystem::path copy = name_of_original(cloud);
+    progress_.step("keeping the original", 0);
+    keep_original(cloud, copy, progress_);
+    return copy;
+}
+
+// A session that was saved names the file that now is another one.
+void LiveWork::go_by_copy(const std::filesystem::path& copy) {
+    recording_->lies_at(copy);
+    take_note(files_.known, copy);
+    files_.cloud_stamp = stamp_of(copy);
+    recording_->is_on(files_.cloud_stamp);
+    files_.saved.session_state.reset();
+    tell_what_is_open();
+    say(Notice::Kind::information, "The original is now " + copy.string() +
+                                       ", and the session goes by that: save it (Ctrl+S) to go on "
+                                       "later.");
+}
+
+void LiveWork::write(const task::SaveCloud& task) {
     const std::vector<float> positions = document_->positions(progress_);
     const std::vector<float> normals = document_->normals(progress_);
     const std::vector<float> far = task.columns.displacement ? displacement_column() : std::vector<float>{};
@@ -202,11 +247,8 @@ void LiveWork::carry_out(task::SaveCloud& task) {
     PosedShape shape{positions, normals, {}, rotations};
     if (task.columns.displacement) shape.added.push_back({"displacement", far});
     if (task.columns.stretch) shape.added.push_back({"stretch", stretch});
-    const std::vector<std::string> heard = write_cloud(task.target, document_->cloud(), shape, progress_);
-    take_note(files_.known, task.target);
-    say(Notice::Kind::information, "Saved the cloud as " + task.target.string());
-    for (const std::string& words : heard) say(Notice::Kind::warning, words);
-    publish_view();
+    for (const std::string& words : write_cloud(task.target, document_->cloud(), shape, progress_))
+        say(Notice::Kind::warning, words);
 }
 
 void LiveWork::carry_out(task::SaveSession& task) {

@@ -64,6 +64,7 @@ struct DocumentView {
     std::shared_ptr<const std::vector<Index>> sample_vertices; // where the samples are; null before a drag
     std::shared_ptr<const Graph> sample_graph;                 // between them; null before a drag
     std::string device;
+    std::filesystem::path cloud;   // the file that it is about, absolute
     std::filesystem::path session; // where it was saved last, or opened from; empty: never
 };
 
@@ -248,8 +249,10 @@ public:
 
     // Writes the shape as it is now / the session so far. Success and failure come as notices. Over a file
     // that somebody else has changed since this editor read or wrote it, only `anyway`: else
-    // take_held_saves() has it.
-    void save_cloud(std::filesystem::path target, SaveColumns columns = {}, bool anyway = false);
+    // take_held_saves() has it. `keeps_original`: where the target is the very file that the cloud was read
+    // from, that is copied first (edit/kept_original.h), and the document is about the copy from then on.
+    void save_cloud(std::filesystem::path target, SaveColumns columns = {}, bool anyway = false,
+                    bool keeps_original = false);
     void save_session(std::filesystem::path target, bool anyway = false);
 
     // --- What is newest ---

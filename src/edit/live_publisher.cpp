@@ -92,6 +92,7 @@ void LivePublisher::view(const Document& document, const LiveRecording& recordin
     view->sample_vertices = sample_vertices_;
     view->sample_graph = sample_graph_;
     view->device = facts.device;
+    view->cloud = recording.cloud();
     view->session = facts.session;
     shared_.with([&](LiveShared& s) {
         s.view = std::move(view);

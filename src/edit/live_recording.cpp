@@ -82,8 +82,20 @@ LiveRecording::LiveRecording(const Session& session, const std::optional<std::fi
         facts_are_written_ = true;
         written_ = session.lines.size();
         const Session before = parse_session(session.header_text + "\n", *restored);
-        if (plain_path(before.resolve(before.cloud)) != cloud_) begin_journal_again(session);
+        if (plain_path(before.resolve(before.cloud)) == cloud_) return;
+        std::string lines;
+        for (const SessionLine& line : session.lines) lines += (lines.empty() ? "" : "\n") + line.text;
+        begin_journal_again(lines);
     }
+}
+
+void LiveRecording::lies_at(const std::filesystem::path& cloud) {
+    cloud_ = plain_path(cloud);
+    if (!journal_) return;
+    std::string lines;
+    for (std::size_t number = 0; number < written_; ++number)
+        lines += (lines.empty() ? "" : "\n") + to_text(lines_[number]);
+    begin_journal_again(lines);
 }
 
 Journal LiveRecording::begin_journal(const std::filesystem::path& folder) const {
@@ -92,10 +104,8 @@ Journal LiveRecording::begin_journal(const std::filesystem::path& folder) const 
     return Journal::create(folder, header_text(header));
 }
 
-// The cloud of what is restored lies elsewhere now: a journal says where in its first line.
-void LiveRecording::begin_journal_again(const Session& session) {
-    std::string lines;
-    for (const SessionLine& line : session.lines) lines += (lines.empty() ? "" : "\n") + line.text;
+// The cloud lies elsewhere now: a journal says where in its first line.
+void LiveRecording::begin_journal_again(const std::string& lines) {
     try {
         Journal again = begin_journal(journal_->file().parent_path());
         try {

@@ -95,6 +95,8 @@ public:
 
     std::size_t acts() const { return lines_.size(); }
     const std::filesystem::path& cloud() const { return cloud_; } // absolute
+    // The same cloud, by another name.
+    void lies_at(const std::filesystem::path& cloud);
 
     // Writes all of it as a session file, with paths relative to it; what was undone only to look at it is in
     // it as done. Throws Error (output).
@@ -109,7 +111,7 @@ private:
     void write_facts();
     void undo_what_was_looked_back();
     Journal begin_journal(const std::filesystem::path& folder) const;
-    void begin_journal_again(const Session& session);
+    void begin_journal_again(const std::string& lines);
 
     Session header_;
     std::filesystem::path cloud_;

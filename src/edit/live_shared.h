@@ -65,6 +65,7 @@ struct SaveCloud {
     std::filesystem::path target;
     SaveColumns columns;
     bool anyway = false;
+    bool keeps_original = false;
 };
 struct SaveSession {
     std::filesystem::path target;

@@ -61,6 +61,9 @@ private:
     void carry_out(task::Undo& task);
     void carry_out(task::Redo& task);
     void carry_out(task::SaveCloud& task);
+    void write(const task::SaveCloud& task);
+    std::filesystem::path copy_original();
+    void go_by_copy(const std::filesystem::path& copy);
     void carry_out(task::SaveSession& task);
     bool hold_back(HeldSave save);
     void begin_digest();

@@ -517,6 +517,70 @@ TEST_F(SavingOver, ACloudThatSomebodyElseReplacedIsAskedAbout) {
     EXPECT_NE(stamp_of(cloud), theirs);
 }
 
+// The session that goes on is about the copy, by whatever way it is opened again, and only the first cloud
+// that is saved there takes the place of the original.
+TEST_F(SavingOver, TheOriginalIsKeptOnWish) {
+    const std::filesystem::path cloud = live_->opened().file, copy = folder_ / "bar-original.ply";
+    const std::string original = read_text(cloud);
+    live_->save_session(folder_ / "a.knead");
+    drag({turned(0.1)});
+    live_->save_cloud(cloud, {}, false, true);
+    EXPECT_FALSE(held());
+    EXPECT_EQ(read_text(copy), original);
+    EXPECT_NE(read_text(cloud), original);
+    EXPECT_EQ(live_->view()->cloud, copy);
+    EXPECT_FALSE(live_->saved().session_state) << "what was saved names the other one";
+    live_->save_cloud(cloud, {}, false, true);
+    EXPECT_FALSE(held());
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "bar-original-2.ply"));
+
+    live_->take_notices();
+    live_->save_session(folder_ / "a.knead");
+    settle_down();
+    for (const Notice& notice : live_->take_notices())
+        EXPECT_EQ(notice.kind, Notice::Kind::information) << notice.words;
+    EXPECT_EQ(read_session(folder_ / "a.knead").cloud, "bar-original.ply");
+    EXPECT_EQ(read_session(folder_ / "a.knead").sha256, sha256_of_file(copy));
+    LiveDocument again(request_for(folder_ / "a.knead"));
+    wait_until_open(again);
+    EXPECT_EQ(again.status().stage, LiveDocument::Stage::open);
+    EXPECT_EQ(again.opened().file, copy);
+}
+
+TEST_F(SavingOver, ACrashLeavesWhatGoesByTheOriginal) {
+    OpenRequest request = request_for(live_->opened().file);
+    request.journal_folder = folder_ / "state";
+    open(request);
+    drag({turned(0.1)});
+    live_->save_cloud(live_->opened().file, {}, false, true);
+    drag({turned(0.2)});
+    live_.reset();
+    const std::vector<LostWork> lost = find_lost_work(folder_ / "state");
+    ASSERT_EQ(lost.size(), 1U);
+    EXPECT_EQ(lost[0].cloud, folder_ / "bar-original.ply");
+    request.file = lost[0].journal;
+    request.restore = lost[0].journal;
+    live_ = std::make_unique<LiveDocument>(request);
+    wait_until_open(*live_);
+    ASSERT_EQ(live_->status().stage, LiveDocument::Stage::open);
+    EXPECT_EQ(live_->view()->undoable_steps, 4U);
+}
+
+TEST_F(SavingOver, WhereTheOriginalCannotBeKeptNothingIsOverwritten) {
+    const std::filesystem::path cloud = live_->opened().file;
+    const std::string original = read_text(cloud);
+    drag({turned(0.1)});
+    write_text(cloud, original); // by somebody else, or so it seems
+    live_->take_notices();
+    live_->save_cloud(cloud, {}, true, true);
+    settle_down();
+    const std::vector<Notice> notices = live_->take_notices();
+    EXPECT_TRUE(std::ranges::any_of(notices,
+                                    [](const Notice& notice) { return notice.kind == Notice::Kind::error; }));
+    EXPECT_EQ(read_text(cloud), original);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "bar-original.ply"));
+}
+
 TEST_F(SavingOver, AnOpenedSessionIsKnownToo) {
     live_->save_session(folder_ / "a.knead");
     settle_down();

@@ -176,6 +176,11 @@ void Desktop::move(double x, double y) const {
     pause(0.03);
 }
 
+void Desktop::move_on(int x, int y) const {
+    xdotool({"mousemove_relative", "--", std::to_string(x), std::to_string(y)});
+    pause(0.05);
+}
+
 void Desktop::press(int button) const {
     xdotool({"mousedown", std::to_string(button)});
     pause(0.05);

@@ -63,6 +63,7 @@ public:
     void burst(std::initializer_list<const char*> names) const; // the same, as fast as they can be sent
     void type(const std::string& text) const;
     void move(double x, double y) const;
+    void move_on(int x, int y) const; // from where it is
     void press(int button) const;
     void release(int button) const;
     void drag(int button, const std::vector<std::pair<double, double>>& path,

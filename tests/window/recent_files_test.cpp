@@ -2,6 +2,7 @@
 
 #include "app/kept_views.h"
 #include "app/recent_files.h"
+#include "app/remembered.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
@@ -57,6 +58,21 @@ TEST_F(RecentFiles, ASessionIsLookedAtFromWhereItWasLeft) {
     std::vector<std::filesystem::path> recent;
     forget_files(recent);
     EXPECT_FALSE(kept_view(b));
+}
+
+TEST_F(RecentFiles, WhatWasChosenOfTheWindowIsThereTheNextTime) {
+    EXPECT_EQ(read_remembered().width, Remembered{}.width);
+    remember({UpAxis::minus_y, false, 1700, 1000});
+    const Remembered read = read_remembered();
+    EXPECT_EQ(read.up, UpAxis::minus_y);
+    EXPECT_FALSE(read.choose_samples);
+    EXPECT_EQ(read.width, 1700);
+    EXPECT_EQ(read.height, 1000);
+    for (const char* nonsense : {"12x90", "1700", "-5x1000", "x", "1e4x900"}) {
+        write_text(folder_ / "state/knead/window", std::string("size ") + nonsense + "\nup y\n");
+        EXPECT_EQ(read_remembered().width, Remembered{}.width) << nonsense;
+        EXPECT_EQ(read_remembered().up, UpAxis::y) << nonsense;
+    }
 }
 
 TEST_F(RecentFiles, ASessionThatChoosesItsSamplesIsKnownAgain) {

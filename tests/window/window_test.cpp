@@ -176,6 +176,25 @@ TEST_F(WindowTest, PosesSavesAndRecordsWhatReplaysToTheSameShape) {
     expect_equal_shapes(folder_ / "kept.knead", folder_ / "kept.ply");
 }
 
+// The window is as large as the screen: there the cursor comes in again on the other side.
+TEST_F(WindowTest, AMoveDoesNotEndAtTheWindowsEdge) {
+    open_cat();
+    make_handles();
+    desktop_->move(500, 300);
+    desktop_->keys({"g"});
+    for (int step = 0; step < 40; ++step) desktop_->move_on(75, 0); // wider than the screen twice over
+    desktop_->move_on(0, 100);
+    desktop_->keys({"Return"});
+    ASSERT_TRUE(wait_for_act("settle", 1));
+    save("ctrl+s", folder_ / "moved.knead");
+    const auto [left, top] = on_screen(0, 0, 1.5);
+    const auto [right, bottom] = on_screen(0, 1, 0.5);
+    const Session session = read_session(folder_ / "moved.knead");
+    const HandlePose& pose = std::get<DragLine>(session.lines.at(2).action).frames.back();
+    EXPECT_NEAR(pose.translate.y(), 3000 / (right - left), 0.1 * 3000 / (right - left));
+    EXPECT_NEAR(pose.translate.z(), -100 / (bottom - top), 0.2 * 100 / (bottom - top));
+}
+
 TEST_F(WindowTest, LookingAtTheTimelineLeavesWhatWasUndoneUndone) {
     turn_a_cats_head();
     desktop_->keys({"ctrl+z"});

@@ -497,6 +497,7 @@ std::span<const Gesture> gestures() {
         Gesture{"While moving, turning or scaling", "Shift", "Ten times slower"},
         Gesture{"While moving, turning or scaling", "Enter", "Done (or click)"},
         Gesture{"While moving, turning or scaling", "Esc", "As it was (or right click)"},
+        Gesture{"In the panels", "Shift+click", "In the list: that handle goes along with the chosen one"},
         Gesture{"In the panels", "F10", "Menus; arrows walk through them, Enter chooses"},
         Gesture{"In the panels", "Ctrl+click", "Type the number of a slider"},
         Gesture{"In the panels", "Click", "Type the number of a field without a bar"},

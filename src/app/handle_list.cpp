@@ -16,7 +16,8 @@ namespace knead {
 
 namespace {
 
-constexpr float fewest_rows = 6; // that can be seen at once
+constexpr float fewest_rows = 6;    // that can be seen at once
+constexpr float end_of_swatch = 28; // from the left of a row
 
 // The field in which a name is typed, in place of the name.
 void name_field(const Ui& ui, const Handle& handle) {
@@ -59,9 +60,19 @@ bool row_button(const Ui& ui, const Handle& handle, ImVec2 size, bool renaming) 
         ImGui::Dummy(size);
         return false;
     }
-    if (ImGui::InvisibleButton("row", size)) ui.tell(ChooseHandle{handle.name});
+    const bool chooses_more = ImGui::GetIO().KeyShift || ImGui::GetIO().KeyCtrl;
+    const bool on_swatch =
+        ImGui::GetIO().MousePos.x < ImGui::GetCursorScreenPos().x + ui.scaled(end_of_swatch);
+    if (ImGui::InvisibleButton("row", size)) {
+        if (on_swatch)
+            ui.state.recoloring = handle.name;
+        else if (chooses_more)
+            ui.tell(ChooseAlso{handle.name});
+        else
+            ui.tell(ChooseHandle{handle.name});
+    }
     const bool hovered = ImGui::IsItemHovered();
-    if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+    if (hovered && !chooses_more && !on_swatch && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         ui.state.renaming = ui.state.name_text = handle.name;
         ui.state.renaming_begins = true;
     }
@@ -69,9 +80,11 @@ bool row_button(const Ui& ui, const Handle& handle, ImVec2 size, bool renaming) 
     if (!hovered && ui.state.row_at_rest == handle.name) ui.state.row_at_rest.clear();
     const bool quiet = ui.editor.tools.drag || ui.state.row_at_rest == handle.name; // it would be in the way
     if (hovered && !quiet && !ImGui::IsPopupOpen("menu"))
-        explain(handle.name + ": " + words_for(handle.role) + ", " + points_of(ui.editor, handle) +
-                (handle.free_rotation ? ", a peg: positions only" : "") + falloff_of(ui.editor, handle) +
-                "\nClick chooses it, a double click renames it, the right button has more.");
+        explain(
+            handle.name + ": " + words_for(handle.role) + ", " + points_of(ui.editor, handle) +
+            (handle.free_rotation ? ", a peg: positions only" : "") + falloff_of(ui.editor, handle) +
+            "\nClick chooses it, Shift+click lets it go along with the chosen one, a double click renames "
+            "it, the right button has more; the square is its colour.");
     return hovered;
 }
 
@@ -132,19 +145,22 @@ void row_words(const Ui& ui, const Handle& handle, ImVec2 corner, float end) {
 void handle_row(const Ui& ui, const Handle& handle, std::size_t number) {
     ImGui::PushID(static_cast<int>(number));
     const bool chosen = handle.name == ui.editor.chosen;
+    const bool goes_along =
+        std::ranges::find(ui.editor.also_chosen, handle.name) != ui.editor.also_chosen.end();
     const float height = ImGui::GetFrameHeight(), width = ImGui::GetContentRegionAvail().x;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const bool renaming = ui.state.renaming == handle.name;
     const bool hovered = row_button(ui, handle, {width - height, height}, renaming);
-    if (chosen || hovered)
+    if (chosen || goes_along || hovered)
         list.AddRectFilled(corner, {corner.x + width, corner.y + height},
-                           chosen ? palette::field_pressed : palette::rgb(0xffffff, 14), ui.scaled(5));
-    if (chosen)
-        list.AddRectFilled(corner, {corner.x + ui.scaled(3), corner.y + height}, palette::accent,
-                           ui.scaled(2));
+                           chosen || goes_along ? palette::field_pressed : palette::rgb(0xffffff, 14),
+                           ui.scaled(5));
+    if (chosen || goes_along)
+        list.AddRectFilled(corner, {corner.x + ui.scaled(3), corner.y + height},
+                           chosen ? palette::accent : palette::faint, ui.scaled(2));
     const float middle = corner.y + height / 2;
-    color_swatch(ui, handle, {corner.x + ui.scaled(18), middle});
+    color_swatch(ui, handle, {corner.x + ui.scaled(end_of_swatch - 10), middle});
     draw_icon(list, icon_of(handle.role), {corner.x + ui.scaled(40), middle}, ui.scaled(13), palette::text);
     const float text = ui.scaled(56);
     if (renaming) {

@@ -49,6 +49,9 @@ struct MakeHandle { // of the selection; an empty name: the next free one
 struct ChooseHandle {
     std::string handle; // empty: none
 };
+struct ChooseAlso { // it goes along when the chosen one is moved; or does no longer
+    std::string handle;
+};
 struct RenameHandle {
     std::string handle, to;
 };
@@ -84,7 +87,7 @@ struct MirrorHandle {
 
 // --- Poses ---
 
-struct BeginDrag { // of the chosen handle
+struct BeginDrag { // of the chosen handle, and of those that go along
     glm::dvec3 pivot{0.0};
 };
 struct DragTo {
@@ -147,9 +150,9 @@ struct SetPivotUnder { // a double click: the point under the cursor becomes the
 
 using Command =
     std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, DropChoice,
-                 ChangeHidden, MakeHandle, ChooseHandle, RenameHandle, AssignPoints, ChangeRole, ChangeHold,
-                 ColorHandle, DeleteHandle, ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag, CancelDrag,
-                 RefuseTransform, SetPivot, SetPivotInside, SetPivotToSelection, ChangeSettings,
+                 ChangeHidden, MakeHandle, ChooseHandle, ChooseAlso, RenameHandle, AssignPoints, ChangeRole,
+                 ChangeHold, ColorHandle, DeleteHandle, ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag,
+                 CancelDrag, RefuseTransform, SetPivot, SetPivotInside, SetPivotToSelection, ChangeSettings,
                  ChooseSamples, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying, AdvancePlaying,
                  MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
 

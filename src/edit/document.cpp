@@ -166,10 +166,10 @@ HandleDemand Document::demand(Progress& progress) {
     return pipeline_.demand(motions_, *samples_of(now(), progress));
 }
 
-Index Document::find_handle(const std::string& name, const std::string& place) const {
+Index Document::find_handle(const std::string& name, const std::string& place, const char* key) const {
     for (Index h = 0; h < handles_.size(); ++h)
         if (handles_[h].name == name) return h;
-    std::string words = "\"handle\": there is no handle " + quoted(name) + " here";
+    std::string words = quoted(key) + ": there is no handle " + quoted(name) + " here";
     if (handles_.empty()) throw Error(Trouble::input, place, words + "; declare one first");
     words += "; there are";
     for (const Handle& handle : handles_) words += " " + quoted(handle.name);
@@ -199,11 +199,11 @@ std::optional<Index> Document::retouched_by(const HandleLine& line, const std::s
     return held_as_in(line, place);
 }
 
-Index Document::movable_handle(const std::string& name, const std::string& place) const {
-    const Index handle = find_handle(name, place);
+Index Document::movable_handle(const std::string& name, const char* key, const std::string& place) const {
+    const Index handle = find_handle(name, place, key);
     if (handles_[handle].role != HandleRole::moving)
         throw Error(Trouble::input, place,
-                    "\"handle\": " + quoted(name) +
+                    quoted(key) + ": " + quoted(name) +
                         " is not a moving handle; declare it with \"role\":\"moving\"");
     return handle;
 }

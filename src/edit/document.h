@@ -88,8 +88,9 @@ public:
     // frames. Until the end nothing of it is history, and no other act may come in between. An end that
     // throws forgets what was begun, as abandon() does.
 
+    // `with`: as DragLine has it.
     void begin_drag(const std::string& handle, const Vec3d& pivot, const std::string& place,
-                    Progress& progress);
+                    Progress& progress, const std::vector<std::string>& with = {});
     // One frame: the handle's whole pose in this edit. Returns the longest way that a sample went in the last
     // iteration, over the cloud's size. An absurd pose is refused, and the drag stays as it was.
     // `later` leaves moving the points to whoever draws, where the upsampler can (upsample/drawing.h): then
@@ -176,13 +177,18 @@ private:
         std::size_t made_from = 0;              // in history_: the posed state that was committed
     };
 
+    // A handle, and where it is.
+    struct Moved {
+        Index handle = 0;
+        HandleMotion motion = {};
+    };
+
     // The samples after a drag or a settling.
     struct Posed {
         std::shared_ptr<const SampleState> samples;  // null: dropped
         std::size_t made_from = 0;                   // in history_: the state before the act
         std::variant<DragLine, SettleLine> act = {}; // that made it
-        Index handle = no_index;                     // of a drag
-        HandleMotion motion = {};                    // to which it brought that handle
+        std::vector<Moved> moved = {}; // by a drag: where it brought its handle, and those that went along
     };
 
     // Everything that undo takes back, shared between states where it is large. Of the handles and their
@@ -204,19 +210,20 @@ private:
 
     // What begin_drag() and begin_settling() began.
     struct UnderWay {
-        State next;
+        State after; // it
         std::vector<HandleMotion> motions;
         SampleState samples, samples_before = {}; // the latter: before the frame that is being computed
-        Index handle = no_index;                  // no_index: settling
-        DragLine line = {};                       // its frames so far
-        SampleState coarse_before = {};           // likewise, of memory.following
-        unsigned iterations = 0;                  // of settling
+        std::vector<Moved> from = {}; // what the drag moves, where it was when that began; none: settling
+        std::vector<Moved> before = {}, next = {}; // and before and after the frame that is being computed
+        DragLine line = {};                        // its frames so far
+        SampleState coarse_before = {};            // likewise, of memory.following
+        unsigned iterations = 0;                   // of settling
         FrameMemory memory = {};
         bool is_shown = false; // whether the pipeline's posed points are those of `samples`
     };
 
     bool is_as_opened() const;
-    Index find_handle(const std::string& name, const std::string& place) const;
+    Index find_handle(const std::string& name, const std::string& place, const char* key = "handle") const;
     // The handle of this name, where it holds what the line says and as it says.
     std::optional<Index> held_as_in(const HandleLine& line, const std::string& place) const;
     // The handle that this line gives another colour or pivot and changes in nothing else; nothing: it does
@@ -233,9 +240,13 @@ private:
     std::vector<HandleMotion> motions_of(std::size_t at) const;
     void prepare_for(std::size_t at, Progress& progress);
     void prepare(Progress& progress);
-    Index movable_handle(const std::string& name, const std::string& place) const;
+    Index movable_handle(const std::string& name, const char* key, const std::string& place) const;
     double iterate_once(const std::vector<HandleMotion>& motions, SampleState& samples, FrameMemory& memory);
-    double follow(Index handle, const HandleMotion& motion, bool coarse, unsigned iterations,
+    std::vector<Moved> moved_by(const DragLine& line, std::span<const HandleMotion> motions,
+                                const std::string& place) const;
+    void move(const HandlePose& pose, const Vec3d& pivot, std::span<const Moved> from,
+              std::span<const HandleMotion> now, std::vector<Moved>& next) const;
+    double follow(std::span<const Moved> next, bool coarse, unsigned iterations,
                   std::vector<HandleMotion>& motions, SampleState& samples, FrameMemory& memory,
                   Progress& progress);
     void upsample(const std::vector<HandleMotion>& motions, const SampleState& state);

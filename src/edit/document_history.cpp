@@ -68,8 +68,8 @@ void Document::arrive_at(const State& next) {
     if (next.change) apply(*next.change, handles_);
     if (!next.posed)
         motions_.assign(handles_.size(), HandleMotion{});
-    else if (next.posed->handle != no_index)
-        motions_[next.posed->handle] = next.posed->motion;
+    else
+        for (const Moved& moved : next.posed->moved) motions_[moved.handle] = moved.motion;
     show_pivots(now(), next);
     ++at_;
     posed_is_now_ = false;
@@ -94,9 +94,11 @@ std::vector<HandleMotion> Document::motions_of(std::size_t at) const {
     std::vector<bool> known(motions.size(), false);
     for (const Posed* posed = history_[at].posed.get(); posed;
          posed = history_[posed->made_from].posed.get()) {
-        if (posed->handle == no_index || known[posed->handle]) continue;
-        motions[posed->handle] = posed->motion;
-        known[posed->handle] = true;
+        for (const Moved& moved : posed->moved) {
+            if (known[moved.handle]) continue;
+            motions[moved.handle] = moved.motion;
+            known[moved.handle] = true;
+        }
     }
     return motions;
 }
@@ -121,16 +123,22 @@ std::optional<SettleLine> Document::redoable_settling() const {
 
 std::vector<HandleMotion> Document::way_of(const std::string& handle) const {
     const Index index = find_handle(handle, "");
-    std::vector<const DragLine*> drags;
+    std::vector<const Posed*> drags; // that moved it, the last one first
     for (const Posed* posed = now().posed.get(); posed; posed = history_[posed->made_from].posed.get())
-        if (posed->handle == index) drags.push_back(&std::get<DragLine>(posed->act));
+        if (std::ranges::find(posed->moved, index, &Moved::handle) != posed->moved.end())
+            drags.push_back(posed);
     std::vector<HandleMotion> way;
-    HandleMotion motion;
-    for (auto drag = drags.rbegin(); drag != drags.rend(); ++drag)
-        for (const HandlePose& pose : (*drag)->frames) {
-            motion = motion_of(pose, (*drag)->pivot, cloud_.origin, motion);
-            way.push_back(motion);
+    for (auto posed = drags.rbegin(); posed != drags.rend(); ++posed) {
+        const auto& drag = std::get<DragLine>((*posed)->act);
+        std::vector<HandleMotion> motions = motions_of((*posed)->made_from);
+        std::vector<Moved> from = (*posed)->moved, next;
+        for (Moved& each : from) each.motion = motions[each.handle];
+        for (const HandlePose& pose : drag.frames) {
+            move(pose, drag.pivot, from, motions, next);
+            for (const Moved& each : next) motions[each.handle] = each.motion;
+            way.push_back(motions[index]);
         }
+    }
     return way;
 }
 
@@ -185,12 +193,13 @@ void Document::repeat(const Posed& posed, SampleState& samples, Progress& progre
     }
     const auto& drag = std::get<DragLine>(posed.act);
     const auto frames = static_cast<double>(drag.frames.size());
+    std::vector<Moved> began = posed.moved, next;
+    for (Moved& each : began) each.motion = motions[each.handle];
     for (std::size_t f = 0; f < drag.frames.size(); ++f) {
         progress.step("following the handle again", static_cast<double>(f) / frames);
         const HandlePose& pose = drag.frames[f];
-        const HandleMotion motion = motion_of(pose, drag.pivot, cloud_.origin, motions[posed.handle]);
-        follow(posed.handle, motion, pose.coarse, from.settings.iterations, motions, samples, memory,
-               progress);
+        move(pose, drag.pivot, began, motions, next);
+        follow(next, pose.coarse, from.settings.iterations, motions, samples, memory, progress);
     }
 }
 

@@ -45,20 +45,44 @@ double Document::iterate_once(const std::vector<HandleMotion>& motions, SampleSt
     return way / pipeline_.cloud_size();
 }
 
-// A frame of a drag that takes one of the handles from its place in `motions` to another. Returns as above,
-// of the last iteration.
-double Document::follow(Index handle, const HandleMotion& motion, bool coarse, unsigned iterations,
+// What a drag moves, where it is in `motions`: its handle, and then those that go along.
+std::vector<Document::Moved> Document::moved_by(const DragLine& line, std::span<const HandleMotion> motions,
+                                                const std::string& place) const {
+    const Index handle = movable_handle(line.handle, "handle", place);
+    std::vector<Moved> moved{{handle, motions[handle]}};
+    for (const std::string& name : line.with) {
+        const Index other = movable_handle(name, "with", place);
+        moved.push_back({other, motions[other]});
+    }
+    return moved;
+}
+
+// Where a frame takes what was at `from` when the drag began and is in `now`.
+void Document::move(const HandlePose& pose, const Vec3d& pivot, std::span<const Moved> from,
+                    std::span<const HandleMotion> now, std::vector<Moved>& next) const {
+    next.assign(from.begin(), from.end());
+    next[0].motion = motion_of(pose, pivot, cloud_.origin, now[next[0].handle]);
+    for (std::size_t k = 1; k < next.size(); ++k)
+        next[k].motion = gone_along(from[k].motion, from[0].motion, next[0].motion, now[next[k].handle]);
+}
+
+// A frame of a drag that takes handles from their places in `motions` to others. Returns as above, of the
+// last iteration.
+double Document::follow(std::span<const Moved> next, bool coarse, unsigned iterations,
                         std::vector<HandleMotion>& motions, SampleState& samples, FrameMemory& memory,
                         Progress& progress) {
+    const auto move_handles = [&] {
+        for (const Moved& each : next) motions[each.handle] = each.motion;
+    };
     progress.stop_if_cancelled();
     if (coarse && pipeline_.has_coarse_samples()) {
         if (!memory.following.anchored) pipeline_.anchor(motions, samples, memory.following);
-        motions[handle] = motion;
+        move_handles();
         const double way = pipeline_.follow_coarsely(motions, iterations, memory.following, samples);
         return way / pipeline_.cloud_size();
     }
     memory.following.anchored = false;
-    motions[handle] = motion;
+    move_handles();
     pipeline_.follow_handles(motions, samples);
     forget(memory.acceleration);
     double way = 0;
@@ -88,22 +112,25 @@ bool Document::make_frame(const UnderWay& drag) {
 }
 
 void Document::drag(const DragLine& line, const std::string& place, Progress& progress) {
-    const Index handle = movable_handle(line.handle, place);
-    HandleMotion motion = motions_[handle];
+    std::vector<HandleMotion> motions = motions_;
+    const std::vector<Moved> from = moved_by(line, motions, place);
+    std::vector<Moved> moved = from;
     for (std::size_t f = 0; f < line.frames.size(); ++f) {
-        motion = motion_of(line.frames[f], line.pivot, cloud_.origin, motion);
-        refuse_absurd(motion, bounds_.diagonal(), f, place);
+        move(line.frames[f], line.pivot, from, motions, moved);
+        for (const Moved& each : moved) {
+            refuse_absurd(each.motion, bounds_.diagonal(), f, place);
+            motions[each.handle] = each.motion;
+        }
     }
     if (mode_ == Mode::rehearsal) {
         State next = next_state();
         next.posed = std::make_shared<Posed>();
         next.posed->made_from = at_;
-        next.posed->handle = handle;
-        next.posed->motion = motion;
+        next.posed->moved = std::move(moved);
         return take(std::move(next));
     }
     try {
-        begin_drag(line.handle, line.pivot, place, progress);
+        begin_drag(line.handle, line.pivot, place, progress, line.with);
         const auto frames = static_cast<double>(line.frames.size());
         for (std::size_t f = 0; f < line.frames.size(); ++f) {
             progress.step("following the handle", static_cast<double>(f) / frames);
@@ -130,38 +157,41 @@ void Document::settle(const SettleLine& line, Progress& progress) {
 }
 
 void Document::begin_drag(const std::string& handle, const Vec3d& pivot, const std::string& place,
-                          Progress& progress) {
+                          Progress& progress, const std::vector<std::string>& with) {
     require(!under_way_ && mode_ == Mode::real, "a drag begins when nothing else goes on");
-    const Index index = movable_handle(handle, place);
+    DragLine line{handle, pivot, {}, with};
+    std::vector<Moved> from = moved_by(line, motions_, place);
     const auto samples = is_posed() ? samples_of(now(), progress) : nullptr;
     prepare(progress);
-    under_way_.emplace(UnderWay{
-        next_state(), motions_, samples ? *samples : pipeline_.rest_state(), {}, index, {handle, pivot, {}}});
+    under_way_.emplace(UnderWay{next_state(), motions_, samples ? *samples : pipeline_.rest_state()});
+    under_way_->before = under_way_->next = from;
+    under_way_->from = std::move(from);
+    under_way_->line = std::move(line);
 }
 
 double Document::drag_frame(const HandlePose& pose, const std::string& place, Progress& progress,
                             Points points) {
-    require(under_way_ && under_way_->handle != no_index, "a frame of a drag follows its begin");
+    require(under_way_ && !under_way_->from.empty(), "a frame of a drag follows its begin");
     UnderWay& drag = *under_way_;
-    HandleMotion& motion = drag.motions[drag.handle];
-    const HandleMotion before = motion;
-    const HandleMotion next = motion_of(pose, drag.line.pivot, cloud_.origin, before);
-    refuse_absurd(next, bounds_.diagonal(), drag.line.frames.size(), place);
+    for (Moved& each : drag.before) each.motion = drag.motions[each.handle];
+    move(pose, drag.line.pivot, drag.from, drag.motions, drag.next);
+    for (const Moved& each : drag.next)
+        refuse_absurd(each.motion, bounds_.diagonal(), drag.line.frames.size(), place);
     drag.samples_before = drag.samples; // into the same memory, frame by frame
     CoarseFollowing& following = drag.memory.following;
     const bool was_anchored = following.anchored;
     drag.coarse_before = following.now;
     double way = 0;
     try {
-        way = follow(drag.handle, next, pose.coarse, drag.next.settings.iterations, drag.motions,
-                     drag.samples, drag.memory, progress);
+        way = follow(drag.next, pose.coarse, drag.after.settings.iterations, drag.motions, drag.samples,
+                     drag.memory, progress);
         drag.is_shown = false;
         if (points == Points::now || !make_frame(drag)) show(drag);
         drag.line.frames.push_back(pose);
     } catch (...) {
         drag.is_shown = false;
         drawn_frame_.reset();
-        motion = before;
+        for (const Moved& each : drag.before) drag.motions[each.handle] = each.motion;
         drag.samples = drag.samples_before;
         following.anchored = was_anchored;
         following.now = drag.coarse_before;
@@ -172,7 +202,7 @@ double Document::drag_frame(const HandlePose& pose, const std::string& place, Pr
 }
 
 DragLine Document::end_drag() {
-    require(under_way_ && under_way_->handle != no_index, "a drag that ends was begun");
+    require(under_way_ && !under_way_->from.empty(), "a drag that ends was begun");
     UnderWay drag = std::move(*under_way_);
     under_way_.reset();
     drawn_frame_.reset();
@@ -187,10 +217,9 @@ void Document::end(UnderWay act, std::variant<DragLine, SettleLine> line) {
     posed->samples = std::make_shared<const SampleState>(std::move(act.samples));
     posed->made_from = at_;
     posed->act = std::move(line);
-    posed->handle = act.handle;
-    if (act.handle != no_index) posed->motion = act.motions[act.handle];
-    act.next.posed = posed;
-    take(std::move(act.next));
+    for (const Moved& each : act.from) posed->moved.push_back({each.handle, act.motions[each.handle]});
+    act.after.posed = posed;
+    take(std::move(act.after));
     keep(posed);
     posed_is_now_ = act.is_shown;
 }
@@ -203,7 +232,7 @@ void Document::begin_settling(Progress& progress) {
 }
 
 bool Document::settle_some(unsigned iterations, Progress& progress) {
-    require(under_way_ && under_way_->handle == no_index, "settling goes on after its begin");
+    require(under_way_ && under_way_->from.empty(), "settling goes on after its begin");
     UnderWay& settling = *under_way_;
     bool rests = false;
     for (unsigned i = 0; i < iterations && !rests; ++i) {
@@ -216,7 +245,7 @@ bool Document::settle_some(unsigned iterations, Progress& progress) {
 }
 
 SettleLine Document::end_settling() {
-    require(under_way_ && under_way_->handle == no_index, "a settling that ends was begun");
+    require(under_way_ && under_way_->from.empty(), "a settling that ends was begun");
     UnderWay settling = std::move(*under_way_);
     under_way_.reset();
     const SettleLine line{settling.iterations};

@@ -3,6 +3,8 @@
 #include "edit/handle_motion.h"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -20,6 +22,11 @@ std::shared_ptr<const Pivots> with_pivot(const std::shared_ptr<const Pivots>& pi
 }
 
 namespace {
+
+// Where a handle's place goes when the handle leaves one motion for another.
+Vec3d moved_on(const Vec3d& place, const HandleMotion& before, const HandleMotion& after) {
+    return after.linear * point_at_rest(before, place) + after.offset;
+}
 
 // Calls take(name, place) with where they are now, relative to the cloud's origin.
 template<typename Take>
@@ -63,8 +70,8 @@ std::vector<std::vector<Document::PivotMove>> Document::pivot_moves() const {
         if (state.change) apply(*state.change, handles);
         if (!state.posed)
             motions.assign(handles.size(), HandleMotion{});
-        else if (state.posed->handle != no_index)
-            motions[state.posed->handle] = state.posed->motion;
+        else
+            for (const Moved& moved : state.posed->moved) motions[moved.handle] = moved.motion;
         Pivots after;
         if (state.pivots)
             for_places(*state.pivots, handles, motions, cloud_.origin,
@@ -89,6 +96,9 @@ Pivots Document::last_pivots() const {
             history_, [&](const State& state) { return state.pivots && state.pivots->contains(handle); });
     };
     Pivots pivots;
+    using Carry = std::function<Vec3d(const Vec3d&)>;
+    std::map<std::string, Carry>
+        carried_later;          // where handles went with others since the last drag of their own
     std::set<std::string> made; // from there on: what had that name before is another handle
     for (std::size_t at = at_; at > 0; --at) {
         if (const auto& change = history_[at].change; change && change->come)
@@ -97,11 +107,28 @@ Pivots Document::last_pivots() const {
         const std::shared_ptr<Posed>& posed = history_[at].posed;
         if (!posed || posed == history_[at - 1].posed) continue;
         const auto* drag = std::get_if<DragLine>(&posed->act);
-        if (!drag || pivots.contains(drag->handle) || made.contains(drag->handle) || is_told(drag->handle))
-            continue;
-        const HandleMotion before = motions_of(posed->made_from)[posed->handle];
-        const Vec3d at_rest = point_at_rest(before, drag->pivot - cloud_.origin);
-        pivots[drag->handle] = posed->motion.linear * at_rest + posed->motion.offset;
+        if (!drag) continue;
+        const auto is_known = [&](const std::string& handle) {
+            return pivots.contains(handle) || made.contains(handle) || is_told(handle);
+        };
+        if (!is_known(drag->handle)) {
+            const HandleMotion before = motions_of(posed->made_from)[posed->moved[0].handle];
+            const Vec3d place = moved_on(drag->pivot - cloud_.origin, before, posed->moved[0].motion);
+            const auto later = carried_later.find(drag->handle);
+            pivots[drag->handle] = later == carried_later.end() ? place : later->second(place);
+        }
+        for (std::size_t k = 1; k < posed->moved.size(); ++k) {
+            const std::string& handle = drag->with[k - 1];
+            if (is_known(handle)) continue;
+            const HandleMotion before = motions_of(posed->made_from)[posed->moved[k].handle];
+            const auto later = carried_later.find(handle);
+            carried_later[handle] = [before, after = posed->moved[k].motion,
+                                     on = later == carried_later.end() ? Carry()
+                                                                       : later->second](const Vec3d& place) {
+                const Vec3d there = moved_on(place, before, after);
+                return on ? on(there) : there;
+            };
+        }
     }
     return pivots;
 }

@@ -65,7 +65,12 @@ struct EditorDrag {
     std::string handle;
     glm::dvec3 middle{0.0}; // of the gizmo when it began
     CarriedMotion motion;   // of the handle, from then to now
-    Transform transform;    // so far
+    struct Along {
+        std::string handle;
+        CarriedMotion motion;
+    };
+    std::vector<Along> along; // others that it takes along
+    Transform transform;      // so far
     bool ended = false;
 };
 
@@ -100,6 +105,7 @@ struct Editor {
     std::vector<std::size_t>
         followers;      // of each handle: the points that it moves, or holds; not what others took
     std::string chosen; // the handle with the gizmo, once the document has it; empty: none
+    std::vector<std::string> also_chosen;     // moving ones that go along when that is moved
     std::map<std::string, glm::dvec3> pivots; // of the gizmo, by handle, where the user moved them
     std::optional<PivotMove> moved_pivot;     // that the hand is moving
     bool local_axes = false;                  // the gizmo's

@@ -124,7 +124,21 @@ void carry_out(Editor& editor, const MakeHandle& command) {
 }
 
 void carry_out(Editor& editor, const ChooseHandle& command) {
+    editor.also_chosen.clear();
     choose(editor, command.handle);
+}
+
+void carry_out(Editor& editor, const ChooseAlso& command) {
+    const auto is_moving = [&](const std::string& name) {
+        const auto number = number_of(editor, name);
+        return number && editor.document->handles[*number].role == HandleRole::moving;
+    };
+    if (!is_moving(editor.chosen)) return carry_out(editor, ChooseHandle{command.handle});
+    if (command.handle == editor.chosen) return;
+    if (!is_moving(command.handle))
+        return say(editor, Notice::Kind::information,
+                   quoted(command.handle) + " is no moving handle, so it cannot go along.");
+    if (std::erase(editor.also_chosen, command.handle) == 0) editor.also_chosen.push_back(command.handle);
 }
 
 void carry_out(Editor& editor, const DropChoice& /*command*/) {
@@ -143,7 +157,10 @@ void carry_out(Editor& editor, const RenameHandle& command) {
     editor.posted_names.emplace_back(step, command.to);
     put_pivot_with(editor.past.back(), editor, command.to, pivot_of(editor, command.handle));
     put_pivot_with(editor.past.back(), editor, command.handle, std::nullopt);
+    std::vector<std::string> also = editor.also_chosen;
+    std::ranges::replace(also, command.handle, command.to);
     if (editor.chosen == command.handle) choose_with_step(editor, command.to);
+    editor.also_chosen = std::move(also);
 }
 
 // As with a new handle, the tint of what the handle has now takes the place of the selection.

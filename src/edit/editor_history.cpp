@@ -52,6 +52,7 @@ StepNumber post_step(Editor& editor, std::vector<SessionAction> lines,
 }
 
 void choose(Editor& editor, const std::string& handle) {
+    if (handle != editor.chosen) editor.also_chosen.clear();
     editor.chosen = handle;
     editor.just_made.clear();
     if (const Handle* there = chosen_handle(editor))

@@ -168,9 +168,17 @@ void carry_out(Editor& editor, const BeginDrag& command) {
     drag.handle = editor.chosen;
     drag.middle = pose.pivot;
     drag.motion = {pose.motion, pose.motion};
+    std::vector<std::string> with;
+    for (const std::string& other : editor.also_chosen)
+        if (const auto at = number_of(editor, other)) { // it may be one that has yet to get this name
+            const HandleMotion now = motion_now(editor, *at);
+            drag.along.push_back({other, {now, now}});
+            with.push_back(other);
+        }
     EditorStep step = coming_step(editor, drag.step);
     step.is_drag = true;
-    editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin);
+    editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin,
+                            std::move(with));
     if (editor.drag) editor.earlier_drags.push_back(std::move(*editor.drag));
     editor.drag = std::move(drag);
     add_step(editor, std::move(step));
@@ -181,6 +189,7 @@ void carry_out(Editor& editor, const DragTo& command) {
     Transform transform = command.transform;
     transform.angle = within_turns(transform.angle);
     carry_on(editor.drag->motion, transform);
+    for (EditorDrag::Along& along : editor.drag->along) carry_on(along.motion, transform);
     editor.drag->transform = transform;
     editor.live->drag_to(transform);
 }
@@ -194,6 +203,9 @@ void carry_out(Editor& editor, const EndDrag& /*command*/) {
     const auto step = std::ranges::find(editor.past, editor.drag->step, &EditorStep::document);
     if (step != editor.past.end() && pivot_of(editor, editor.drag->handle))
         put_pivot_with(*step, editor, editor.drag->handle, middle);
+    for (const EditorDrag::Along& along : editor.drag->along)
+        if (const auto pivot = pivot_of(editor, along.handle); pivot && step != editor.past.end())
+            put_pivot_with(*step, editor, along.handle, transformed(editor.drag->transform, *pivot));
     editor.live->end_drag();
 }
 

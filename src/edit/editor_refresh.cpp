@@ -74,6 +74,7 @@ void take_over(Editor& editor) {
     editor.drag.reset();
     editor.earlier_drags.clear();
     editor.chosen.clear();
+    editor.also_chosen.clear();
     editor.posted_names.clear();
     editor.just_made.clear();
     editor.pivots.clear();
@@ -152,6 +153,17 @@ void forget_refused(Editor& editor) {
     }
 }
 
+// Those that are there, or will be by that name, and move.
+void keep_also_chosen(Editor& editor) {
+    std::erase_if(editor.also_chosen, [&](const std::string& name) {
+        const auto& handles = editor.document->handles;
+        const auto found = std::ranges::find(handles, name, &Handle::name);
+        if (found != handles.end()) return found->role != HandleRole::moving;
+        return std::ranges::none_of(editor.posted_names,
+                                    [&](const auto& posted) { return posted.second == name; });
+    });
+}
+
 bool refresh_view(Editor& editor) {
     auto view = editor.live->view();
     if (view == editor.document) return false;
@@ -159,6 +171,7 @@ bool refresh_view(Editor& editor) {
     editor.document = std::move(view);
     editor.opened.file = editor.document->cloud;
     if (other_handles) mark_handles(editor);
+    keep_also_chosen(editor);
     const StepNumber done = editor.document->last_step;
     std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first <= done; });
     for (EditorStep& step : editor.past)

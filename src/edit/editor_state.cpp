@@ -1,12 +1,13 @@
 // What follows from the editor's state.
 
+#include "base/counts.h"
 #include "base/quoted.h"
 #include "edit/editor_steps.h"
-#include "edit/falloffs.h"
 #include "edit/measures.h"
 
 #include <algorithm>
 #include <limits>
+#include <ranges>
 
 namespace knead {
 
@@ -116,6 +117,19 @@ const EditorDrag* unanswered_drag(const Editor& editor, const std::string& handl
     return newest == editor.earlier_drags.rend() ? nullptr : &*newest;
 }
 
+const CarriedMotion* unanswered_motion(const Editor& editor, const std::string& handle) {
+    const auto in = [&](const EditorDrag& drag) -> const CarriedMotion* {
+        if (drag.handle == handle) return &drag.motion;
+        const auto found = std::ranges::find(drag.along, handle, &EditorDrag::Along::handle);
+        return found == drag.along.end() ? nullptr : &found->motion;
+    };
+    if (editor.drag)
+        if (const CarriedMotion* motion = in(*editor.drag)) return motion;
+    for (const EditorDrag& drag : std::views::reverse(editor.earlier_drags))
+        if (const CarriedMotion* motion = in(drag)) return motion;
+    return nullptr;
+}
+
 std::optional<Gizmo> gizmo_of(const Editor& editor) {
     const Handle* handle = chosen_handle(editor);
     if (!handle || handle->role != HandleRole::moving) return std::nullopt;
@@ -143,8 +157,8 @@ std::optional<ChosenPose> pose_of_chosen(const Editor& editor) {
 }
 
 HandleMotion motion_now(const Editor& editor, std::size_t handle) {
-    const EditorDrag* drag = unanswered_drag(editor, editor.document->handles[handle].name);
-    return drag ? drag->motion.now : editor.document->motions[handle];
+    const CarriedMotion* motion = unanswered_motion(editor, editor.document->handles[handle].name);
+    return motion ? motion->now : editor.document->motions[handle];
 }
 
 bool is_or_will_be_posed(const Editor& editor) {
@@ -291,6 +305,9 @@ std::string next_step(const Editor& editor) {
     if (editor.tools.move_pivot)
         return "Click where the joint is: the pivot goes inside. Or drag the gizmo's arrows. Press . to move "
                "the handle again.";
+    if (!editor.also_chosen.empty())
+        return quoted(editor.chosen) + " takes " + counted(editor.also_chosen.size(), "handle") +
+               " along: press G, R or S, or drag the gizmo. A click in the list chooses one alone.";
     if (!editor.document->posed) return "Drag the gizmo, or press G to move, R to turn, S to scale.";
     return "Enter keeps the pose as the new shape.";
 }

@@ -92,6 +92,8 @@ bool may_go_on_from_pose(Editor& editor);
 
 // The newest drag of a handle that the document has not answered yet; null: there is none.
 const EditorDrag* unanswered_drag(const Editor& editor, const std::string& handle);
+// Where that, or another one's that took it along, has brought it.
+const CarriedMotion* unanswered_motion(const Editor& editor, const std::string& handle);
 // One that is none any more.
 void forget_drag(Editor& editor, StepNumber step);
 
@@ -106,6 +108,7 @@ void carry_out(Editor& editor, const PacePlaying& command);
 void carry_out(Editor& editor, const AdvancePlaying& command);
 void carry_out(Editor& editor, const MakeHandle& command);
 void carry_out(Editor& editor, const ChooseHandle& command);
+void carry_out(Editor& editor, const ChooseAlso& command);
 void carry_out(Editor& editor, const RenameHandle& command);
 void carry_out(Editor& editor, const AssignPoints& command);
 void carry_out(Editor& editor, const ChangeRole& command);

@@ -34,6 +34,15 @@ constexpr double small_step = std::numbers::pi / 4;
 // ... unless the step is as short as this: then y has gone through the right angle itself.
 constexpr double least_step = std::numbers::pi / 1800;
 
+// The rotation in the polar decomposition; that of unequal scales is no product of turns. Of its two
+// quaternions the one that is nearer to `expected`.
+Quatd rotation_in(const Mat3d& linear, const Quatd& expected) {
+    const Eigen::JacobiSVD<Mat3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Quatd rotation = Quatd(Mat3d(svd.matrixU() * svd.matrixV().transpose())).normalized();
+    if (rotation.dot(expected) < 0) rotation.coeffs() = -rotation.coeffs();
+    return rotation;
+}
+
 Quatd turn_about(const glm::dvec3& axis, double angle) {
     return Quatd(Eigen::AngleAxisd(angle, to_eigen(axis)));
 }
@@ -135,12 +144,25 @@ HandleMotion followed_by(const HandleMotion& motion, const Transform& change) {
     result.rotation = (turn * motion.rotation).normalized();
     result.turned = angles_along(motion.rotation, motion.turned, result.rotation);
     if (change.scale == glm::dvec3(1.0)) return result;
-    // The rotation in the polar decomposition; that of unequal scales is no longer the product of the turns.
-    const Eigen::JacobiSVD<Mat3d> svd(result.linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Quatd expected = result.rotation;
-    result.rotation = Quatd(Mat3d(svd.matrixU() * svd.matrixV().transpose())).normalized();
-    if (result.rotation.dot(expected) < 0) result.rotation.coeffs() = -result.rotation.coeffs();
+    result.rotation = rotation_in(result.linear, expected);
     result.turned = angles_along(expected, result.turned, result.rotation);
+    return result;
+}
+
+HandleMotion gone_along(const HandleMotion& motion, const HandleMotion& from, const HandleMotion& to,
+                        const HandleMotion& before) {
+    const Mat3d map = to.linear * from.linear.inverse();
+    HandleMotion result;
+    result.linear = map * motion.linear;
+    result.offset = map * (motion.offset - from.offset) + to.offset;
+    if (to.linear == from.linear && to.offset == from.offset) // as it was, to the last bit
+        result.linear = motion.linear, result.offset = motion.offset;
+    result.rotation = (to.rotation * from.rotation.conjugate() * motion.rotation).normalized();
+    const bool scales = (map * map.transpose() - Mat3d::Identity()).cwiseAbs().maxCoeff() > unit_scale;
+    if (scales) result.rotation = rotation_in(result.linear, result.rotation);
+    if (result.rotation.dot(before.rotation) < 0) result.rotation.coeffs() = -result.rotation.coeffs();
+    if (!is_at_rest(result)) result.turned = angles_along(before.rotation, before.turned, result.rotation);
     return result;
 }
 

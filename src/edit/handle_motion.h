@@ -52,6 +52,11 @@ HandleMotion followed_by(const HandleMotion& motion, const Transform& change);
 // of what the samples between it and the others turn, however many turns there are.
 inline constexpr double widest_turn = 20.0 * std::numbers::pi / 180.0;
 
+// Where a handle is that goes along with another: what takes that one from `from` to `to` takes this one from
+// `motion`. Its rotation and its angles go on from `before`, that of the frame before.
+HandleMotion gone_along(const HandleMotion& motion, const HandleMotion& from, const HandleMotion& to,
+                        const HandleMotion& before);
+
 // The transform of the next frame on the way from what is shown to what is wanted: the wanted one, but for
 // the angle, which goes on by no more than a frame may turn. So a typed "720" winds up like one that was
 // dragged. Where the axis is another one, what was turned about the old one is unwound first, unless one

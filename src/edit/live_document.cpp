@@ -86,8 +86,9 @@ void LiveDocument::choose_samples(bool by_itself) {
     put(*shared_, task::ChooseSamples{by_itself});
 }
 
-void LiveDocument::begin_drag(StepNumber step, std::string handle, Vec3d pivot) {
-    put(*shared_, task::BeginDrag{step, std::move(handle), std::move(pivot)});
+void LiveDocument::begin_drag(StepNumber step, std::string handle, Vec3d pivot,
+                              std::vector<std::string> with) {
+    put(*shared_, task::BeginDrag{step, std::move(handle), std::move(pivot), std::move(with)});
 }
 
 void LiveDocument::drag_to(const Transform& transform) {

@@ -221,7 +221,8 @@ public:
 
     // A drag of a moving handle: frames go on until end_drag(), the newest pose first. `pivot` is in the
     // file's coordinates.
-    void begin_drag(StepNumber step, std::string handle, Vec3d pivot);
+    // `with`: other moving handles, which go along (DragLine::with).
+    void begin_drag(StepNumber step, std::string handle, Vec3d pivot, std::vector<std::string> with = {});
     void drag_to(const Transform& transform); // on top of the handle's pose at begin_drag()
     void end_drag();
     // Whether whoever draws can move the points itself (upsample/drawing.h), and needs no positions while a

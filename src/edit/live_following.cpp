@@ -32,16 +32,24 @@ constexpr double usual_iteration = 0.4e-6;
 
 } // namespace
 
+// What the hand saw when it began may have gone meanwhile, or be fixed.
+bool LiveWork::moves(const std::string& handle) const {
+    const auto& handles = document_->handles();
+    const auto found = std::ranges::find(handles, handle, &Handle::name);
+    return found != handles.end() && found->role == HandleRole::moving;
+}
+
 void LiveWork::carry_out(task::BeginDrag& task) {
     try {
         finish_settling();
-        document_->begin_drag(task.handle, task.pivot, "", progress_);
+        std::erase_if(task.with, [&](const std::string& name) { return !moves(name); });
+        document_->begin_drag(task.handle, task.pivot, "", progress_, task.with);
         document_->make_spare_shapes();
         const auto& handles = document_->handles();
         const auto handle = std::ranges::find(handles, task.handle, &Handle::name) - handles.begin();
         drag_.emplace(LiveDrag{task.step, task.handle, task.pivot,
                                document_->motions()[static_cast<std::size_t>(handle)],
-                               document_->cloud().origin});
+                               document_->cloud().origin, task.with});
     } catch (...) {
         document_->abandon(); // or it would refuse whatever comes after
         refuse(task.step);
@@ -77,7 +85,7 @@ void LiveWork::carry_out(task::EndDrag& task) {
 // What was followed becomes an act, or nothing of it stays: in either case the drag is over.
 void LiveWork::take_drag() {
     try {
-        auto coming = recording_->coming(DragLine{drag_->handle, drag_->pivot, {}}, false, {});
+        auto coming = recording_->coming(DragLine{drag_->handle, drag_->pivot, {}, drag_->with}, false, {});
         coming.line = document_->end_drag();
         record([&] { recording_->add(std::move(coming)); });
     } catch (...) {

@@ -82,7 +82,7 @@ void LiveWork::play_frames(int frames) {
         *play_ = {};
         if (frames == 0) return publish_shape(false);
     }
-    if (!play_->begun) document_->begin_drag(drag.handle, drag.pivot, "", progress_);
+    if (!play_->begun) document_->begin_drag(drag.handle, drag.pivot, "", progress_, drag.with);
     play_->begun = true;
     for (; frames > 0 && play_->frame < drag.frames.size(); --frames)
         document_->drag_frame(drag.frames[play_->frame++], "", progress_);

@@ -40,7 +40,11 @@ std::filesystem::path relative_to(const std::filesystem::path& path, const std::
 struct WordsAboutAct {
     std::span<const Handle> handles; // before it
     std::string operator()(const HandleLine& line) const { return words_about(line, handles); }
-    std::string operator()(const DragLine& line) const { return quoted(line.handle) + " posed"; }
+    std::string operator()(const DragLine& line) const {
+        if (line.with.empty()) return quoted(line.handle) + " posed";
+        if (line.with.size() == 1) return quoted(line.handle) + " and " + quoted(line.with[0]) + " posed";
+        return quoted(line.handle) + " and " + std::to_string(line.with.size()) + " more posed";
+    }
     std::string operator()(const SettleLine& /*line*/) const { return "settled"; }
     std::string operator()(const CommitLine& /*line*/) const { return "pose committed"; }
     std::string operator()(const SetLine& /*line*/) const { return "settings changed"; }

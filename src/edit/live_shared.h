@@ -41,6 +41,7 @@ struct BeginDrag {
     StepNumber step = 0;
     std::string handle;
     Vec3d pivot = Vec3d::Zero();
+    std::vector<std::string> with = {};
 };
 struct EndDrag {
     std::optional<WantedPose> last; // not followed yet

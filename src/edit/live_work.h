@@ -82,6 +82,7 @@ private:
 
     // --- Drags and what converges afterwards (live_following.cpp) ---
 
+    bool moves(const std::string& handle) const;
     void carry_out(task::BeginDrag& task);
     void carry_out(task::EndDrag& task);
     void carry_out(task::CancelDrag& task);

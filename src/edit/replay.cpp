@@ -185,9 +185,12 @@ private:
         checked_ = is_undone_ = false;
         if (options_.rehearse) return;
         add_warning(words_about(document.pipeline().strays()));
-        for (const std::string& words :
-             {words_about_swallowed(document, line.handle), words_about_loose(document, line.handle)})
-            if (!words.empty()) add_warning(session_.place(number) + ": " + words);
+        std::vector<std::string> dragged{line.handle};
+        dragged.insert(dragged.end(), line.with.begin(), line.with.end());
+        for (const std::string& handle : dragged)
+            for (const std::string& words :
+                 {words_about_swallowed(document, handle), words_about_loose(document, handle)})
+                if (!words.empty()) add_warning(session_.place(number) + ": " + words);
     }
     void act(Document& document, const SettleLine& line, std::size_t /*number*/,
              const std::string& /*place*/) {

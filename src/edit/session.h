@@ -121,6 +121,9 @@ struct DragLine {
     std::string handle;
     Vec3d pivot = Vec3d::Zero();
     std::vector<HandlePose> frames; // at least one
+    // Other moving handles that go along: what takes `handle` from where it was before the drag to a frame's
+    // pose takes them from where they were. Each once.
+    std::vector<std::string> with = {};
 };
 struct SettleLine {
     unsigned iterations = 0;

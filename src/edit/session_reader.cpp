@@ -142,10 +142,22 @@ HandlePose read_frame(const Value& frame) {
     return pose;
 }
 
+std::vector<std::string> read_others(const Value& list, const std::string& handle) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < length_of_list(list); ++i) {
+        const Value entry = element(list, i);
+        names.push_back(text_not_empty(entry));
+        if (names.back() == handle || std::ranges::count(names, names.back()) > 1)
+            refuse(entry, "names a handle that is dragged already");
+    }
+    return names;
+}
+
 DragLine read_drag(const Value& line) {
-    allow_keys(line, {"op", "handle", "pivot", "frames"});
+    allow_keys(line, {"op", "handle", "pivot", "frames", "with"});
     DragLine drag;
     drag.handle = text_not_empty(member(line, "handle"));
+    if (const auto with = optional_member(line, "with")) drag.with = read_others(*with, drag.handle);
     if (const auto pivot = optional_member(line, "pivot")) drag.pivot = vector(*pivot);
     const Value frames = member(line, "frames");
     const std::size_t count = length_of_list(frames);

@@ -197,9 +197,22 @@ void append_line(std::string& text, const HandleLine& line) {
     if (line.pivot) append_vector(key(text, "pivot"), *line.pivot);
 }
 
+// Those that go along.
+void append_names(std::string& text, const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    char separator = '[';
+    key(text, "with");
+    for (const std::string& name : names) {
+        append_text(text += separator, name);
+        separator = ',';
+    }
+    text += ']';
+}
+
 void append_line(std::string& text, const DragLine& line) {
     append_text(key(text, "handle"), line.handle);
     append_vector(key(text, "pivot"), line.pivot);
+    append_names(text, line.with);
     char separator = '[';
     key(text, "frames");
     for (const HandlePose& frame : line.frames) {

@@ -1,6 +1,7 @@
 // Drags of which the document has not told yet.
 
 #include "edit/editor_bar.h"
+#include "edit/handle_motion.h"
 
 #include <numbers>
 
@@ -71,6 +72,87 @@ TEST_F(BarEditor, KnowsThePosesOfSeveralHandlesThatTheDocumentHasNotAnswered) {
     calm();
     EXPECT_NEAR(turned(editor_), 30, 1e-6) << "as the document counted it";
     EXPECT_TRUE(editor_.earlier_drags.empty() && !editor_.drag);
+}
+
+// "high" and "middle", the former chosen and the latter going along.
+class TwoChosen : public BarEditor {
+protected:
+    void SetUp() override {
+        BarEditor::SetUp();
+        make_handles();
+        select_heights(-0.5, 0.5);
+        apply(editor_, MakeHandle{HandleRole::moving, "middle"});
+        calm();
+        apply(editor_, ChooseHandle{"high"});
+        apply(editor_, ChooseAlso{"middle"});
+    }
+    const HandleMotion& motion_of_handle(const char* name) {
+        const auto& handles = editor_.document->handles;
+        const auto found = std::ranges::find(handles, name, &Handle::name);
+        return editor_.document->motions[static_cast<std::size_t>(found - handles.begin())];
+    }
+};
+
+TEST_F(TwoChosen, AreMovedTogetherInOneStep) {
+    const std::size_t steps = editor_.past.size();
+    turn_by(editor_, 30);
+    EXPECT_NEAR(motion_now(editor_, 2).turned.z(), std::numbers::pi / 6, 1e-6) << "before it is answered";
+    turn_by(editor_, 60);
+    calm();
+    EXPECT_EQ(editor_.past.size(), steps + 2);
+    for (const char* name : {"high", "middle"})
+        EXPECT_NEAR(motion_of_handle(name).turned.z(), std::numbers::pi / 2, 1e-6) << name;
+    EXPECT_EQ(words_of_undo(editor_), "\"high\" and \"middle\" posed");
+    apply(editor_, UndoStep{});
+    calm();
+    for (const char* name : {"high", "middle"})
+        EXPECT_NEAR(motion_of_handle(name).turned.z(), std::numbers::pi / 6, 1e-6) << name;
+    EXPECT_EQ(editor_.also_chosen, std::vector<std::string>{"middle"}) << "they still go together";
+    apply(editor_, ResetPose{"middle"});
+    calm();
+    EXPECT_FALSE(leaves_rest(motion_of_handle("middle")));
+    EXPECT_NEAR(motion_of_handle("high").turned.z(), std::numbers::pi / 6, 1e-6);
+}
+
+TEST_F(TwoChosen, TakeTheirPivotsAlong) {
+    apply(editor_, ChooseHandle{"middle"});
+    apply(editor_, SetPivot{glm::dvec3(1, 0, 0)});
+    apply(editor_, ChooseHandle{"high"});
+    apply(editor_, ChooseAlso{"middle"});
+    turn_by(editor_, 90);
+    calm();
+    const auto pivot = pivot_of(editor_, "middle");
+    ASSERT_TRUE(pivot);
+    EXPECT_LT(glm::distance(*pivot, glm::dvec3(0, 1, 0)), 1e-6);
+    apply(editor_, UndoStep{});
+    calm();
+    EXPECT_LT(glm::distance(*pivot_of(editor_, "middle"), glm::dvec3(1, 0, 0)), 1e-6);
+}
+
+TEST_F(TwoChosen, UntilTheyAreNoLonger) {
+    const auto also = [&] { return editor_.also_chosen; };
+    apply(editor_, RenameHandle{"middle", "belt"});
+    calm();
+    EXPECT_EQ(also(), std::vector<std::string>{"belt"});
+    apply(editor_, RenameHandle{"high", "head"});
+    calm();
+    EXPECT_EQ(editor_.chosen, "head");
+    EXPECT_EQ(also(), std::vector<std::string>{"belt"});
+    editor_.notices.clear();
+    apply(editor_, ChooseAlso{"low"});
+    EXPECT_EQ(editor_.notices.size(), 1U) << "a fixed one goes nowhere";
+    apply(editor_, ChooseAlso{"belt"});
+    EXPECT_TRUE(also().empty());
+    apply(editor_, ChooseAlso{"belt"});
+    apply(editor_, DeleteHandle{"belt"});
+    calm();
+    EXPECT_TRUE(also().empty());
+    turn_by(editor_, 30);
+    calm();
+    EXPECT_NEAR(motion_of_handle("head").turned.z(), std::numbers::pi / 6, 1e-6);
+    apply(editor_, ChooseHandle{"low"});
+    apply(editor_, ChooseAlso{"head"});
+    EXPECT_EQ(editor_.chosen, "head") << "where none is chosen that moves";
 }
 
 TEST_F(BarEditor, ResetsAndMirrorsAPoseThatTheDocumentHasNotAnswered) {

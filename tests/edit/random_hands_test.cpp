@@ -161,6 +161,7 @@ protected:
 
     void drag() {
         if (!chosen_handle(editor_)) do_now(ChooseHandle{any_handle()});
+        if (below(3) == 0) do_now(ChooseAlso{any_handle()});
         glm::dvec3 pivot(between(-1, 1), between(-1, 1), between(-1, 1));
         do_now(BeginDrag{pivot});
         Transform transform;

@@ -271,6 +271,29 @@ TEST_F(HandleList, ShowsSixRowsAtLeast) {
     EXPECT_NEAR(list().Size.y, 3 * row(), 1);
 }
 
+TEST_F(HandleList, AClickChoosesAndWithShiftOneMore) {
+    frames(4);
+    const ImVec2 second(list().Pos.x + 100, list().Pos.y + 1.5f * row());
+    click(second);
+    ASSERT_FALSE(commands_.empty());
+    const auto* chosen = std::get_if<ChooseHandle>(&commands_.back());
+    ASSERT_TRUE(chosen);
+    EXPECT_EQ(chosen->handle, "handle 2");
+    ImGui::GetIO().KeyShift = true;
+    click({second.x, second.y + row()});
+    ImGui::GetIO().KeyShift = false;
+    const auto* also = std::get_if<ChooseAlso>(&commands_.back());
+    ASSERT_TRUE(also);
+    EXPECT_EQ(also->handle, "handle 3");
+}
+
+TEST_F(HandleList, AClickOnTheSquareIsAboutTheColour) {
+    frames(4);
+    click({list().Pos.x + 18, list().Pos.y + 1.5f * row()});
+    EXPECT_TRUE(commands_.empty()) << "which handle is chosen stays";
+    EXPECT_TRUE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel));
+}
+
 TEST_F(HandleList, GoesToTheFirstHandleThatHasNoRoom) {
     ImGui::GetIO().DisplaySize.y = 200;
     have(6);

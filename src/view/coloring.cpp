@@ -22,6 +22,8 @@ std::uint32_t rounded(double value) {
     return static_cast<std::uint32_t>(value + 0.5); // NOLINT(bugprone-incorrect-roundings)
 }
 
+constexpr std::uint32_t white = 0xffffffffU;
+
 std::uint32_t packed(double r, double g, double b) {
     const auto byte = [](double c) { return rounded(std::clamp(c, 0.0, 1.0) * 255); };
     return byte(r) | byte(g) << 8U | byte(b) << 16U | 0xff000000U;
@@ -222,6 +224,8 @@ Legend color_points(const ColorBy& by, const PointsToColor& points, std::span<st
     case ColorBy::Kind::own:
         if (const auto columns = find_colors(*points.cloud)) {
             color_as_in_file(points, *columns, colors, workers);
+            // Whoever wrote white for all had no colours, and no light would tell the points apart.
+            if (std::ranges::all_of(colors, [](std::uint32_t color) { return color == white; })) break;
             return {};
         }
         if (const auto column = find_intensity(*points.cloud)) {

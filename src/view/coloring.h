@@ -25,7 +25,7 @@ struct ValueRange {
 // What the colours tell.
 struct ColorBy {
     enum class Kind {
-        own,       // the file's own, see OwnColors; where it has none, `plain`
+        own,       // the file's own, see OwnColors; where it has none, or all are white, `plain`
         plain,     // `plain` for all
         height,    // along `up`, in the file's coordinates: -y where y points down
         normal,    // the direction of the normal: x, y, z as red, green, blue; where there are none, `plain`

@@ -66,6 +66,20 @@ TEST(Coloring, takes_colours_as_fractions_bytes_or_16_bits_in_floats) {
     }
 }
 
+TEST(Coloring, white_for_all_is_no_colour) {
+    Colored it(3);
+    for (const char* name : {"red", "green", "blue"})
+        add_attribute(it.cloud, name, std::vector<std::uint8_t>{255, 255, 255});
+    const auto white = it.colors({});
+    ColorBy plain;
+    plain.kind = ColorBy::Kind::plain;
+    EXPECT_EQ(white, it.colors(plain));
+    Colored other(3);
+    for (const char* name : {"red", "green", "blue"})
+        add_attribute(other.cloud, name, std::vector<std::uint8_t>{255, 255, 254});
+    EXPECT_NE(other.colors({}), white);
+}
+
 TEST(Coloring, shows_an_intensity_in_grey_where_there_are_no_colours) {
     Colored it(5);
     add_attribute(it.cloud, "Intensity", std::vector<float>{0, 200, 100, 4000, 150});

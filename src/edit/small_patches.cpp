@@ -54,10 +54,11 @@ public:
     // 2 · area / length of the border: of a disc its radius, of what is long how wide it is. With ρ vertices
     // an area, all linked to those within r, these have k = π ρ r² links of 2/3 r in the mean, and 2/3 ρ² r³
     // cross a border's unit of length; for the ratio, 2/π · mean length · vertices / Σ parts that leave,
-    // ρ and k need not be known.
+    // ρ and k need not be known. From the first vertex across to the last it is a link less: of a line
+    // nothing.
     double width() const {
-        return leaving_ > 0 ? 2 / std::numbers::pi * (lengths_ / borders_) * inside_ / leaving_
-                            : std::numeric_limits<double>::infinity();
+        if (leaving_ == 0) return std::numeric_limits<double>::infinity();
+        return lengths_ / borders_ * std::max(0.0, 2 / std::numbers::pi * inside_ / leaving_ - 1);
     }
 
 private:

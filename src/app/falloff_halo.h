@@ -44,7 +44,7 @@ public:
 private:
     // What dots are of.
     struct Of {
-        std::shared_ptr<const std::vector<Index>> points; // of the handle; null: of nothing
+        std::shared_ptr<const std::vector<Index>> points;      // of the handle; null: of nothing
         double falloff = 0;                                    // its own
         std::shared_ptr<const PatchesOfHandles> small_patches; // of the document; null without any of it
         std::shared_ptr<const Graph> graph;

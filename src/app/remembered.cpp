@@ -24,7 +24,7 @@ constexpr NamedAxis axes[] = {{"z", UpAxis::z}, {"y", UpAxis::y}, {"-y", UpAxis:
 void take_size(const std::string& value, Remembered& choices) {
     int width = 0, height = 0;
     if (std::sscanf(value.c_str(), "%5dx%5d", &width, &height) != 2) return;
-    if (width < 640 || height < 420) return; // nobody chose that
+    if (width < 640 || height < 420 || width > 16384 || height > 16384) return; // nobody chose that
     choices.width = width;
     choices.height = height;
 }

@@ -6,8 +6,8 @@
 namespace knead {
 
 struct Remembered {
-    UpAxis up = UpAxis::z;      // that was chosen last
-    bool choose_samples = true; // by themselves, of a cloud that is opened afresh
+    UpAxis up = UpAxis::z;          // that was chosen last
+    bool choose_samples = true;     // by themselves, of a cloud that is opened afresh
     int width = 1440, height = 900; // of the window, on a display of scale 1
 };
 

@@ -132,7 +132,8 @@ struct Window::Callbacks {
     }
     static void scroll(GLFWwindow* window, double /*x*/, double y) {
         Window& self = of(window);
-        if (y != 0) self.events_.emplace_back(Input(Wheel{y, self.cursor_, held_now(window)}));
+        const glm::dvec2 place = self.cursor_ - self.gone_round_; // where one looks
+        if (y != 0) self.events_.emplace_back(Input(Wheel{y, place, held_now(window)}));
     }
     static void key(GLFWwindow* window, int glfw_key, int scancode, int action, int mods) {
         Window& self = of(window);

@@ -48,8 +48,8 @@ public:
     // ImGui's fonts are others from the next frame on.
     void renew_fonts();
 
-    // While that is so, the cursor comes in again on the other side where it leaves the window, and events tell
-    // how far it went in all: the hand never comes to an end.
+    // While that is so, the cursor comes in again on the other side where it leaves the window, and events
+    // tell how far it went in all: the hand never comes to an end.
     void set_endless(bool endless);
 
     // On the whole of the screen that most of the window is on, or where it was before.

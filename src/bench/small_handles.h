@@ -1,7 +1,8 @@
 #pragma once
-// Small gestures on a large surface: a point, a line or a disc of it lifted, drawn aside, turned or scaled, on
-// the whole of it or in a region; and a part of a tube that is scaled and pushes the rest. What bends large
-// parts (bench/quality.h) hides what happens here: few samples are near, and turns take up little of the cloud.
+// Small gestures on a large surface: a point, a line or a disc of it lifted, drawn aside, turned or scaled,
+// on the whole of it or in a region; and a part of a tube that is scaled and pushes the rest. What bends
+// large parts (bench/quality.h) hides what happens here: few samples are near, and turns take up little of
+// the cloud.
 
 #include "bench/deviation.h"
 #include "bench/survey.h"

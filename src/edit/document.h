@@ -235,6 +235,7 @@ private:
     void arrive_at(const State& next);
     void change_handles(HandleChange change, std::shared_ptr<const Pivots> pivots);
     void show_pivots(const State& before, const State& now) noexcept;
+    void move_pivots(const Posed& posed, std::vector<HandleMotion>& motions, Pivots& pivots) const;
     // As they were in a state of the past, or are in the present one.
     std::vector<Handle> handles_of(std::size_t at) const;
     std::vector<HandleMotion> motions_of(std::size_t at) const;

@@ -126,6 +126,7 @@ void Document::drag(const DragLine& line, const std::string& place, Progress& pr
         State next = next_state();
         next.posed = std::make_shared<Posed>();
         next.posed->made_from = at_;
+        next.posed->act = DragLine{line.handle, line.pivot, {}, line.with};
         next.posed->moved = std::move(moved);
         return take(std::move(next));
     }

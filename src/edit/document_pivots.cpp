@@ -3,9 +3,6 @@
 #include "edit/handle_motion.h"
 
 #include <algorithm>
-#include <functional>
-#include <map>
-#include <set>
 #include <utility>
 
 namespace knead {
@@ -90,45 +87,40 @@ std::vector<std::vector<Document::PivotMove>> Document::pivot_moves() const {
     return moves;
 }
 
+// What a drag did to where the joints are that its handles have from drags.
+void Document::move_pivots(const Posed& posed, std::vector<HandleMotion>& motions, Pivots& pivots) const {
+    const auto* drag = std::get_if<DragLine>(&posed.act);
+    for (std::size_t k = 0; k < posed.moved.size(); ++k) {
+        const HandleMotion &now = posed.moved[k].motion, &before = motions[posed.moved[k].handle];
+        if (drag && k == 0)
+            pivots[drag->handle] = moved_on(drag->pivot - cloud_.origin, before, now);
+        else if (const auto place = drag ? pivots.find(drag->with[k - 1]) : pivots.end();
+                 place != pivots.end())
+            place->second = moved_on(place->second, before, now);
+        motions[posed.moved[k].handle] = now;
+    }
+}
+
 Pivots Document::last_pivots() const {
-    const auto is_told = [&](const std::string& handle) {
-        return std::ranges::any_of(
-            history_, [&](const State& state) { return state.pivots && state.pivots->contains(handle); });
-    };
     Pivots pivots;
-    using Carry = std::function<Vec3d(const Vec3d&)>;
-    std::map<std::string, Carry>
-        carried_later;          // where handles went with others since the last drag of their own
-    std::set<std::string> made; // from there on: what had that name before is another handle
-    for (std::size_t at = at_; at > 0; --at) {
-        if (const auto& change = history_[at].change; change && change->come)
+    std::vector<Handle> handles = handles_of(0);
+    std::vector<HandleMotion> motions(handles.size());
+    for (std::size_t at = 1; at <= at_; ++at) {
+        const State &state = history_[at], &before = history_[at - 1];
+        if (state.change) apply(*state.change, handles);
+        if (const auto& change = state.change; change && change->come)
             if (!change->gone || change->gone->handle.name != change->come->handle.name)
-                made.insert(change->come->handle.name);
-        const std::shared_ptr<Posed>& posed = history_[at].posed;
-        if (!posed || posed == history_[at - 1].posed) continue;
-        const auto* drag = std::get_if<DragLine>(&posed->act);
-        if (!drag) continue;
-        const auto is_known = [&](const std::string& handle) {
-            return pivots.contains(handle) || made.contains(handle) || is_told(handle);
-        };
-        if (!is_known(drag->handle)) {
-            const HandleMotion before = motions_of(posed->made_from)[posed->moved[0].handle];
-            const Vec3d place = moved_on(drag->pivot - cloud_.origin, before, posed->moved[0].motion);
-            const auto later = carried_later.find(drag->handle);
-            pivots[drag->handle] = later == carried_later.end() ? place : later->second(place);
-        }
-        for (std::size_t k = 1; k < posed->moved.size(); ++k) {
-            const std::string& handle = drag->with[k - 1];
-            if (is_known(handle)) continue;
-            const HandleMotion before = motions_of(posed->made_from)[posed->moved[k].handle];
-            const auto later = carried_later.find(handle);
-            carried_later[handle] = [before, after = posed->moved[k].motion,
-                                     on = later == carried_later.end() ? Carry()
-                                                                       : later->second](const Vec3d& place) {
-                const Vec3d there = moved_on(place, before, after);
-                return on ? on(there) : there;
-            };
-        }
+                pivots.erase(change->come->handle.name); // what had that name before is another handle
+        if (!state.posed)
+            motions.assign(handles.size(), HandleMotion{});
+        else if (state.posed != before.posed)
+            move_pivots(*state.posed, motions, pivots);
+    }
+    const Pivots* told = nullptr;
+    for (const State& state : history_) {
+        if (!state.pivots || state.pivots.get() == told) continue;
+        told = state.pivots.get();
+        for (const auto& [name, place] : *told) pivots.erase(name);
     }
     return pivots;
 }

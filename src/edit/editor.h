@@ -67,6 +67,7 @@ struct EditorDrag {
     CarriedMotion motion;   // of the handle, from then to now
     struct Along {
         std::string handle;
+        glm::dvec3 middle{0.0}; // likewise
         CarriedMotion motion;
     };
     std::vector<Along> along; // others that it takes along

@@ -168,17 +168,15 @@ void carry_out(Editor& editor, const BeginDrag& command) {
     drag.handle = editor.chosen;
     drag.middle = pose.pivot;
     drag.motion = {pose.motion, pose.motion};
-    std::vector<std::string> with;
     for (const std::string& other : editor.also_chosen)
         if (const auto at = number_of(editor, other)) { // it may be one that has yet to get this name
             const HandleMotion now = motion_now(editor, *at);
-            drag.along.push_back({other, {now, now}});
-            with.push_back(other);
+            drag.along.push_back({other, place_of_gizmo(editor, editor.document->handles[*at]), {now, now}});
         }
     EditorStep step = coming_step(editor, drag.step);
     step.is_drag = true;
     editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin,
-                            std::move(with));
+                            editor.also_chosen);
     if (editor.drag) editor.earlier_drags.push_back(std::move(*editor.drag));
     editor.drag = std::move(drag);
     add_step(editor, std::move(step));

@@ -155,6 +155,8 @@ void forget_refused(Editor& editor) {
 
 // Those that are there, or will be by that name, and move.
 void keep_also_chosen(Editor& editor) {
+    const Handle* chosen = chosen_handle(editor);
+    if (chosen && chosen->role != HandleRole::moving) editor.also_chosen.clear();
     std::erase_if(editor.also_chosen, [&](const std::string& name) {
         const auto& handles = editor.document->handles;
         const auto found = std::ranges::find(handles, name, &Handle::name);

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 
 namespace knead {
 
@@ -110,24 +109,30 @@ bool is_free_place(const Editor& editor, const Handle& handle) {
 
 } // namespace
 
-const EditorDrag* unanswered_drag(const Editor& editor, const std::string& handle) {
-    if (editor.drag && editor.drag->handle == handle) return &*editor.drag;
-    const auto newest = std::find_if(editor.earlier_drags.rbegin(), editor.earlier_drags.rend(),
-                                     [&](const EditorDrag& drag) { return drag.handle == handle; });
-    return newest == editor.earlier_drags.rend() ? nullptr : &*newest;
+namespace {
+
+std::optional<UnansweredMove> moved_by(const EditorDrag& drag, const std::string& handle) {
+    if (drag.handle == handle) return UnansweredMove{drag.motion, transformed(drag.transform, drag.middle)};
+    const auto along = std::ranges::find(drag.along, handle, &EditorDrag::Along::handle);
+    if (along == drag.along.end()) return std::nullopt;
+    return UnansweredMove{along->motion, transformed(drag.transform, along->middle)};
 }
 
-const CarriedMotion* unanswered_motion(const Editor& editor, const std::string& handle) {
-    const auto in = [&](const EditorDrag& drag) -> const CarriedMotion* {
-        if (drag.handle == handle) return &drag.motion;
-        const auto found = std::ranges::find(drag.along, handle, &EditorDrag::Along::handle);
-        return found == drag.along.end() ? nullptr : &found->motion;
-    };
+} // namespace
+
+std::optional<UnansweredMove> unanswered_move(const Editor& editor, const std::string& handle) {
     if (editor.drag)
-        if (const CarriedMotion* motion = in(*editor.drag)) return motion;
-    for (const EditorDrag& drag : std::views::reverse(editor.earlier_drags))
-        if (const CarriedMotion* motion = in(drag)) return motion;
-    return nullptr;
+        if (const auto move = moved_by(*editor.drag, handle)) return move;
+    for (auto drag = editor.earlier_drags.rbegin(); drag != editor.earlier_drags.rend(); ++drag)
+        if (const auto move = moved_by(*drag, handle)) return move;
+    return std::nullopt;
+}
+
+glm::dvec3 place_of_gizmo(const Editor& editor, const Handle& handle) {
+    if (const auto move = unanswered_move(editor, handle.name)) return move->middle;
+    if (const auto pivot = pivot_of(editor, handle.name)) return *pivot;
+    if (handle.name == editor.chosen) return editor.handle_middle;
+    return middle_of(editor, handle).value_or(glm::dvec3(0.0));
 }
 
 std::optional<Gizmo> gizmo_of(const Editor& editor) {
@@ -137,14 +142,10 @@ std::optional<Gizmo> gizmo_of(const Editor& editor) {
     gizmo.local = editor.local_axes;
     const auto number = static_cast<std::size_t>(handle - editor.document->handles.data());
     glm::dquat axes = to_glm(editor.document->motions[number].rotation);
-    const auto pivot = pivot_of(editor, editor.chosen);
-    gizmo.center = pivot.value_or(editor.handle_middle);
-    if (const EditorDrag* drag = unanswered_drag(editor, editor.chosen)) {
-        gizmo.center = transformed(drag->transform, drag->middle);
-        axes = to_glm(drag->motion.now.rotation);
-    }
+    gizmo.center = place_of_gizmo(editor, *handle);
+    if (const auto move = unanswered_move(editor, editor.chosen)) axes = to_glm(move->motion.now.rotation);
     if (editor.local_axes) gizmo.axes = axes;
-    if (!pivot) gizmo.rotate = gizmo.scale = !is_free_place(editor, *handle);
+    if (!pivot_of(editor, editor.chosen)) gizmo.rotate = gizmo.scale = !is_free_place(editor, *handle);
     if (editor.tools.move_pivot) gizmo.rotate = gizmo.scale = false; // arrows alone move it
     return gizmo;
 }
@@ -157,8 +158,8 @@ std::optional<ChosenPose> pose_of_chosen(const Editor& editor) {
 }
 
 HandleMotion motion_now(const Editor& editor, std::size_t handle) {
-    const CarriedMotion* motion = unanswered_motion(editor, editor.document->handles[handle].name);
-    return motion ? motion->now : editor.document->motions[handle];
+    const auto move = unanswered_move(editor, editor.document->handles[handle].name);
+    return move ? move->motion.now : editor.document->motions[handle];
 }
 
 bool is_or_will_be_posed(const Editor& editor) {

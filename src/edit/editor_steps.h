@@ -90,10 +90,15 @@ bool may_act(Editor& editor);
 // whose end it would. Tells the user why not.
 bool may_go_on_from_pose(Editor& editor);
 
-// The newest drag of a handle that the document has not answered yet; null: there is none.
-const EditorDrag* unanswered_drag(const Editor& editor, const std::string& handle);
-// Where that, or another one's that took it along, has brought it.
-const CarriedMotion* unanswered_motion(const Editor& editor, const std::string& handle);
+// What the newest drag that moves a handle, be it along with another one, has made of it, where the document
+// has not answered it yet.
+struct UnansweredMove {
+    const CarriedMotion& motion;
+    glm::dvec3 middle; // of its gizmo, by now
+};
+std::optional<UnansweredMove> unanswered_move(const Editor& editor, const std::string& handle);
+// Where the gizmo of a handle stands, or would if it were chosen.
+glm::dvec3 place_of_gizmo(const Editor& editor, const Handle& handle);
 // One that is none any more.
 void forget_drag(Editor& editor, StepNumber step);
 

@@ -74,7 +74,7 @@ Quatd between(const Quatd& from, const Quatd& to, double t) {
 }
 
 Vec3d angles_along(const Quatd& from, const Vec3d& angles, const Quatd& to) {
-    const Vec3d there = angles_near(to, angles);
+    Vec3d there = angles_near(to, angles);
     const double way = 2 * std::acos(std::clamp(from.dot(to), -1.0, 1.0));
     const bool is_near = (there - angles).cwiseAbs().maxCoeff() < small_step;
     const bool same_side = std::cos(there.y()) * std::cos(angles.y()) > 0; // of the right angle
@@ -158,6 +158,10 @@ HandleMotion gone_along(const HandleMotion& motion, const HandleMotion& from, co
     result.offset = map * (motion.offset - from.offset) + to.offset;
     if (to.linear == from.linear && to.offset == from.offset) // as it was, to the last bit
         result.linear = motion.linear, result.offset = motion.offset;
+    const double reach = motion.offset.norm() + from.offset.norm() + to.offset.norm();
+    if ((result.linear - Mat3d::Identity()).cwiseAbs().maxCoeff() < unit_scale &&
+        result.offset.norm() <= unit_scale * reach) // at rest but for rounding
+        result.linear.setIdentity(), result.offset.setZero();
     result.rotation = (to.rotation * from.rotation.conjugate() * motion.rotation).normalized();
     const bool scales = (map * map.transpose() - Mat3d::Identity()).cwiseAbs().maxCoeff() > unit_scale;
     if (scales) result.rotation = rotation_in(result.linear, result.rotation);

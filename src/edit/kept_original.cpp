@@ -18,7 +18,7 @@ std::filesystem::path name_of_original(const std::filesystem::path& cloud) {
     std::error_code ignored;
     for (unsigned number = 2; std::filesystem::exists(std::filesystem::symlink_status(name, ignored));
          ++number)
-        name.replace_filename(stem + "-" + std::to_string(number) + extension);
+        name.replace_filename(std::string(stem).append("-").append(std::to_string(number)).append(extension));
     return name;
 }
 

@@ -198,16 +198,22 @@ void LiveWork::carry_out(task::SaveCloud& task) {
     std::filesystem::path copy; // of the original; empty: none is kept
     if (task.keeps_original && real_name(task.target) == real_name(recording_->cloud()))
         copy = copy_original();
+    std::vector<std::string> heard;
     try {
-        write(task);
+        heard = write(task);
     } catch (...) {
         std::error_code ignored;
         if (!copy.empty()) std::filesystem::remove(copy, ignored);
         throw;
     }
+    if (!copy.empty()) go_by_copy(copy);
     take_note(files_.known, task.target);
     say(Notice::Kind::information, "Saved the cloud as " + task.target.string());
-    if (!copy.empty()) go_by_copy(copy);
+    if (!copy.empty())
+        say(Notice::Kind::information, "The original is now " + copy.string() +
+                                           ", and the session goes by that: save it (Ctrl+S) to go on "
+                                           "later.");
+    for (const std::string& words : heard) say(Notice::Kind::warning, words);
     publish_view();
 }
 
@@ -227,18 +233,15 @@ std::filesystem::path LiveWork::copy_original() {
 
 // A session that was saved names the file that now is another one.
 void LiveWork::go_by_copy(const std::filesystem::path& copy) {
-    recording_->lies_at(copy);
-    take_note(files_.known, copy);
-    files_.cloud_stamp = stamp_of(copy);
-    recording_->is_on(files_.cloud_stamp);
     files_.saved.session_state.reset();
+    files_.cloud_stamp = stamp_of(copy);
+    record([&] { recording_->lies_at(copy, files_.cloud_stamp); });
+    take_note(files_.known, copy);
     tell_what_is_open();
-    say(Notice::Kind::information, "The original is now " + copy.string() +
-                                       ", and the session goes by that: save it (Ctrl+S) to go on "
-                                       "later.");
 }
 
-void LiveWork::write(const task::SaveCloud& task) {
+// What the format could not hold, in words.
+std::vector<std::string> LiveWork::write(const task::SaveCloud& task) {
     const std::vector<float> positions = document_->positions(progress_);
     const std::vector<float> normals = document_->normals(progress_);
     const std::vector<float> far = task.columns.displacement ? displacement_column() : std::vector<float>{};
@@ -247,8 +250,7 @@ void LiveWork::write(const task::SaveCloud& task) {
     PosedShape shape{positions, normals, {}, rotations};
     if (task.columns.displacement) shape.added.push_back({"displacement", far});
     if (task.columns.stretch) shape.added.push_back({"stretch", stretch});
-    for (const std::string& words : write_cloud(task.target, document_->cloud(), shape, progress_))
-        say(Notice::Kind::warning, words);
+    return write_cloud(task.target, document_->cloud(), shape, progress_);
 }
 
 void LiveWork::carry_out(task::SaveSession& task) {

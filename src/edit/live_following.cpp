@@ -56,8 +56,9 @@ void LiveWork::carry_out(task::BeginDrag& task) {
         throw;
     }
     publisher_.strays(document_->pipeline().strays());
-    publisher_.swallowed(*document_, task.handle);
-    publisher_.loose(*document_, task.handle);
+    const DragLine drag{task.handle, task.pivot, {}, task.with};
+    publisher_.swallowed(*document_, drag);
+    publisher_.loose(*document_, drag);
     publish_view();
 }
 

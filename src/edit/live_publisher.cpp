@@ -122,13 +122,26 @@ void LivePublisher::demand(const HandleDemand& demand) {
     tell(Notice::Kind::warning, Notice::About::demand, words_about_demand(demand), told_of_demand_);
 }
 
-void LivePublisher::swallowed(const Document& document, const std::string& handle) {
-    tell(Notice::Kind::warning, Notice::About::swallowed, words_about_swallowed(document, handle),
+namespace {
+
+// Of what a drag moves, those of the first handle about which there is something to say.
+template<typename WordsAbout>
+std::string first_words(const Document& document, const DragLine& drag, WordsAbout&& words_about) {
+    std::string words = words_about(document, drag.handle);
+    for (auto other = drag.with.begin(); other != drag.with.end() && words.empty(); ++other)
+        words = words_about(document, *other);
+    return words;
+}
+
+} // namespace
+
+void LivePublisher::swallowed(const Document& document, const DragLine& drag) {
+    tell(Notice::Kind::warning, Notice::About::swallowed, first_words(document, drag, words_about_swallowed),
          told_of_swallowed_);
 }
 
-void LivePublisher::loose(const Document& document, const std::string& handle) {
-    std::string words = words_about_loose(document, handle);
+void LivePublisher::loose(const Document& document, const DragLine& drag) {
+    std::string words = first_words(document, drag, words_about_loose);
     if (!words.empty() && document.settings().strays != Strays::bridge)
         words += "; \"Strays: Join\" in the shape panel joins them. Changing it makes the pose the new rest "
                  "shape, so undo that first (Ctrl+Z)";

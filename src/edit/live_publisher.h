@@ -41,9 +41,9 @@ public:
     void strays(const Pipeline::LooseParts& strays);
     void demand(const HandleDemand& demand);
     // And a handle that is dragged and has no points left to move.
-    void swallowed(const Document& document, const std::string& handle);
+    void swallowed(const Document& document, const DragLine& drag);
     // And one of a part that nothing holds back.
-    void loose(const Document& document, const std::string& handle);
+    void loose(const Document& document, const DragLine& drag);
 
 private:
     void note_changes(const RestShape& shape, const Pipeline& pipeline);

@@ -93,8 +93,10 @@ LiveRecording::LiveRecording(const Session& session, const std::optional<std::fi
     }
 }
 
-void LiveRecording::lies_at(const std::filesystem::path& cloud) {
+void LiveRecording::lies_at(const std::filesystem::path& cloud, const std::optional<FileStamp>& stamp) {
     cloud_ = plain_path(cloud);
+    facts_.cloud = stamp;
+    facts_.saved_lines = 0;
     if (!journal_) return;
     std::string lines;
     for (std::size_t number = 0; number < written_; ++number)

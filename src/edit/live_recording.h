@@ -95,8 +95,8 @@ public:
 
     std::size_t acts() const { return lines_.size(); }
     const std::filesystem::path& cloud() const { return cloud_; } // absolute
-    // The same cloud, by another name.
-    void lies_at(const std::filesystem::path& cloud);
+    // The same cloud, by another name: what was saved does not say so.
+    void lies_at(const std::filesystem::path& cloud, const std::optional<FileStamp>& stamp);
 
     // Writes all of it as a session file, with paths relative to it; what was undone only to look at it is in
     // it as done. Throws Error (output).

@@ -61,7 +61,7 @@ private:
     void carry_out(task::Undo& task);
     void carry_out(task::Redo& task);
     void carry_out(task::SaveCloud& task);
-    void write(const task::SaveCloud& task);
+    std::vector<std::string> write(const task::SaveCloud& task);
     std::filesystem::path copy_original();
     void go_by_copy(const std::filesystem::path& copy);
     void carry_out(task::SaveSession& task);

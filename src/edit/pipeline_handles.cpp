@@ -50,7 +50,8 @@ Vicinities Pipeline::find_vicinities(Progress& progress) {
 
 void Pipeline::find_pulled(const Vicinities& near, Progress& progress) {
     pulled_ = pulled_samples(slots_.handles, labels_.vertex, components_->component, held_blocks_,
-                             small_patches_->patches, near, samples_, *graph_, vertex_positions(), workers_, progress);
+                             small_patches_->patches, near, samples_, *graph_, vertex_positions(), workers_,
+                             progress);
 }
 
 void Pipeline::prepare_labels() {
@@ -132,8 +133,9 @@ void Pipeline::prepare_handles(Progress& progress) {
     for (Index label = 0; label < slots_.handles.size(); ++label) turning.push_back(turns_freely(label));
     const std::size_t budget = handle_budget(base_samples_);
     const std::size_t at_least = parts_with_border(held_blocks_, *components_);
-    const std::vector<Index> in_beds = bed_samples(small_patches_->patches, near, hanging_, vertex_positions(),
-                                                   cloud_size_, (budget - std::min(budget, at_least)) / 2);
+    const std::vector<Index> in_beds =
+        bed_samples(small_patches_->patches, near, hanging_, vertex_positions(), cloud_size_,
+                    (budget - std::min(budget, at_least)) / 2);
     HandleSamples needed = handle_samples(shape, labels_.of_vertices(), held_blocks_, samples_, territories_,
                                           turning, budget - in_beds.size());
     needed.added.insert(needed.added.end(), in_beds.begin(), in_beds.end());

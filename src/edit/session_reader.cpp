@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 
 namespace knead {
 
@@ -144,11 +145,12 @@ HandlePose read_frame(const Value& frame) {
 
 std::vector<std::string> read_others(const Value& list, const std::string& handle) {
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < length_of_list(list); ++i) {
+    std::set<std::string> dragged{handle};
+    const std::size_t count = length_of_list(list);
+    for (std::size_t i = 0; i < count; ++i) {
         const Value entry = element(list, i);
         names.push_back(text_not_empty(entry));
-        if (names.back() == handle || std::ranges::count(names, names.back()) > 1)
-            refuse(entry, "names a handle that is dragged already");
+        if (!dragged.insert(names.back()).second) refuse(entry, "names a handle that is dragged already");
     }
     return names;
 }

@@ -129,6 +129,38 @@ TEST_F(TwoChosen, TakeTheirPivotsAlong) {
     EXPECT_LT(glm::distance(*pivot_of(editor_, "middle"), glm::dvec3(1, 0, 0)), 1e-6);
 }
 
+TEST_F(TwoChosen, HaveTheirGizmosWhereTheyWereTakenBeforeThatIsAnswered) {
+    const auto shift_by = [&](const glm::dvec3& way) {
+        Transform shift;
+        shift.shift = way;
+        apply(editor_, BeginDrag{gizmo_of(editor_)->center});
+        apply(editor_, DragTo{shift});
+        apply(editor_, EndDrag{});
+    };
+    apply(editor_, ChooseHandle{"middle"});
+    const glm::dvec3 began = gizmo_of(editor_)->center;
+    shift_by({1, 0, 0});
+    apply(editor_, ChooseHandle{"high"});
+    apply(editor_, ChooseAlso{"middle"});
+    shift_by({0, 2, 0});
+    apply(editor_, ChooseHandle{"middle"});
+    const glm::dvec3 before = gizmo_of(editor_)->center;
+    EXPECT_LT(glm::distance(before, began + glm::dvec3(1, 2, 0)), 1e-9);
+    calm();
+    EXPECT_LT(glm::distance(before, gizmo_of(editor_)->center), 1e-5);
+}
+
+TEST_F(TwoChosen, MoveTogetherUnderANameThatIsYetToCome) {
+    apply(editor_, RenameHandle{"middle", "belt"});
+    turn_by(editor_, 30);
+    calm();
+    EXPECT_NEAR(motion_of_handle("belt").turned.z(), std::numbers::pi / 6, 1e-6);
+    apply(editor_, DeleteHandle{"belt"});
+    turn_by(editor_, 30);
+    calm();
+    EXPECT_NEAR(motion_of_handle("high").turned.z(), std::numbers::pi / 6, 1e-6) << "without the other";
+}
+
 TEST_F(TwoChosen, UntilTheyAreNoLonger) {
     const auto also = [&] { return editor_.also_chosen; };
     apply(editor_, RenameHandle{"middle", "belt"});

@@ -139,15 +139,14 @@ TEST(HandleKinds, ALineDrawsNoSpikesAtItsEnds) {
         Settings settings;
         settings.samples = samples;
         Desk desk(made(Shape::plane, 20'000), settings);
-        desk.play(
-            R"({"op":"handle","name":"edge","role":"fixed",)"
-            R"("region":{"box":{"min":[-1,-1,-1],"max":[0.05,2,1]}}})"
-            "\n"
-            R"({"op":"handle","name":"line","role":"moving",)"
-            R"("region":{"box":{"min":[0.49,0.3,-1],"max":[0.51,0.7,1]}}})"
-            "\n"
-            R"({"op":"drag","handle":"line","pivot":[0.5,0.5,0],"frames":[)" +
-            turns('x', 10, 40) + "]}\n" + settle(200));
+        desk.play(R"({"op":"handle","name":"edge","role":"fixed",)"
+                  R"("region":{"box":{"min":[-1,-1,-1],"max":[0.05,2,1]}}})"
+                  "\n"
+                  R"({"op":"handle","name":"line","role":"moving",)"
+                  R"("region":{"box":{"min":[0.49,0.3,-1],"max":[0.51,0.7,1]}}})"
+                  "\n"
+                  R"({"op":"drag","handle":"line","pivot":[0.5,0.5,0],"frames":[)" +
+                  turns('x', 10, 40) + "]}\n" + settle(200));
         EXPECT_LT(widest_seam(desk), samples == 1000 ? 0.16 : 0.11) << samples;
     }
 }

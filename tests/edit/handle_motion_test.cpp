@@ -49,5 +49,17 @@ TEST(HandleMotions, KeepTheirTurnsThroughAnUnequalScale) {
     EXPECT_NEAR(motion.rotation.w(), 1, 1e-9); // twice round
 }
 
+// The one comes back by another way than it went, and the other with it, in spite of rounding.
+TEST(GoneAlong, BackAtRestIsAtRest) {
+    HandlePose there;
+    there.rotate = Quatd(0.9, 0.1, 0.3, 0.2);
+    there.translate = {0.3, -1, 2};
+    const HandleMotion rest;
+    const HandleMotion dragged = motion_of(there, {1, 2, 3}, Vec3d::Zero(), rest);
+    const HandleMotion taken = gone_along(rest, rest, dragged, rest);
+    EXPECT_TRUE(leaves_rest(taken));
+    EXPECT_TRUE(is_at_rest(gone_along(taken, dragged, rest, taken)));
+}
+
 } // namespace
 } // namespace knead

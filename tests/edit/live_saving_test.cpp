@@ -551,6 +551,7 @@ TEST_F(SavingOver, ACrashLeavesWhatGoesByTheOriginal) {
     OpenRequest request = request_for(live_->opened().file);
     request.journal_folder = folder_ / "state";
     open(request);
+    live_->save_session(folder_ / "a.knead");
     drag({turned(0.1)});
     live_->save_cloud(live_->opened().file, {}, false, true);
     drag({turned(0.2)});
@@ -564,6 +565,7 @@ TEST_F(SavingOver, ACrashLeavesWhatGoesByTheOriginal) {
     wait_until_open(*live_);
     ASSERT_EQ(live_->status().stage, LiveDocument::Stage::open);
     EXPECT_EQ(live_->view()->undoable_steps, 4U);
+    EXPECT_NE(live_->saved().session_state, live_->view()->state) << "the session names the other cloud";
 }
 
 TEST_F(SavingOver, WhereTheOriginalCannotBeKeptNothingIsOverwritten) {

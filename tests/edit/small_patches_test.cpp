@@ -93,8 +93,7 @@ TEST(SmallPatches, ALongLineIsThin) {
     for (Sheet* sheet : {&line, &ring}) {
         const std::vector<SmallPatch> patches = sheet->patches();
         ASSERT_EQ(patches.size(), 1U);
-        EXPECT_EQ(patches[0].vertices.size(),
-                  static_cast<std::size_t>(std::ranges::count(sheet->label, 0U)));
+        EXPECT_EQ(patches[0].vertices.size(), static_cast<std::size_t>(std::ranges::count(sheet->label, 0U)));
         EXPECT_NEAR(patches[0].radius, sheet == &line ? 0 : 0.6, 0.5);
         EXPECT_GT(sheet->near(patches)[0].size(), 200U);
     }

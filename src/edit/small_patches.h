@@ -17,8 +17,8 @@
 
 namespace knead {
 
-// How far what holds this pulls what is around it, whatever the handle's own falloff is. What is smaller than
-// 3 % of the cloud has up to 6 %, a single point. 0 for what is larger.
+// How far a patch of this radius pulls what is around it, whatever the handle's own falloff is: 6 % of the
+// cloud's size for a single point or a line, less for what is larger, and 0 from 3 % on.
 inline constexpr double largest_small_falloff = 0.06; // of the cloud's size
 double least_falloff(double radius, double cloud_size);
 
@@ -26,7 +26,7 @@ double least_falloff(double radius, double cloud_size);
 // too: a selection with holes is one patch.
 struct SmallPatch {
     Index handle = 0;
-    double radius = 0;           // HeldExtent::radius(), or how wide it is, if it is thin
+    double radius = 0;           // HeldExtent::radius(), or if that is less, how wide it is
     double falloff = 0;          // least_falloff(), > 0
     double reach = 0;            // of its first vertex to the farthest
     std::vector<Index> vertices; // all different

@@ -53,7 +53,7 @@ struct Setting {
     std::optional<Value> SettingsChange::*change;
 };
 template<typename Value> // which clang-tidy 14 does not see by itself
-Setting(const char*, Value Settings::*, std::optional<Value> SettingsChange::*) -> Setting<Value>;
+Setting(const char*, Value Settings::*, std::optional<Value> SettingsChange::*)->Setting<Value>;
 inline constexpr std::tuple all_settings{
     Setting{"neighbors", &Settings::neighbors, &SettingsChange::neighbors},
     Setting{"samples", &Settings::samples, &SettingsChange::samples},

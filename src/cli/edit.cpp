@@ -78,7 +78,7 @@ void add_edit(CLI::App& app, Job& job) {
         ->allow_extra_args(false);
     command->add_option("--samples", arguments->samples, "Short for --set samples=N, or all");
     add_device_options(*command, arguments->device, arguments->threads);
-    command->add_option("--size", arguments->size, "Of the window, WxH (default: 1440x900)");
+    command->add_option("--size", arguments->size, "Of the window, WxH (default: as it was left)");
     command->callback([arguments, &job] {
         job = [arguments](Terminal& terminal) { return run_edit(*arguments, terminal); };
     });

@@ -3,6 +3,7 @@
 #include "graph/distances.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <span>
 #include <unordered_map>
@@ -50,12 +51,16 @@ std::vector<HaloDot> pulled(std::span<const Reached> reached, double own,
     return dots;
 }
 
-// Some of them, all over as dense.
+// Some of them, all over as dense. One anywhere of so many in a row: evenly taken, they would lie in stripes.
 std::vector<HaloDot> thinned(const std::vector<HaloDot>& dots) {
     const std::size_t count = std::min(dots.size(), most_halo_dots);
     std::vector<HaloDot> some;
     some.reserve(count);
-    for (std::size_t k = 0; k < count; ++k) some.push_back(dots[k * dots.size() / count]);
+    for (std::size_t k = 0; k < count; ++k) {
+        const double anywhere = std::fmod(0.6180339887 * static_cast<double>(k), 1.0);
+        const double place = (static_cast<double>(k) + anywhere) / static_cast<double>(count);
+        some.push_back(dots[static_cast<std::size_t>(place * static_cast<double>(dots.size()))]);
+    }
     return some;
 }
 

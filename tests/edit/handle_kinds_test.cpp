@@ -83,13 +83,16 @@ TEST(HandleKinds, ASinglePointDrawsNoSpike) {
     EXPECT_NEAR(fine.at_distance(0.15), coarse.at_distance(0.15), 0.05);
 }
 
+// One edge of the plane.
+const std::string edge = R"({"op":"handle","name":"edge","role":"fixed",)"
+                         R"("region":{"box":{"min":[-1,-1,-1],"max":[0.05,2,1]}}})"
+                         "\n";
+
 // A point that says how it turns turns what is around it, and not by chance the less the more samples there
 // are: a turn that is given at one place is as good as nowhere given.
 TEST(HandleKinds, ThePointsTurnCountsAlikeWithAnyNumberOfSamples) {
     expect_alike(Shape::plane, 20'000, {5000, 2000, 500}, 0.004, [](Desk& desk) {
-        desk.play(R"({"op":"handle","name":"edge","role":"fixed",)"
-                  R"("region":{"box":{"min":[-1,-1,-1],"max":[0.05,2,1]}}})"
-                  "\n"
+        desk.play(edge +
                   R"({"op":"handle","name":"top","role":"moving",)"
                   R"("region":{"sphere":{"center":[0.5,0.5,0],"radius":0.006}}})"
                   "\n"
@@ -109,11 +112,8 @@ TEST(HandleKinds, PointsOfOneHandleDrawNoSpikesEither) {
         Settings settings;
         settings.samples = 3000;
         Desk desk(made(Shape::plane, 20'000), settings);
-        desk.play(R"({"op":"handle","name":"edge","role":"fixed",)"
-                  R"("region":{"box":{"min":[-1,-1,-1],"max":[0.05,2,1]}}})"
-                  "\n"
-                  R"({"op":"handle","name":"top","role":"moving",)" +
-                  region + "}\n" + drag(R"({"translate":[0,0,0.2]})") + settle(100));
+        desk.play(edge + R"({"op":"handle","name":"top","role":"moving",)" + region + "}\n" +
+                  drag(R"({"translate":[0,0,0.2]})") + settle(100));
         const PointCloud& cloud = desk.document().cloud();
         return Profile{desk.shape(), cloud.positions, Vec3d(0.75, 0.5, 0) - cloud.origin}.at_distance(0.03);
     };
@@ -139,9 +139,7 @@ TEST(HandleKinds, ALineDrawsNoSpikesAtItsEnds) {
         Settings settings;
         settings.samples = samples;
         Desk desk(made(Shape::plane, 20'000), settings);
-        desk.play(R"({"op":"handle","name":"edge","role":"fixed",)"
-                  R"("region":{"box":{"min":[-1,-1,-1],"max":[0.05,2,1]}}})"
-                  "\n"
+        desk.play(edge +
                   R"({"op":"handle","name":"line","role":"moving",)"
                   R"("region":{"box":{"min":[0.49,0.3,-1],"max":[0.51,0.7,1]}}})"
                   "\n"

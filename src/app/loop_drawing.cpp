@@ -195,9 +195,10 @@ void lay_out(Loop& loop) {
     const float scale = state.scale;
     const float top = state.fonts.text->FontSize + 2 * std::floor(7 * scale);
     const float left = loop.editor.document ? std::round(52 * scale) : 0;
-    const float right = loop.editor.document && state.show_panels ? std::round(310 * scale) : 0;
     const float bottom = status_height(loop) + timeline_height(loop);
     const auto width = static_cast<float>(window.width), height = static_cast<float>(window.height);
+    const bool has_panels = loop.editor.document && state.show_panels;
+    const float right = has_panels ? std::round(std::min(state.panel_width * scale, width / 2)) : 0;
     state.view = {left, top, std::max(1.0f, width - left - right), std::max(1.0f, height - top - bottom)};
     loop.editor.viewport = {std::max(1, static_cast<int>(state.view.width * state.pixel_ratio)),
                             std::max(1, static_cast<int>(state.view.height * state.pixel_ratio))};

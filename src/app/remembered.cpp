@@ -29,6 +29,12 @@ void take_size(const std::string& value, Remembered& choices) {
     choices.height = height;
 }
 
+void take_panel(const std::string& value, Remembered& choices) {
+    int width = 0;
+    if (std::sscanf(value.c_str(), "%5d", &width) == 1 && width >= least_panel && width <= most_panel)
+        choices.panel = width;
+}
+
 } // namespace
 
 Remembered read_remembered() {
@@ -41,6 +47,7 @@ Remembered read_remembered() {
                 choices.up = axis->up;
         if (name == "samples") choices.choose_samples = value != "by-hand";
         if (name == "size") take_size(value, choices);
+        if (name == "panel") take_panel(value, choices);
     }
     return choices;
 }
@@ -49,7 +56,8 @@ void remember(const Remembered& choices) {
     const std::string up = std::ranges::find(axes, choices.up, &NamedAxis::up)->name;
     keep_text(settings_name,
               "up " + up + "\n" + (choices.choose_samples ? "samples automatic\n" : "samples by-hand\n") +
-                  "size " + std::to_string(choices.width) + "x" + std::to_string(choices.height) + "\n");
+                  "size " + std::to_string(choices.width) + "x" + std::to_string(choices.height) + "\n" +
+                  "panel " + std::to_string(choices.panel) + "\n");
 }
 
 } // namespace knead

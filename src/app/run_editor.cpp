@@ -10,6 +10,7 @@
 #include "app/timeline.h"
 #include "view/standing.h"
 
+#include <cmath>
 #include <utility>
 
 namespace knead {
@@ -130,11 +131,12 @@ void set_theme(Loop& loop) {
     loop.window.renew_fonts();
 }
 
-void remember_size(const Window& window) {
+void remember_size(const Window& window, float panel_width) {
     Remembered choices = read_remembered();
     const Window::Size size = window.size_of_choice();
     choices.width = size.width;
     choices.height = size.height;
+    choices.panel = static_cast<int>(std::lround(panel_width));
     remember(choices);
 }
 
@@ -156,6 +158,7 @@ void run_editor(const EditorOptions& options) {
     loop.state.recent = read_recent_files();
     loop.state.display.up = remembered.up;
     loop.state.choose_samples = remembered.choose_samples;
+    loop.state.panel_width = static_cast<float>(remembered.panel);
     loop.state.lost = find_lost_work(default_journal_folder());
     if (!options.file.empty()) loop.wishes.emplace_back(WishOpen{options.file, options.cloud, true});
     bool news = true;
@@ -179,7 +182,7 @@ void run_editor(const EditorOptions& options) {
                                     {loop.window.drawn_by(), loop.state.measured.drawn, !loop.is_coarse});
         loop.frames_to_draw = std::max(0, loop.frames_to_draw - 1);
     }
-    if (!options.observer) remember_size(loop.window);
+    if (!options.observer) remember_size(loop.window, loop.state.panel_width);
     if (loop.editor.document) leave_session(loop.editor.document->session, loop.editor.camera);
     // Whoever closes the window has saved what they wanted to keep.
     if (loop.editor.live) loop.editor.live->discard_journal();

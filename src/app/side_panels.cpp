@@ -1,5 +1,6 @@
 // The column at the right: Handles, Transform, Shape, Display.
 
+#include "app/remembered.h"
 #include "app/ui.h"
 #include "app/widgets.h"
 
@@ -42,6 +43,27 @@ void scroll_bar(const Ui& ui) {
     ImGui::PopClipRect();
 }
 
+// The edge to the view, by which the panels are made wider; a double click makes them as wide as usual.
+void grip(const Ui& ui, const Rectangle& where) {
+    const ImVec2 begin = ImGui::GetCursorScreenPos();
+    ImGui::PushClipRect({where.x, where.y}, {where.x + where.width, where.y + where.height}, false);
+    ImGui::SetCursorScreenPos({where.x, where.y});
+    ImGui::InvisibleButton("grip", {ui.scaled(5), where.height});
+    float& width = ui.state.panel_width;
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            {where.x, where.y}, {where.x + ui.scaled(2), where.y + where.height}, palette::accent);
+    }
+    if (ImGui::IsItemActive()) // not by how far the hand went: where it turns back the edge is there
+        width = (where.x + where.width - ImGui::GetIO().MousePos.x) / ui.state.scale;
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+        width = static_cast<float>(Remembered().panel);
+    width = std::clamp(width, static_cast<float>(least_panel), static_cast<float>(most_panel));
+    ImGui::PopClipRect();
+    ImGui::SetCursorScreenPos(begin);
+}
+
 } // namespace
 
 void draw_side_panels(const Ui& ui, Rectangle where) {
@@ -53,6 +75,7 @@ void draw_side_panels(const Ui& ui, Rectangle where) {
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBringToFrontOnFocus |
                      ImGuiWindowFlags_NoNav);
+    grip(ui, where);
     // Closer than elsewhere, so that all of it is seen on a small display.
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, ui.scaled(5)});
     ImGui::PushItemWidth(-1);

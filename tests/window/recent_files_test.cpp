@@ -62,16 +62,21 @@ TEST_F(RecentFiles, ASessionIsLookedAtFromWhereItWasLeft) {
 
 TEST_F(RecentFiles, WhatWasChosenOfTheWindowIsThereTheNextTime) {
     EXPECT_EQ(read_remembered().width, Remembered{}.width);
-    remember({UpAxis::minus_y, false, 1700, 1000});
+    remember({UpAxis::minus_y, false, 1700, 1000, 400});
     const Remembered read = read_remembered();
     EXPECT_EQ(read.up, UpAxis::minus_y);
     EXPECT_FALSE(read.choose_samples);
     EXPECT_EQ(read.width, 1700);
     EXPECT_EQ(read.height, 1000);
+    EXPECT_EQ(read.panel, 400);
     for (const char* nonsense : {"12x90", "1700", "-5x1000", "x", "1e4x900"}) {
         write_text(folder_ / "state/knead/window", std::string("size ") + nonsense + "\nup y\n");
         EXPECT_EQ(read_remembered().width, Remembered{}.width) << nonsense;
         EXPECT_EQ(read_remembered().up, UpAxis::y) << nonsense;
+    }
+    for (const char* nonsense : {"20", "9000", "-310", "x"}) {
+        write_text(folder_ / "state/knead/window", std::string("panel ") + nonsense + "\n");
+        EXPECT_EQ(read_remembered().panel, Remembered{}.panel) << nonsense;
     }
 }
 

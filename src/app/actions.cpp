@@ -2,6 +2,8 @@
 
 #include "app/widgets.h"
 #include "base/require.h"
+#include "edit/pose_numbers.h"
+#include "edit/view_vectors.h"
 
 #include <array>
 
@@ -93,6 +95,29 @@ template<int axis>
 void mirror(const Ui& ui) {
     ui.tell(MirrorHandle{ui.editor.chosen, axis});
 }
+// Takes a part of the chosen handle's pose back, by a drag as the hand would make it.
+template<Transform (*part)(const HandleMotion& motion, const Vec3d& pivot)>
+void take_back(const Ui& ui) {
+    const std::optional<ChosenPose> pose = pose_of_chosen(ui.editor);
+    if (!pose || poses_may_change(ui.editor)) return;
+    const Transform transform = part(pose->motion, to_eigen(pose->pivot));
+    if (does_nothing(transform)) return;
+    ui.tell(BeginDrag{pose->pivot});
+    ui.tell(DragTo{transform});
+    ui.tell(EndDrag{});
+}
+bool chosen_is_posed(const Ui& ui) {
+    return moving_handle_is_chosen(ui) && something_is_posed(ui);
+}
+template<int axis>
+bool moves_are_mirrored(const Ui& ui) {
+    return ui.has_cloud() && ui.editor.symmetry && ui.editor.symmetry->axis == axis;
+}
+template<int axis>
+void mirror_moves(const Ui& ui) {
+    const bool are_so = moves_are_mirrored<axis>(ui);
+    ui.tell(MirrorMoves{are_so ? std::nullopt : std::optional(axis)});
+}
 template<SelectTool tool>
 void choose_tool(const Ui& ui) {
     ui.wish(WishSelectTool{tool});
@@ -156,7 +181,7 @@ void choose_next_handle(const Ui& ui) {
 }
 
 void delete_handle(const Ui& ui) {
-    if (handle_is_chosen(ui)) return ui.tell(DeleteHandle{ui.editor.chosen});
+    if (handle_is_chosen(ui)) return ui.tell(DeleteHandles{chosen_with(ui.editor, ui.editor.chosen)});
     add_toast(ui.state, {Notice::Kind::information,
                          "No point is ever deleted, and no handle is chosen. V hides what is selected."});
 }
@@ -316,17 +341,32 @@ const Action handle_actions[] = {
      assign_points<SelectMode::replace>, handle_and_selection_are_there},
     {"Handles", "Rename", "F2", "Gives the handle that was just made, or else the chosen one, another name",
      on(Key::f2), name_handle, handle_can_be_named},
-    {"Handles", "Reset its pose", "Alt+R", "Puts the chosen handle back where it was at rest", on('R', alt),
-     [](const Ui& ui) { ui.tell(ResetPose{ui.editor.chosen}); },
-     [](const Ui& ui) { return moving_handle_is_chosen(ui) && something_is_posed(ui); }},
+    {"Handles", "Reset its pose", "Alt+R",
+     "Puts what is chosen back where it was at rest, with what goes along", on('R', alt),
+     [](const Ui& ui) { ui.tell(ResetPoses{moved_with(ui.editor, ui.editor.chosen)}); }, chosen_is_posed},
+    {"Handles", "Take its move back", "Alt+G",
+     "Puts the chosen handle's pivot back where it was at rest; its turn and size stay", on('G', alt),
+     take_back<unmoved>, chosen_is_posed},
+    {"Handles", "Take its scaling back", "Alt+S",
+     "Makes the chosen handle as large as it was at rest; its place and turn stay", on('S', alt),
+     take_back<unscaled>, chosen_is_posed},
     {"Handles/Mirror", "Along X", "", "Makes the same handle, mirrored, on the other side along x",
      std::nullopt, mirror<0>, handle_is_chosen},
     {"Handles/Mirror", "Along Y", "", "Makes the same handle, mirrored, on the other side along y",
      std::nullopt, mirror<1>, handle_is_chosen},
     {"Handles/Mirror", "Along Z", "", "Makes the same handle, mirrored, on the other side along z",
      std::nullopt, mirror<2>, handle_is_chosen},
-    {"Handles", "Delete", "Del", "Deletes the chosen handle; its points stay", on(Key::del), delete_handle,
-     handle_or_selection_is_there, nullptr, true},
+    {"Handles/Both sides", "Across X", "",
+     "What is moved moves its counterpart on the other side along x, too, mirrored", std::nullopt,
+     mirror_moves<0>, cloud_is_open, moves_are_mirrored<0>},
+    {"Handles/Both sides", "Across Y", "",
+     "What is moved moves its counterpart on the other side along y, too, mirrored", std::nullopt,
+     mirror_moves<1>, cloud_is_open, moves_are_mirrored<1>},
+    {"Handles/Both sides", "Across Z", "",
+     "What is moved moves its counterpart on the other side along z, too, mirrored", std::nullopt,
+     mirror_moves<2>, cloud_is_open, moves_are_mirrored<2>},
+    {"Handles", "Delete", "Del", "Deletes what is chosen of the handles; their points stay", on(Key::del),
+     delete_handle, handle_or_selection_is_there, nullptr, true},
 };
 
 const Action view_actions[] = {

@@ -121,9 +121,25 @@ void color_swatch(const Ui& ui, const Handle& handle, ImVec2 middle) {
     }
 }
 
-// In a word how it holds, where that is not the usual way.
-const char* manner_of(const Handle& handle) {
+// How the handle goes along with the chosen one, if it does.
+enum class GoesAlong { no, same, mirrored };
+GoesAlong goes_along(const Editor& editor, const std::string& handle) {
+    const auto is_in = [&](const std::vector<std::string>& names) {
+        return std::ranges::find(names, handle) != names.end();
+    };
+    if (editor.symmetry && is_in(editor.symmetry->counterparts)) return GoesAlong::mirrored;
+    if (is_in(editor.also_chosen)) return GoesAlong::same;
+    return GoesAlong::no;
+}
+
+// In a word how it holds, where that is not the usual way; or while moves are mirrored, how it goes along.
+const char* manner_of(const Editor& editor, const Handle& handle) {
     if (handle.role == HandleRole::region_of_interest) return "";
+    if (goes_along(editor, handle.name) == GoesAlong::mirrored) return "mirrored";
+    const bool is_chosen_alone = handle.name == editor.chosen && editor.also_chosen.empty();
+    if (is_chosen_alone && handle.role == HandleRole::moving && editor.symmetry &&
+        editor.symmetry->counterparts.empty())
+        return "alone";
     if (handle.free_rotation) return handle.falloff > 0 ? "soft peg" : "peg";
     return handle.falloff > 0 ? "soft" : "";
 }
@@ -132,7 +148,7 @@ const char* manner_of(const Handle& handle) {
 void row_words(const Ui& ui, const Handle& handle, ImVec2 corner, float end) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float middle = corner.y + ImGui::GetFrameHeight() / 2, size = ui.state.fonts.small->FontSize;
-    if (const char* manner = manner_of(handle); *manner != 0) {
+    if (const char* manner = manner_of(ui.editor, handle); *manner != 0) {
         end -= ui.state.fonts.small->CalcTextSizeA(size, FLT_MAX, 0, manner).x;
         list.AddText(ui.state.fonts.small, size, {end, middle - size / 2}, palette::faint, manner);
         end -= ui.scaled(6);
@@ -145,18 +161,17 @@ void row_words(const Ui& ui, const Handle& handle, ImVec2 corner, float end) {
 void handle_row(const Ui& ui, const Handle& handle, std::size_t number) {
     ImGui::PushID(static_cast<int>(number));
     const bool chosen = handle.name == ui.editor.chosen;
-    const bool goes_along =
-        std::ranges::find(ui.editor.also_chosen, handle.name) != ui.editor.also_chosen.end();
+    const bool follows = goes_along(ui.editor, handle.name) != GoesAlong::no;
     const float height = ImGui::GetFrameHeight(), width = ImGui::GetContentRegionAvail().x;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const bool renaming = ui.state.renaming == handle.name;
     const bool hovered = row_button(ui, handle, {width - height, height}, renaming);
-    if (chosen || goes_along || hovered)
+    if (chosen || follows || hovered)
         list.AddRectFilled(corner, {corner.x + width, corner.y + height},
-                           chosen || goes_along ? palette::field_pressed : palette::rgb(0xffffff, 14),
+                           chosen || follows ? palette::field_pressed : palette::rgb(0xffffff, 14),
                            ui.scaled(5));
-    if (chosen || goes_along)
+    if (chosen || follows)
         list.AddRectFilled(corner, {corner.x + ui.scaled(3), corner.y + height},
                            chosen ? palette::accent : palette::faint, ui.scaled(2));
     const float middle = corner.y + height / 2;

@@ -112,15 +112,19 @@ void handle_menu(const Ui& ui, const Handle& handle) {
         point_items(ui, handle);
         ImGui::EndMenu();
     }
-    if (ImGui::MenuItem("Reset its pose", "Alt+R", false,
+    const std::vector<std::string> together = chosen_with(ui.editor, handle.name);
+    const std::vector<std::string> moved = moved_with(ui.editor, handle.name);
+    if (ImGui::MenuItem(moved.size() == 1 ? "Reset its pose" : "Reset their poses", "Alt+R", false,
                         handle.role == HandleRole::moving && ui.editor.document->posed))
-        ui.tell(ResetPose{handle.name});
+        ui.tell(ResetPoses{moved});
     if (ImGui::BeginMenu("Mirror")) {
         mirror_items(ui, handle);
         ImGui::EndMenu();
     }
     ImGui::Separator();
-    if (ImGui::MenuItem("Delete", "Del")) ui.tell(DeleteHandle{handle.name});
+    const std::string words =
+        together.size() == 1 ? "Delete" : "Delete all " + std::to_string(together.size());
+    if (ImGui::MenuItem(words.c_str(), "Del")) ui.tell(DeleteHandles{together});
 }
 
 } // namespace knead

@@ -8,6 +8,9 @@
 
 #include <imgui_internal.h>
 
+#include <array>
+#include <optional>
+
 namespace knead {
 
 namespace {
@@ -50,19 +53,33 @@ void chosen_buttons(const Ui& ui) {
     explain("Selects the points of the chosen handle (Shift+L)");
     ImGui::SameLine(0, gap);
     ImGui::BeginDisabled(!handle || handle->role != HandleRole::moving || !ui.editor.document->posed);
-    if (ImGui::Button("Reset", {quarter, 0})) ui.tell(ResetPose{name});
-    explain("Puts the chosen handle back where it was at rest, and unwinds its turns (Alt+R)");
+    if (ImGui::Button("Reset", {quarter, 0})) ui.tell(ResetPoses{moved_with(ui.editor, name)});
+    explain(
+        "Puts what is chosen back where it was at rest, with what goes along, and unwinds its turns (Alt+R)");
     ImGui::EndDisabled();
     ImGui::SameLine(0, gap);
     if (ImGui::Button("Mirror", {quarter, 0})) ImGui::OpenPopup("mirror");
     explain("Makes the same handle on the other side of the cloud, its pose mirrored");
     ImGui::SameLine(0, gap);
-    if (ImGui::Button("Delete", {quarter, 0})) ui.tell(DeleteHandle{name});
-    explain("Deletes the chosen handle; its points stay (Del)");
+    if (ImGui::Button("Delete", {quarter, 0})) ui.tell(DeleteHandles{chosen_with(ui.editor, name)});
+    explain("Deletes what is chosen; the points stay (Del)");
     ImGui::EndDisabled();
     if (!handle || !ImGui::BeginPopup("mirror")) return;
     mirror_items(ui, *handle);
     ImGui::EndPopup();
+}
+
+// Whether moves are made on the other side, too, and across which axis.
+void symmetry_buttons(const Ui& ui) {
+    const auto& symmetry = ui.editor.symmetry;
+    inline_caption("Both sides", ui.scaled(92));
+    const int clicked =
+        segmented("symmetry", std::array{"Off", "X", "Y", "Z"}, symmetry ? symmetry->axis + 1 : 0);
+    explain("What you move moves its counterpart on the other side of the cloud, too, mirrored across that "
+            "axis: the handle that lies where the mirror shows the chosen one. Mirror makes one where there "
+            "is none.");
+    if (clicked < 0) return;
+    ui.tell(MirrorMoves{clicked == 0 ? std::nullopt : std::optional(clicked - 1)});
 }
 
 } // namespace
@@ -78,6 +95,7 @@ void handles_panel(const Ui& ui) {
     ImGui::Dummy({0, ui.scaled(2)});
     handle_list(ui, handles);
     chosen_buttons(ui);
+    symmetry_buttons(ui);
     ImGui::BeginDisabled(!ui.editor.document->posed);
     if (key_button("Commit the pose", "Enter", true)) ui.tell(CommitPose{});
     explain("Makes the shape as it is now the new rest shape, from which the next edit starts");

@@ -104,6 +104,21 @@ void add_halo(const Editor& editor, const SceneLinesOf& what, std::vector<Overla
     }
 }
 
+// The edges of the plane across which moves are mirrored, around the cloud as it was opened.
+void add_mirror(const Editor& editor, const SceneLinesOf& what, std::vector<OverlayLine>& lines) {
+    Box3 box = bulk_box(editor.opened.opened->positions);
+    const glm::dvec3 margin((box.highest - box.lowest) * 0.06);
+    box = {box.lowest - margin, box.highest + margin};
+    const int axis = *what.mirror_axis;
+    box.lowest[axis] = box.highest[axis] = what.mirror_at;
+    const int across = (axis + 1) % 3;
+    glm::dvec3 one = box.lowest, other = box.highest;
+    std::swap(one[across], other[across]);
+    const glm::vec3 corners[] = {box.lowest, one, box.highest, other};
+    for (std::size_t k = 0; k < 4; ++k)
+        lines.push_back({corners[k], corners[(k + 1) % 4], rgba(120, 215, 255, 110), 1.5F});
+}
+
 // The ground would be one bright line, across the feet of what stands there.
 bool is_seen_edge_on(const Camera& camera) {
     const Upward up = upward(camera.up);
@@ -118,6 +133,8 @@ SceneLinesOf scene_lines_of(const Editor& editor, const Display& display,
     SceneLinesOf what;
     what.grid = display.grid && !is_seen_edge_on(editor.camera);
     what.up = editor.camera.up;
+    if (editor.symmetry && display.handles)
+        what.mirror_axis = editor.symmetry->axis, what.mirror_at = editor.symmetry->at;
     const DocumentView& document = *editor.document;
     const bool there = document.sample_vertices && document.sample_vertices->size() <= most_shown_samples;
     what.samples = there && display.samples;
@@ -134,6 +151,7 @@ SceneLinesOf scene_lines_of(const Editor& editor, const Display& display,
 std::vector<OverlayLine> scene_lines(const Editor& editor, const SceneLinesOf& what) {
     std::vector<OverlayLine> lines;
     if (what.grid) add_ground(editor, lines);
+    if (what.mirror_axis) add_mirror(editor, what, lines);
     if (what.links) add_links(editor, what, lines);
     if (what.samples) add_samples(editor, what, lines);
     if (what.halo) add_halo(editor, what, lines);

@@ -5,6 +5,7 @@
 #include "app/falloff_halo.h"
 #include "edit/editor.h"
 
+#include <optional>
 #include <vector>
 
 namespace knead {
@@ -13,6 +14,8 @@ namespace knead {
 struct SceneLinesOf {
     bool grid = false, samples = false, links = false;
     UpAxis up = UpAxis::z;
+    std::optional<int> mirror_axis; // of the plane across which moves are mirrored
+    double mirror_at = 0;
     std::shared_ptr<const std::vector<Index>> sample_vertices;
     std::shared_ptr<const Graph> sample_graph;
     std::shared_ptr<const std::vector<HaloDot>> halo;

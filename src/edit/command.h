@@ -6,8 +6,10 @@
 #include "view/screen_region.h"
 #include "view/transform_drag.h"
 
+#include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace knead {
 
@@ -52,6 +54,9 @@ struct ChooseHandle {
 struct ChooseAlso { // it goes along when the chosen one is moved; or does no longer
     std::string handle;
 };
+struct MirrorMoves { // what is moved moves its counterpart across this axis, too; nothing: nothing does
+    std::optional<int> axis; // 0 x, 1 y, 2 z
+};
 struct RenameHandle {
     std::string handle, to;
 };
@@ -72,11 +77,11 @@ struct ColorHandle {
     std::string handle;
     std::optional<std::uint32_t> color; // 0xrrggbb; nothing: the usual one
 };
-struct DeleteHandle {
-    std::string handle;
+struct DeleteHandles {
+    std::vector<std::string> handles;
 };
-struct ResetPose {
-    std::string handle;
+struct ResetPoses { // of those that move
+    std::vector<std::string> handles;
 };
 // The points on the other side of the cloud become a handle as this one is, with its pose mirrored; where a
 // moving one holds these already, that one takes the pose of a moving one.
@@ -150,10 +155,10 @@ struct SetPivotUnder { // a double click: the point under the cursor becomes the
 
 using Command =
     std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, DropChoice,
-                 ChangeHidden, MakeHandle, ChooseHandle, ChooseAlso, RenameHandle, AssignPoints, ChangeRole,
-                 ChangeHold, ColorHandle, DeleteHandle, ResetPose, MirrorHandle, BeginDrag, DragTo, EndDrag,
-                 CancelDrag, RefuseTransform, SetPivot, SetPivotInside, SetPivotToSelection, ChangeSettings,
-                 ChooseSamples, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying, AdvancePlaying,
-                 MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
+                 ChangeHidden, MakeHandle, ChooseHandle, ChooseAlso, MirrorMoves, RenameHandle, AssignPoints,
+                 ChangeRole, ChangeHold, ColorHandle, DeleteHandles, ResetPoses, MirrorHandle, BeginDrag,
+                 DragTo, EndDrag, CancelDrag, RefuseTransform, SetPivot, SetPivotInside, SetPivotToSelection,
+                 ChangeSettings, ChooseSamples, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying,
+                 AdvancePlaying, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
 
 } // namespace knead

@@ -90,7 +90,7 @@ public:
 
     // `with`: as DragLine has it.
     void begin_drag(const std::string& handle, const Vec3d& pivot, const std::string& place,
-                    Progress& progress, const std::vector<std::string>& with = {});
+                    Progress& progress, const std::vector<Companion>& with = {});
     // One frame: the handle's whole pose in this edit. Returns the longest way that a sample went in the last
     // iteration, over the cloud's size. An absurd pose is refused, and the drag stays as it was.
     // `later` leaves moving the points to whoever draws, where the upsampler can (upsample/drawing.h): then
@@ -245,7 +245,7 @@ private:
     double iterate_once(const std::vector<HandleMotion>& motions, SampleState& samples, FrameMemory& memory);
     std::vector<Moved> moved_by(const DragLine& line, std::span<const HandleMotion> motions,
                                 const std::string& place) const;
-    void move(const HandlePose& pose, const Vec3d& pivot, std::span<const Moved> from,
+    void move(const DragLine& drag, const HandlePose& pose, std::span<const Moved> from,
               std::span<const HandleMotion> now, std::vector<Moved>& next) const;
     double follow(std::span<const Moved> next, bool coarse, unsigned iterations,
                   std::vector<HandleMotion>& motions, SampleState& samples, FrameMemory& memory,

@@ -134,7 +134,7 @@ std::vector<HandleMotion> Document::way_of(const std::string& handle) const {
         std::vector<Moved> from = (*posed)->moved, next;
         for (Moved& each : from) each.motion = motions[each.handle];
         for (const HandlePose& pose : drag.frames) {
-            move(pose, drag.pivot, from, motions, next);
+            move(drag, pose, from, motions, next);
             for (const Moved& each : next) motions[each.handle] = each.motion;
             way.push_back(motions[index]);
         }
@@ -198,7 +198,7 @@ void Document::repeat(const Posed& posed, SampleState& samples, Progress& progre
     for (std::size_t f = 0; f < drag.frames.size(); ++f) {
         progress.step("following the handle again", static_cast<double>(f) / frames);
         const HandlePose& pose = drag.frames[f];
-        move(pose, drag.pivot, began, motions, next);
+        move(drag, pose, began, motions, next);
         follow(next, pose.coarse, from.settings.iterations, motions, samples, memory, progress);
     }
 }

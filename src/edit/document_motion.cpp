@@ -6,6 +6,7 @@
 #include "base/require.h"
 #include "base/stopwatch.h"
 #include "edit/handle_motion.h"
+#include "edit/reflection.h"
 
 #include <algorithm>
 #include <utility>
@@ -50,20 +51,29 @@ std::vector<Document::Moved> Document::moved_by(const DragLine& line, std::span<
                                                 const std::string& place) const {
     const Index handle = movable_handle(line.handle, "handle", place);
     std::vector<Moved> moved{{handle, motions[handle]}};
-    for (const std::string& name : line.with) {
-        const Index other = movable_handle(name, "with", place);
+    for (const Companion& companion : line.with) {
+        const Index other = movable_handle(companion.handle, "with", place);
         moved.push_back({other, motions[other]});
     }
     return moved;
 }
 
-// Where a frame takes what was at `from` when the drag began and is in `now`.
-void Document::move(const HandlePose& pose, const Vec3d& pivot, std::span<const Moved> from,
+// Where a frame of a drag takes what was at `from` when that began and is in `now`.
+void Document::move(const DragLine& drag, const HandlePose& pose, std::span<const Moved> from,
                     std::span<const HandleMotion> now, std::vector<Moved>& next) const {
     next.assign(from.begin(), from.end());
-    next[0].motion = motion_of(pose, pivot, cloud_.origin, now[next[0].handle]);
-    for (std::size_t k = 1; k < next.size(); ++k)
-        next[k].motion = gone_along(from[k].motion, from[0].motion, next[0].motion, now[next[k].handle]);
+    next[0].motion = motion_of(pose, drag.pivot, cloud_.origin, now[next[0].handle]);
+    for (std::size_t k = 1; k < next.size(); ++k) {
+        const auto& mirror = drag.with[k - 1].mirror;
+        HandleMotion before = from[0].motion, after = next[0].motion;
+        if (mirror) {
+            const Reflection shown =
+                reflection(mirror->across, drag.pivot - cloud_.origin, mirror->pivot - cloud_.origin);
+            before = seen_in(shown, before);
+            after = seen_in(shown, after);
+        }
+        next[k].motion = gone_along(from[k].motion, before, after, now[next[k].handle]);
+    }
 }
 
 // A frame of a drag that takes handles from their places in `motions` to others. Returns as above, of the
@@ -116,7 +126,7 @@ void Document::drag(const DragLine& line, const std::string& place, Progress& pr
     const std::vector<Moved> from = moved_by(line, motions, place);
     std::vector<Moved> moved = from;
     for (std::size_t f = 0; f < line.frames.size(); ++f) {
-        move(line.frames[f], line.pivot, from, motions, moved);
+        move(line, line.frames[f], from, motions, moved);
         for (const Moved& each : moved) {
             refuse_absurd(each.motion, bounds_.diagonal(), f, place);
             motions[each.handle] = each.motion;
@@ -158,7 +168,7 @@ void Document::settle(const SettleLine& line, Progress& progress) {
 }
 
 void Document::begin_drag(const std::string& handle, const Vec3d& pivot, const std::string& place,
-                          Progress& progress, const std::vector<std::string>& with) {
+                          Progress& progress, const std::vector<Companion>& with) {
     require(!under_way_ && mode_ == Mode::real, "a drag begins when nothing else goes on");
     DragLine line{handle, pivot, {}, with};
     std::vector<Moved> from = moved_by(line, motions_, place);
@@ -175,7 +185,7 @@ double Document::drag_frame(const HandlePose& pose, const std::string& place, Pr
     require(under_way_ && !under_way_->from.empty(), "a frame of a drag follows its begin");
     UnderWay& drag = *under_way_;
     for (Moved& each : drag.before) each.motion = drag.motions[each.handle];
-    move(pose, drag.line.pivot, drag.from, drag.motions, drag.next);
+    move(drag.line, pose, drag.from, drag.motions, drag.next);
     for (const Moved& each : drag.next)
         refuse_absurd(each.motion, bounds_.diagonal(), drag.line.frames.size(), place);
     drag.samples_before = drag.samples; // into the same memory, frame by frame

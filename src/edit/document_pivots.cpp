@@ -94,7 +94,7 @@ void Document::move_pivots(const Posed& posed, std::vector<HandleMotion>& motion
         const HandleMotion &now = posed.moved[k].motion, &before = motions[posed.moved[k].handle];
         if (drag && k == 0)
             pivots[drag->handle] = moved_on(drag->pivot - cloud_.origin, before, now);
-        else if (const auto place = drag ? pivots.find(drag->with[k - 1]) : pivots.end();
+        else if (const auto place = drag ? pivots.find(drag->with[k - 1].handle) : pivots.end();
                  place != pivots.end())
             place->second = moved_on(place->second, before, now);
         motions[posed.moved[k].handle] = now;

@@ -117,20 +117,20 @@ bool is_one_of(const Command& command) {
 bool is_act(const Command& command) {
     return is_one_of<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
                      MakeHandle, RenameHandle, AssignPoints, ChangeRole, ChangeHold, ColorHandle,
-                     DeleteHandle, ResetPose, MirrorHandle, BeginDrag, SetPivot, SetPivotInside,
+                     DeleteHandles, ResetPoses, MirrorHandle, BeginDrag, SetPivot, SetPivotInside,
                      SetPivotToSelection, ChangeSettings, ChooseSamples, CommitPose>(command);
 }
 
 // Whether it goes on from the pose as it is, or makes it the rest shape, or may.
 bool goes_on_from_pose(const Command& command) {
-    return is_one_of<MakeHandle, AssignPoints, ChangeRole, ChangeHold, DeleteHandle, ResetPose, MirrorHandle,
-                     BeginDrag, SetPivot, SetPivotInside, SetPivotToSelection, ChangeSettings, CommitPose>(
-        command);
+    return is_one_of<MakeHandle, AssignPoints, ChangeRole, ChangeHold, DeleteHandles, ResetPoses,
+                     MirrorHandle, BeginDrag, SetPivot, SetPivotInside, SetPivotToSelection, ChangeSettings,
+                     CommitPose>(command);
 }
 
 // Whether it only looks at what is there.
 bool only_looks(const Command& command) {
-    return is_one_of<MoveCamera, FrameView, LookAtSide>(command);
+    return is_one_of<MoveCamera, FrameView, LookAtSide, MirrorMoves>(command);
 }
 
 void decline(Editor& editor, const char* words) {

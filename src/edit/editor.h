@@ -11,6 +11,7 @@
 #include "edit/handle_motion.h"
 #include "edit/kept_marks.h"
 #include "edit/live_document.h"
+#include "edit/reflection.h"
 #include "edit/selecting.h"
 #include "edit/tools.h"
 
@@ -69,10 +70,19 @@ struct EditorDrag {
         std::string handle;
         glm::dvec3 middle{0.0}; // likewise
         CarriedMotion motion;
+        std::optional<Reflection> mirror = {}; // in which it goes along
     };
     std::vector<Along> along; // others that it takes along
     Transform transform;      // so far
     bool ended = false;
+};
+
+// Moves are made on both sides of the cloud. Which handle lies across from which goes by the shape as it was
+// opened: no pose parts two of them.
+struct Symmetry {
+    int axis = 0;                          // 0, 1, 2: across x, y, z
+    double at = 0;                         // along it, relative to the cloud's origin: where the plane lies
+    std::vector<std::string> counterparts; // of what is chosen: they go along, mirrored
 };
 
 struct Editor {
@@ -107,6 +117,7 @@ struct Editor {
         followers;      // of each handle: the points that it moves, or holds; not what others took
     std::string chosen; // the handle with the gizmo, once the document has it; empty: none
     std::vector<std::string> also_chosen;     // moving ones that go along when that is moved
+    std::optional<Symmetry> symmetry;         // nothing: what is moved moves alone
     std::map<std::string, glm::dvec3> pivots; // of the gizmo, by handle, where the user moved them
     std::optional<PivotMove> moved_pivot;     // that the hand is moving
     bool local_axes = false;                  // the gizmo's
@@ -165,6 +176,10 @@ Box3 box_of(const Editor& editor); // of all points as they are now, relative to
 std::optional<Box3> box_of_selection(const Editor& editor); // nothing when nothing is selected
 std::optional<Box3> box_of_chosen(const Editor& editor);    // nothing when no handle is chosen
 const Handle* chosen_handle(const Editor& editor);          // null: none
+// Those that are chosen together, if this is one of them: it first. Else it alone.
+std::vector<std::string> chosen_with(const Editor& editor, const std::string& handle);
+// The same, and the counterparts that go along with them, mirrored.
+std::vector<std::string> moved_with(const Editor& editor, const std::string& handle);
 // Which one a name is for that is asked for now: the one that was just made, whatever is chosen. Null: none,
 // or the document has yet to make it.
 const Handle* handle_to_name(const Editor& editor);

@@ -139,6 +139,18 @@ void carry_out(Editor& editor, const ChooseAlso& command) {
         return say(editor, Notice::Kind::information,
                    quoted(command.handle) + " is no moving handle, so it cannot go along.");
     if (std::erase(editor.also_chosen, command.handle) == 0) editor.also_chosen.push_back(command.handle);
+    find_counterparts(editor);
+}
+
+std::vector<std::string> chosen_with(const Editor& editor, const std::string& handle) {
+    const bool is_one_of_them =
+        handle == editor.chosen || std::ranges::find(editor.also_chosen, handle) != editor.also_chosen.end();
+    std::vector<std::string> handles{handle};
+    if (!is_one_of_them) return handles;
+    if (handle != editor.chosen) handles.push_back(editor.chosen);
+    for (const std::string& other : editor.also_chosen)
+        if (other != handle) handles.push_back(other);
+    return handles;
 }
 
 void carry_out(Editor& editor, const DropChoice& /*command*/) {
@@ -200,11 +212,18 @@ void carry_out(Editor& editor, const ColorHandle& command) {
     edit_handle(editor, {.handle = command.handle, .color = {{command.color}}});
 }
 
-void carry_out(Editor& editor, const DeleteHandle& command) {
-    if (!number_of(editor, command.handle)) return;
-    post_step(editor, {DeleteLine{command.handle}});
-    put_pivot_with(editor.past.back(), editor, command.handle, std::nullopt);
-    editor.just_done = quoted(command.handle) + " is deleted, and its points stay; Ctrl+Z takes it back";
+void carry_out(Editor& editor, const DeleteHandles& command) {
+    std::vector<std::string> handles = command.handles;
+    std::erase_if(handles, [&](const std::string& name) { return !number_of(editor, name); });
+    if (handles.empty()) return;
+    std::vector<SessionAction> lines;
+    for (const std::string& name : handles) lines.emplace_back(DeleteLine{name});
+    post_step(editor, std::move(lines));
+    for (const std::string& name : handles) put_pivot_with(editor.past.back(), editor, name, std::nullopt);
+    const std::string words = handles.size() == 1
+                                  ? knead::quoted(handles[0]) + " is deleted, and its points stay"
+                                  : counted(handles.size(), "handle") + " are deleted, and their points stay";
+    editor.just_done = words + "; Ctrl+Z takes it back";
 }
 
 void carry_out(Editor& editor, const SelectHandlePoints& command) {

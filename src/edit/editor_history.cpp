@@ -57,6 +57,7 @@ void choose(Editor& editor, const std::string& handle) {
     editor.just_made.clear();
     if (const Handle* there = chosen_handle(editor))
         editor.handle_middle = middle_of(editor, *there).value_or(glm::dvec3(0.0));
+    find_counterparts(editor);
 }
 
 void choose_with_step(Editor& editor, const std::string& handle) {

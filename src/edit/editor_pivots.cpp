@@ -4,6 +4,7 @@
 #include "edit/editor_steps.h"
 #include "view/middle_along.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace knead {
@@ -21,6 +22,34 @@ namespace {
 bool is_of_no_line(const Editor& editor, const PivotMove& move) {
     const auto number = number_of(editor, move.handle);
     return !move.after && !has_pending_steps(editor) && number && !editor.document->handles[*number].pivot;
+}
+
+// While moves are mirrored, so are the joints that they go by.
+std::vector<PivotMove> with_counterpart(const Editor& editor, const PivotMove& move) {
+    std::vector<PivotMove> moves{move};
+    if (const auto across = joint_across(editor, move.after.value_or(glm::dvec3(0.0)))) {
+        const std::optional<glm::dvec3> before = pivot_of(editor, across->handle);
+        const std::optional<glm::dvec3> after = move.after ? std::optional(across->pivot) : std::nullopt;
+        if (before != after) moves.push_back({across->handle, before, after});
+    }
+    return moves;
+}
+
+// As one step.
+void put_pivots(Editor& editor, std::vector<PivotMove> moves) {
+    const bool are_of_lines =
+        std::ranges::any_of(moves, [&](const PivotMove& move) { return !is_of_no_line(editor, move); });
+    EditorStep step = coming_step(editor, are_of_lines ? ++editor.last_step : 0);
+    step.chosen_before = step.chosen_after = moves[0].handle;
+    std::vector<PivotPlace> places;
+    for (const PivotMove& move : moves) {
+        put_pivot(editor, move.handle, move.after);
+        places.push_back({move.handle, std::nullopt});
+        if (move.after) places.back().place = to_eigen(*move.after) + editor.opened.cloud->origin;
+    }
+    step.pivots = std::move(moves);
+    if (step.document) editor.live->put_pivots(step.document, std::move(places));
+    add_step(editor, std::move(step));
 }
 
 } // namespace
@@ -52,15 +81,7 @@ void carry_out(Editor& editor, const SetPivot& command) {
     move.after = command.stage == SetPivot::Stage::given_up ? move.before : command.pivot;
     put_pivot(editor, move.handle, move.after);
     if (command.stage == SetPivot::Stage::moving) return;
-    if (move.after != move.before) {
-        EditorStep step = coming_step(editor, is_of_no_line(editor, move) ? 0 : ++editor.last_step);
-        step.chosen_before = step.chosen_after = move.handle;
-        step.pivots.push_back(move);
-        std::optional<Vec3d> place; // in the file's coordinates
-        if (move.after) place = to_eigen(*move.after) + editor.opened.cloud->origin;
-        if (step.document) editor.live->put_pivot(step.document, move.handle, place);
-        add_step(editor, std::move(step));
-    }
+    if (move.after != move.before) put_pivots(editor, with_counterpart(editor, move));
     editor.moved_pivot.reset();
 }
 

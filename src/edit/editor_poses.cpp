@@ -76,25 +76,23 @@ std::optional<Vec3d> pivot_after(const Editor& editor, const std::string& handle
     return after.linear * point_at_rest(before, to_eigen(*pivot)) + after.offset;
 }
 
-// Where the points are in this edit while no handle is moved.
-std::span<const float> rest_positions(const Editor& editor) {
-    if (editor.document->rest) return editor.document->rest->positions;
-    if (editor.document->posed) return editor.opened.opened->positions;
-    return editor.frame.positions();
-}
-
 } // namespace
 
-void carry_out(Editor& editor, const ResetPose& command) {
-    const auto number = number_of(editor, command.handle);
-    if (!number || editor.document->handles[*number].role != HandleRole::moving) return;
-    if (!is_or_will_be_posed(editor)) return;
+void carry_out(Editor& editor, const ResetPoses& command) {
+    std::vector<std::string> handles = command.handles;
+    std::erase_if(handles, [&](const std::string& name) {
+        const auto number = number_of(editor, name);
+        return !number || editor.document->handles[*number].role != HandleRole::moving;
+    });
+    if (handles.empty() || !is_or_will_be_posed(editor)) return;
     EditorStep step = coming_step(editor, ++editor.last_step);
-    editor.live->reset_pose(step.document, command.handle);
+    editor.live->reset_poses(step.document, handles);
     add_step(editor, std::move(step));
-    if (const auto pivot = pivot_of(editor, command.handle)) {
-        const Vec3d at_rest = point_at_rest(motion_now(editor, *number), to_eigen(*pivot));
-        put_pivot_with(editor.past.back(), editor, command.handle, to_glm(at_rest));
+    for (const std::string& name : handles) {
+        const auto pivot = pivot_of(editor, name);
+        if (!pivot) continue;
+        const Vec3d at_rest = point_at_rest(motion_now(editor, *number_of(editor, name)), to_eigen(*pivot));
+        put_pivot_with(editor.past.back(), editor, name, to_glm(at_rest));
     }
 }
 
@@ -125,21 +123,20 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
 
     HandleLine line = twin ? line_of(*twin) : line_of_mirrored(editor, handle, points);
     const std::string name = line.name;
-    const auto across_plane = [&](const Vec3d& p) { return mirrored(p, plane, across.shift); };
+    const Reflection mirror = reflection(plane, across.shift);
     std::optional<Vec3d> pivot; // where it is when all is done
     if (twin && twin->pivot) {
-        pivot = pivot_after(editor, name, motion_now(editor, *number_of(editor, name)),
-                            mirrored(motion, plane, across.shift));
+        pivot =
+            pivot_after(editor, name, motion_now(editor, *number_of(editor, name)), seen_in(mirror, motion));
     } else {
         line.pivot.reset();
         if (const auto own = pivot_of(editor, command.handle)) {
-            pivot = across_plane(to_eigen(*own));
-            line.pivot = across_plane(point_at_rest(motion, to_eigen(*own))) + editor.opened.cloud->origin;
+            pivot = seen_in(mirror, to_eigen(*own));
+            line.pivot = seen_in(mirror, point_at_rest(motion, to_eigen(*own))) + editor.opened.cloud->origin;
         }
     }
     if (is_posed) {
-        PoseOfAnother pose{handle.name,
-                           [=](const HandleMotion& seen) { return mirrored(seen, plane, across.shift); }};
+        PoseOfAnother pose{handle.name, [=](const HandleMotion& seen) { return seen_in(mirror, seen); }};
         EditorStep step = coming_step(editor, ++editor.last_step);
         editor.live->make_posed(step.document, std::move(line), std::move(pose));
         add_step(editor, std::move(step));
@@ -158,6 +155,24 @@ void forget_drag(Editor& editor, StepNumber step) {
     std::erase_if(editor.earlier_drags, [&](const EditorDrag& drag) { return drag.step == step; });
 }
 
+namespace {
+
+// As the document is told of those that go along; of some it may know the names before the editor does.
+std::vector<Companion> companions(const Editor& editor, const EditorDrag& drag, const glm::dvec3& pivot) {
+    std::vector<Companion> companions;
+    for (const EditorDrag::Along& along : drag.along) {
+        companions.push_back({along.handle});
+        if (along.mirror)
+            companions.back().mirror = {along.mirror->normal, seen_in(*along.mirror, to_eigen(pivot)) +
+                                                                  editor.opened.cloud->origin};
+    }
+    for (const std::string& other : editor.also_chosen)
+        if (!number_of(editor, other)) companions.push_back({other});
+    return companions;
+}
+
+} // namespace
+
 void carry_out(Editor& editor, const BeginDrag& command) {
     const auto number = number_of(editor, editor.chosen);
     if (!number || editor.document->handles[*number].role != HandleRole::moving) return;
@@ -168,15 +183,11 @@ void carry_out(Editor& editor, const BeginDrag& command) {
     drag.handle = editor.chosen;
     drag.middle = pose.pivot;
     drag.motion = {pose.motion, pose.motion};
-    for (const std::string& other : editor.also_chosen)
-        if (const auto at = number_of(editor, other)) { // it may be one that has yet to get this name
-            const HandleMotion now = motion_now(editor, *at);
-            drag.along.push_back({other, place_of_gizmo(editor, editor.document->handles[*at]), {now, now}});
-        }
+    drag.along = handles_along(editor, command.pivot);
     EditorStep step = coming_step(editor, drag.step);
     step.is_drag = true;
     editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin,
-                            editor.also_chosen);
+                            companions(editor, drag, command.pivot));
     if (editor.drag) editor.earlier_drags.push_back(std::move(*editor.drag));
     editor.drag = std::move(drag);
     add_step(editor, std::move(step));
@@ -187,8 +198,9 @@ void carry_out(Editor& editor, const DragTo& command) {
     Transform transform = command.transform;
     transform.angle = within_turns(transform.angle);
     carry_on(editor.drag->motion, transform);
-    for (EditorDrag::Along& along : editor.drag->along) carry_on(along.motion, transform);
     editor.drag->transform = transform;
+    for (EditorDrag::Along& along : editor.drag->along)
+        carry_on(along.motion, transform_of(*editor.drag, along));
     editor.live->drag_to(transform);
 }
 
@@ -203,7 +215,8 @@ void carry_out(Editor& editor, const EndDrag& /*command*/) {
         put_pivot_with(*step, editor, editor.drag->handle, middle);
     for (const EditorDrag::Along& along : editor.drag->along)
         if (const auto pivot = pivot_of(editor, along.handle); pivot && step != editor.past.end())
-            put_pivot_with(*step, editor, along.handle, transformed(editor.drag->transform, *pivot));
+            put_pivot_with(*step, editor, along.handle,
+                           transformed(transform_of(*editor.drag, along), *pivot));
     editor.live->end_drag();
 }
 

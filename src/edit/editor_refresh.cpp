@@ -75,6 +75,7 @@ void take_over(Editor& editor) {
     editor.earlier_drags.clear();
     editor.chosen.clear();
     editor.also_chosen.clear();
+    editor.symmetry.reset();
     editor.posted_names.clear();
     editor.just_made.clear();
     editor.pivots.clear();
@@ -170,10 +171,13 @@ bool refresh_view(Editor& editor) {
     auto view = editor.live->view();
     if (view == editor.document) return false;
     const bool other_handles = !hold_the_same(view->handles, editor.document->handles);
+    const bool other_names =
+        !std::ranges::equal(view->handles, editor.document->handles, {}, &Handle::name, &Handle::name);
     editor.document = std::move(view);
     editor.opened.file = editor.document->cloud;
     if (other_handles) mark_handles(editor);
     keep_also_chosen(editor);
+    if (other_handles || other_names) find_counterparts(editor);
     const StepNumber done = editor.document->last_step;
     std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first <= done; });
     for (EditorStep& step : editor.past)

@@ -75,20 +75,33 @@ std::size_t followers_of(const Editor& editor, const Handle& handle) {
     return number < editor.followers.size() ? editor.followers[number] : handle.points->size();
 }
 
-std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle) {
+void for_some_points(const Editor& editor, const Handle& handle, const std::function<void(Index)>& visit) {
     const std::vector<Index>& points = *handle.points;
     const std::size_t stride = std::max<std::size_t>(1, points.size() / enough_for_middle);
-    glm::dvec3 sum(0.0);
+    for (std::size_t k = 0; k < points.size(); k += stride)
+        if (const Index i = editor.ordered[points[k]]; i != no_index) visit(i);
+}
+
+std::optional<Vec3d> middle_in(std::span<const float> positions, const Editor& editor, const Handle& handle) {
+    Vec3d sum = Vec3d::Zero();
     double count = 0;
-    for (std::size_t k = 0; k < points.size(); k += stride) {
-        const Index i = editor.ordered[points[k]];
-        if (i == no_index) continue;
-        const float* p = editor.frame.positions().data() + 3 * std::size_t{i};
-        sum += glm::dvec3(p[0], p[1], p[2]);
+    for_some_points(editor, handle, [&](Index i) {
+        sum += point_at(positions, i);
         ++count;
-    }
+    });
     if (count == 0) return std::nullopt;
     return sum / count;
+}
+
+std::optional<glm::dvec3> middle_of(const Editor& editor, const Handle& handle) {
+    const auto middle = middle_in(editor.frame.positions(), editor, handle);
+    return middle ? std::optional(to_glm(*middle)) : std::nullopt;
+}
+
+std::span<const float> rest_positions(const Editor& editor) {
+    if (editor.document->rest) return editor.document->rest->positions;
+    if (editor.document->posed) return editor.opened.opened->positions;
+    return editor.frame.positions();
 }
 
 namespace {
@@ -109,13 +122,17 @@ bool is_free_place(const Editor& editor, const Handle& handle) {
 
 } // namespace
 
+Transform transform_of(const EditorDrag& drag, const EditorDrag::Along& along) {
+    return along.mirror ? seen_in(*along.mirror, drag.transform) : drag.transform;
+}
+
 namespace {
 
 std::optional<UnansweredMove> moved_by(const EditorDrag& drag, const std::string& handle) {
     if (drag.handle == handle) return UnansweredMove{drag.motion, transformed(drag.transform, drag.middle)};
     const auto along = std::ranges::find(drag.along, handle, &EditorDrag::Along::handle);
     if (along == drag.along.end()) return std::nullopt;
-    return UnansweredMove{along->motion, transformed(drag.transform, along->middle)};
+    return UnansweredMove{along->motion, transformed(transform_of(drag, *along), along->middle)};
 }
 
 } // namespace
@@ -281,6 +298,25 @@ std::string way_to_select(SelectTool tool) {
     return "draw a lasso round";
 }
 
+namespace {
+
+// What goes along with the chosen handle while moves are mirrored.
+std::string words_about_symmetry(const Editor& editor, const Symmetry& symmetry) {
+    const std::size_t mirrored = symmetry.counterparts.size();
+    const std::size_t all = moved_with(editor, editor.chosen).size() - 1;
+    if (all == 0)
+        return quoted(editor.chosen) + " moves alone: no moving handle lies across " + "xyz"[symmetry.axis] +
+               " from it. Mirror makes one.";
+    if (all == 1 && mirrored == 1)
+        return quoted(symmetry.counterparts[0]) + " does what " + quoted(editor.chosen) +
+               " does, mirrored: press G, R or S, or drag the gizmo.";
+    return quoted(editor.chosen) + " takes " + counted(all, "handle") + " along, " +
+           (mirrored == 0 ? "none" : std::to_string(mirrored)) +
+           " of them mirrored: press G, R or S, or drag the gizmo.";
+}
+
+} // namespace
+
 std::string next_step(const Editor& editor) {
     if (!editor.document) return {};
     const auto& handles = editor.document->handles;
@@ -306,6 +342,7 @@ std::string next_step(const Editor& editor) {
     if (editor.tools.move_pivot)
         return "Click where the joint is: the pivot goes inside. Or drag the gizmo's arrows. Press . to move "
                "the handle again.";
+    if (editor.symmetry) return words_about_symmetry(editor, *editor.symmetry);
     if (!editor.also_chosen.empty())
         return quoted(editor.chosen) + " takes " + counted(editor.also_chosen.size(), "handle") +
                " along: press G, R or S, or drag the gizmo. A click in the list chooses one alone.";

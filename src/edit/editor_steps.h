@@ -6,6 +6,7 @@
 #include "edit/view_vectors.h"
 
 #include <functional>
+#include <span>
 
 namespace knead {
 
@@ -99,6 +100,28 @@ struct UnansweredMove {
 std::optional<UnansweredMove> unanswered_move(const Editor& editor, const std::string& handle);
 // Where the gizmo of a handle stands, or would if it were chosen.
 glm::dvec3 place_of_gizmo(const Editor& editor, const Handle& handle);
+// What the hand does to one that goes along.
+Transform transform_of(const EditorDrag& drag, const EditorDrag::Along& along);
+
+// Where the points are in this edit while no handle is moved: 3n, in the order of computation.
+std::span<const float> rest_positions(const Editor& editor);
+// Calls visit(i) for some of a handle's points, all over it: the place of each in the order.
+void for_some_points(const Editor& editor, const Handle& handle, const std::function<void(Index)>& visit);
+// The middle of a handle's points in a shape, as above; nothing for one without a finite point.
+std::optional<Vec3d> middle_in(std::span<const float> positions, const Editor& editor, const Handle& handle);
+
+// Looks for the counterparts of what is chosen, after another is chosen or the handles have changed.
+void find_counterparts(Editor& editor);
+// Where the joint of the chosen handle's counterpart is when that of the chosen one is at `pivot`, both as
+// they are now; none: there is no counterpart.
+struct JointAcross {
+    std::string handle;
+    glm::dvec3 pivot{0.0};
+};
+std::optional<JointAcross> joint_across(const Editor& editor, const glm::dvec3& pivot);
+// The handles that go along in a drag of the chosen handle about `pivot`.
+std::vector<EditorDrag::Along> handles_along(const Editor& editor, const glm::dvec3& pivot);
+
 // One that is none any more.
 void forget_drag(Editor& editor, StepNumber step);
 
@@ -114,13 +137,14 @@ void carry_out(Editor& editor, const AdvancePlaying& command);
 void carry_out(Editor& editor, const MakeHandle& command);
 void carry_out(Editor& editor, const ChooseHandle& command);
 void carry_out(Editor& editor, const ChooseAlso& command);
+void carry_out(Editor& editor, const MirrorMoves& command);
 void carry_out(Editor& editor, const RenameHandle& command);
 void carry_out(Editor& editor, const AssignPoints& command);
 void carry_out(Editor& editor, const ChangeRole& command);
 void carry_out(Editor& editor, const ChangeHold& command);
 void carry_out(Editor& editor, const ColorHandle& command);
-void carry_out(Editor& editor, const DeleteHandle& command);
-void carry_out(Editor& editor, const ResetPose& command);
+void carry_out(Editor& editor, const DeleteHandles& command);
+void carry_out(Editor& editor, const ResetPoses& command);
 void carry_out(Editor& editor, const MirrorHandle& command);
 void carry_out(Editor& editor, const SelectHandlePoints& command);
 void carry_out(Editor& editor, const DropChoice& command);

@@ -12,6 +12,7 @@
 #include "io/digest.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace knead {
@@ -89,17 +90,25 @@ void LiveWork::carry_out(task::EditHandle& task) {
     carry_out(lines);
 }
 
-void LiveWork::carry_out(task::PutPivot& task) {
-    task::EditHandle edit{task.step, {.handle = task.handle}};
-    std::optional<Vec3d>& at_rest = edit.edit.pivot.emplace().at_rest;
+HandleEdit LiveWork::edit_for(const PivotPlace& pivot) const {
+    HandleEdit edit{.handle = pivot.handle};
+    std::optional<Vec3d>& at_rest = edit.pivot.emplace().at_rest;
     const std::vector<Handle>& handles = document_->handles();
-    const auto handle = std::ranges::find(handles, task.handle, &Handle::name);
-    if (task.place && handle != handles.end()) {
+    const auto handle = std::ranges::find(handles, pivot.handle, &Handle::name);
+    if (pivot.place && handle != handles.end()) {
         const HandleMotion& motion = document_->motions()[static_cast<std::size_t>(handle - handles.begin())];
         const Vec3d& origin = document_->cloud().origin;
-        at_rest = point_at_rest(motion, *task.place - origin) + origin;
+        at_rest = point_at_rest(motion, *pivot.place - origin) + origin;
     }
-    carry_out(edit);
+    return edit;
+}
+
+void LiveWork::carry_out(task::PutPivots& task) {
+    task::Lines lines{task.step, {}, false};
+    for (const PivotPlace& pivot : task.places)
+        std::ranges::move(lines_for(document_->handles(), edit_for(pivot)), std::back_inserter(lines.lines));
+    if (lines.lines.empty()) return refuse(task.step);
+    carry_out(lines);
 }
 
 void LiveWork::carry_out(task::MakePosed& task) {
@@ -122,15 +131,25 @@ void LiveWork::carry_out(task::MakePosed& task) {
     carry_out(lines);
 }
 
-void LiveWork::carry_out(task::ResetPose& task) {
-    DragLine back;
+// Of each that is not at rest a drag back there.
+std::vector<SessionAction> LiveWork::ways_back(const std::vector<std::string>& handles) {
+    std::vector<SessionAction> lines;
+    for (const std::string& name : handles) {
+        const std::vector<HandleMotion> way = document_->way_of(name);
+        if (is_back(way)) continue;
+        const auto handle = std::ranges::find(document_->handles(), name, &Handle::name);
+        lines.emplace_back(way_back(name, way, middle_at_rest(*document_, ranges_of(*handle->points)),
+                                    document_->cloud().origin));
+    }
+    return lines;
+}
+
+void LiveWork::carry_out(task::ResetPoses& task) {
+    task::Lines lines{task.step, {}, false};
     try {
         finish_settling();
-        const std::vector<HandleMotion> way = document_->way_of(task.handle);
-        if (is_back(way)) return refuse(task.step);
-        const auto handle = std::ranges::find(document_->handles(), task.handle, &Handle::name);
-        back = way_back(task.handle, way, middle_at_rest(*document_, ranges_of(*handle->points)),
-                        document_->cloud().origin);
+        lines.lines = ways_back(task.handles);
+        if (lines.lines.empty()) return refuse(task.step);
     } catch (...) {
         refuse(task.step);
         throw;
@@ -138,7 +157,6 @@ void LiveWork::carry_out(task::ResetPose& task) {
     // What was wound up is seen to unwind.
     document_->on_frame = [this] { publish_shape(false); };
     try {
-        task::Lines lines{task.step, {std::move(back)}, false};
         carry_out(lines);
     } catch (...) {
         document_->on_frame = nullptr;

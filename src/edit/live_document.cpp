@@ -74,8 +74,8 @@ void LiveDocument::edit_handle(StepNumber step, HandleEdit edit) {
     put(*shared_, task::EditHandle{step, std::move(edit)});
 }
 
-void LiveDocument::put_pivot(StepNumber step, std::string handle, std::optional<Vec3d> place) {
-    put(*shared_, task::PutPivot{step, std::move(handle), place});
+void LiveDocument::put_pivots(StepNumber step, std::vector<PivotPlace> places) {
+    put(*shared_, task::PutPivots{step, std::move(places)});
 }
 
 void LiveDocument::make_posed(StepNumber step, HandleLine line, PoseOfAnother pose) {
@@ -86,8 +86,7 @@ void LiveDocument::choose_samples(bool by_itself) {
     put(*shared_, task::ChooseSamples{by_itself});
 }
 
-void LiveDocument::begin_drag(StepNumber step, std::string handle, Vec3d pivot,
-                              std::vector<std::string> with) {
+void LiveDocument::begin_drag(StepNumber step, std::string handle, Vec3d pivot, std::vector<Companion> with) {
     put(*shared_, task::BeginDrag{step, std::move(handle), std::move(pivot), std::move(with)});
 }
 
@@ -111,8 +110,8 @@ void LiveDocument::cancel_drag() {
     });
 }
 
-void LiveDocument::reset_pose(StepNumber step, std::string handle) {
-    put(*shared_, task::ResetPose{step, std::move(handle)});
+void LiveDocument::reset_poses(StepNumber step, std::vector<std::string> handles) {
+    put(*shared_, task::ResetPoses{step, std::move(handles)});
 }
 
 void LiveDocument::undo(StepNumber step, bool to_look) {

@@ -115,6 +115,12 @@ struct OpenedCloud {
     std::vector<std::vector<Document::PivotMove>> pivot_moves = {};
 };
 
+// Where a handle's joint is to be, in the file's coordinates; nothing: it has none of its own.
+struct PivotPlace {
+    std::string handle;
+    std::optional<Vec3d> place;
+};
+
 // What is saved with a cloud beside its own attributes.
 struct SaveColumns {
     bool displacement = false; // "displacement", of each point from where it was opened
@@ -206,9 +212,8 @@ public:
     // then, or is so already, the step counts as refused without words.
     void edit_handle(StepNumber step, HandleEdit edit);
 
-    // Puts a handle's joint where it is to be when its turn comes, in the file's coordinates; nothing: the
-    // handle has none of its own. Else as edit_handle().
-    void put_pivot(StepNumber step, std::string handle, std::optional<Vec3d> place);
+    // Puts handles' joints where they are to be when their turn comes. Else as edit_handle().
+    void put_pivots(StepNumber step, std::vector<PivotPlace> places);
 
     // Makes a handle, whose line has points, or takes the one that it declares as it is, and poses it like
     // another one.
@@ -222,7 +227,7 @@ public:
     // A drag of a moving handle: frames go on until end_drag(), the newest pose first. `pivot` is in the
     // file's coordinates.
     // `with`: other moving handles, which go along (DragLine::with).
-    void begin_drag(StepNumber step, std::string handle, Vec3d pivot, std::vector<std::string> with = {});
+    void begin_drag(StepNumber step, std::string handle, Vec3d pivot, std::vector<Companion> with = {});
     void drag_to(const Transform& transform); // on top of the handle's pose at begin_drag()
     void end_drag();
     // Whether whoever draws can move the points itself (upsample/drawing.h), and needs no positions while a
@@ -232,8 +237,8 @@ public:
     void draw_drags_on_device(bool yes);
     void cancel_drag(); // as if it had not begun; its step counts as refused without words
 
-    // Takes a handle back to where it was at rest in this edit, unwinding its turns.
-    void reset_pose(StepNumber step, std::string handle);
+    // Takes handles back to where they were at rest in this edit, unwinding their turns.
+    void reset_poses(StepNumber step, std::vector<std::string> handles);
 
     // Takes the last step back, or does it again. `step` is its number, so that nothing happens if it was
     // refused meanwhile. `to_look`: the journal has the step as done until something else is recorded; and

@@ -11,7 +11,7 @@ struct LiveDrag {
     Vec3d pivot = Vec3d::Zero();           // in the file's coordinates
     HandleMotion base;                     // the pose when it began
     Vec3d origin = Vec3d::Zero();          // the cloud's
-    std::vector<std::string> with = {};    // others that go along
+    std::vector<Companion> with = {};      // others that go along
     std::optional<WantedPose> wanted = {}; // the newest pose of the hand
     Transform shown = {};                  // how far it was followed
     std::size_t frames = 0;                // computed so far

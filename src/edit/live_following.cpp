@@ -42,7 +42,7 @@ bool LiveWork::moves(const std::string& handle) const {
 void LiveWork::carry_out(task::BeginDrag& task) {
     try {
         finish_settling();
-        std::erase_if(task.with, [&](const std::string& name) { return !moves(name); });
+        std::erase_if(task.with, [&](const Companion& companion) { return !moves(companion.handle); });
         document_->begin_drag(task.handle, task.pivot, "", progress_, task.with);
         document_->make_spare_shapes();
         const auto& handles = document_->handles();

@@ -129,7 +129,7 @@ template<typename WordsAbout>
 std::string first_words(const Document& document, const DragLine& drag, WordsAbout&& words_about) {
     std::string words = words_about(document, drag.handle);
     for (auto other = drag.with.begin(); other != drag.with.end() && words.empty(); ++other)
-        words = words_about(document, *other);
+        words = words_about(document, other->handle);
     return words;
 }
 

@@ -1,5 +1,6 @@
 #include "edit/live_recording.h"
 
+#include "base/counts.h"
 #include "base/error.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"
@@ -42,7 +43,8 @@ struct WordsAboutAct {
     std::string operator()(const HandleLine& line) const { return words_about(line, handles); }
     std::string operator()(const DragLine& line) const {
         if (line.with.empty()) return quoted(line.handle) + " posed";
-        if (line.with.size() == 1) return quoted(line.handle) + " and " + quoted(line.with[0]) + " posed";
+        if (line.with.size() == 1)
+            return quoted(line.handle) + " and " + quoted(line.with[0].handle) + " posed";
         return quoted(line.handle) + " and " + std::to_string(line.with.size()) + " more posed";
     }
     std::string operator()(const SettleLine& /*line*/) const { return "settled"; }
@@ -165,6 +167,12 @@ LiveRecording::Coming LiveRecording::coming(SessionAction act, bool joins_step,
     Act made{joins_step && !past_.empty(), std::holds_alternative<SetLine>(act), 0,
              std::visit(WordsAboutAct{handles}, act)};
     if (made.words.empty()) made.words = made.joins ? last_words() : "a handle as it was";
+    made.kind = act.index();
+    if (made.joins && past_.back().kind == made.kind) made.alike = past_.back().alike + 1;
+    if (made.alike > 1 && std::holds_alternative<DeleteLine>(act))
+        made.words = counted(made.alike, "handle") + " deleted";
+    if (made.alike > 1 && std::holds_alternative<DragLine>(act))
+        made.words = counted(made.alike, "handle") + " posed";
     return {std::move(act), std::move(made)};
 }
 

@@ -124,6 +124,8 @@ private:
         std::uint64_t number = 0; // from 1
         std::string words = {};
         std::size_t frames = 0; // of a drag
+        std::size_t kind = 0;   // of its line
+        std::size_t alike = 1;  // acts of the step up to it that are of that kind, one after the other
     };
     std::vector<Act> past_, future_;
     std::uint64_t last_number_ = 0;

@@ -27,10 +27,9 @@ struct EditHandle {
     StepNumber step = 0;
     HandleEdit edit;
 };
-struct PutPivot {
+struct PutPivots {
     StepNumber step = 0;
-    std::string handle;
-    std::optional<Vec3d> place;
+    std::vector<PivotPlace> places;
 };
 struct MakePosed {
     StepNumber step = 0;
@@ -41,15 +40,15 @@ struct BeginDrag {
     StepNumber step = 0;
     std::string handle;
     Vec3d pivot = Vec3d::Zero();
-    std::vector<std::string> with = {};
+    std::vector<Companion> with = {};
 };
 struct EndDrag {
     std::optional<WantedPose> last; // not followed yet
 };
 struct CancelDrag {};
-struct ResetPose {
+struct ResetPoses {
     StepNumber step = 0;
-    std::string handle;
+    std::vector<std::string> handles;
 };
 struct Undo {
     StepNumber step = 0;
@@ -74,8 +73,8 @@ struct SaveSession {
 };
 } // namespace task
 using LiveTask =
-    std::variant<task::ChooseSamples, task::Lines, task::EditHandle, task::PutPivot, task::MakePosed,
-                 task::BeginDrag, task::EndDrag, task::CancelDrag, task::ResetPose, task::Undo, task::Redo,
+    std::variant<task::ChooseSamples, task::Lines, task::EditHandle, task::PutPivots, task::MakePosed,
+                 task::BeginDrag, task::EndDrag, task::CancelDrag, task::ResetPoses, task::Undo, task::Redo,
                  task::Play, task::SaveCloud, task::SaveSession>;
 
 // How a step is played.

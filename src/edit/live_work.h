@@ -55,9 +55,11 @@ private:
     };
     void carry_out_line(const SessionAction& line, bool joins, bool pose_is_seen, StepSoFar& step);
     void carry_out(task::EditHandle& task);
-    void carry_out(task::PutPivot& task);
+    HandleEdit edit_for(const PivotPlace& pivot) const;
+    void carry_out(task::PutPivots& task);
     void carry_out(task::MakePosed& task);
-    void carry_out(task::ResetPose& task);
+    std::vector<SessionAction> ways_back(const std::vector<std::string>& handles);
+    void carry_out(task::ResetPoses& task);
     void carry_out(task::Undo& task);
     void carry_out(task::Redo& task);
     void carry_out(task::SaveCloud& task);

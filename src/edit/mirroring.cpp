@@ -142,17 +142,9 @@ MirrorPlane mirror_plane(std::span<const float> positions, int axis, double spac
     return best;
 }
 
-HandleMotion mirrored(const HandleMotion& motion, const MirrorPlane& plane, const Vec3d& shift) {
-    Mat3d flip = Mat3d::Identity();
-    flip(plane.axis, plane.axis) = -1;
-    Vec3d place = shift; // where the origin's image stands
-    place[plane.axis] += 2 * plane.at;
-    HandleMotion result;
-    result.linear = flip * motion.linear * flip;
-    result.offset = flip * motion.offset + place - result.linear * place;
-    Vec3d turn = -(flip * motion.rotation.vec()); // an axial vector
-    result.rotation = Quatd(motion.rotation.w(), turn.x(), turn.y(), turn.z());
-    return result;
+Reflection reflection(const MirrorPlane& plane, const Vec3d& shift) {
+    const Vec3d normal = Vec3d::Unit(plane.axis);
+    return {normal, shift + 2 * plane.at * normal};
 }
 
 namespace {
@@ -249,11 +241,6 @@ PartAcross part_across(const Editor& editor, std::span<const float> positions, c
     std::vector<Index> shifted = points_across(part, plane, shift, reach);
     if (shifted.size() > across.points.size()) across = {std::move(shifted), shift};
     return across;
-}
-
-Vec3d mirrored(Vec3d place, const MirrorPlane& plane, const Vec3d& shift) {
-    place[plane.axis] = 2 * plane.at - place[plane.axis];
-    return place + shift;
 }
 
 } // namespace knead

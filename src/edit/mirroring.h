@@ -1,9 +1,9 @@
 #pragma once
-// The other side of a cloud: where the plane lies across which it is most like its own mirror image, what a
-// motion looks like in that mirror, and which points are a handle's there.
+// The other side of a cloud: where the plane lies across which it is most like its own mirror image, and
+// which points are a handle's there.
 
-#include "deform/sample_system.h"
 #include "edit/editor.h"
+#include "edit/reflection.h"
 
 #include <span>
 #include <vector>
@@ -35,10 +35,7 @@ struct PartAcross {
 PartAcross part_across(const Editor& editor, std::span<const float> positions, const Handle& handle,
                        const MirrorPlane& plane, double reach);
 
-// The motion seen in the mirror, of what stands so far off there: p → T F M(F T⁻¹ p), with F the reflection
-// and T the shift.
-HandleMotion mirrored(const HandleMotion& motion, const MirrorPlane& plane, const Vec3d& shift);
-// And a place: T F p.
-Vec3d mirrored(Vec3d place, const MirrorPlane& plane, const Vec3d& shift);
+// What shows what stands so far off there: p → F p + shift, with F the reflection across the plane.
+Reflection reflection(const MirrorPlane& plane, const Vec3d& shift);
 
 } // namespace knead

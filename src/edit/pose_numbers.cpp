@@ -113,4 +113,23 @@ Transform transform_to(const HandleMotion& motion, const Vec3d& pivot, PoseRow r
     return transform;
 }
 
+Transform unmoved(const HandleMotion& motion, const Vec3d& pivot) {
+    Transform transform;
+    transform.pivot = to_glm(pivot);
+    transform.shift = -to_glm(numbers_of(motion, pivot).moved);
+    return transform;
+}
+
+Transform unscaled(const HandleMotion& motion, const Vec3d& pivot) {
+    Transform transform;
+    transform.pivot = to_glm(pivot);
+    if (is_sheared(motion)) {
+        map_by(motion.rotation.toRotationMatrix() * motion.linear.inverse(), transform);
+    } else {
+        transform.scale = to_glm(Vec3d(motion.linear.colwise().norm().cwiseInverse()));
+        transform.axes = to_glm(motion.rotation);
+    }
+    return transform;
+}
+
 } // namespace knead

@@ -29,4 +29,8 @@ double number_in(const PoseNumbers& numbers, PoseRow row, int axis); // axis: 0 
 // own turns a little with a factor.
 Transform transform_to(const HandleMotion& motion, const Vec3d& pivot, PoseRow row, int axis, double value);
 
+// The ones that take all of a move or of a scaling back, sheared or not, and leave the rest as it is.
+Transform unmoved(const HandleMotion& motion, const Vec3d& pivot);
+Transform unscaled(const HandleMotion& motion, const Vec3d& pivot);
+
 } // namespace knead

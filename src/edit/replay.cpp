@@ -186,7 +186,7 @@ private:
         if (options_.rehearse) return;
         add_warning(words_about(document.pipeline().strays()));
         std::vector<std::string> dragged{line.handle};
-        dragged.insert(dragged.end(), line.with.begin(), line.with.end());
+        for (const Companion& companion : line.with) dragged.push_back(companion.handle);
         for (const std::string& handle : dragged)
             for (const std::string& words :
                  {words_about_swallowed(document, handle), words_about_loose(document, handle)})

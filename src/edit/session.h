@@ -119,13 +119,21 @@ struct HandleLine {
     // in the file's coordinates. Nothing: its middle.
     std::optional<Vec3d> pivot = {};
 };
+// Another moving handle that goes along in a drag: what takes the dragged one from where it was before to a
+// frame's pose takes this one from where it was; or what a mirror shows of that does.
+struct Companion {
+    std::string handle;
+    struct Mirror {
+        Vec3d across; // the normal of its plane, of any length but 0
+        Vec3d pivot;  // where the drag's pivot is in it
+    };
+    std::optional<Mirror> mirror = {};
+};
 struct DragLine {
     std::string handle;
     Vec3d pivot = Vec3d::Zero();
-    std::vector<HandlePose> frames; // at least one
-    // Other moving handles that go along: what takes `handle` from where it was before the drag to a frame's
-    // pose takes them from where they were. Each once.
-    std::vector<std::string> with = {};
+    std::vector<HandlePose> frames;   // at least one
+    std::vector<Companion> with = {}; // each handle once
 };
 struct SettleLine {
     unsigned iterations = 0;

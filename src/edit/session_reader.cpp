@@ -143,23 +143,31 @@ HandlePose read_frame(const Value& frame) {
     return pose;
 }
 
-std::vector<std::string> read_others(const Value& list, const std::string& handle) {
-    std::vector<std::string> names;
+Companion read_companion(const Value& entry) {
+    if (!entry.json->is_object()) return {text_not_empty(entry)};
+    allow_keys(entry, {"handle", "across", "pivot"});
+    return {text_not_empty(member(entry, "handle")),
+            Companion::Mirror{direction(member(entry, "across")), vector(member(entry, "pivot"))}};
+}
+
+std::vector<Companion> read_companions(const Value& list, const std::string& handle) {
+    std::vector<Companion> companions;
     std::set<std::string> dragged{handle};
     const std::size_t count = length_of_list(list);
     for (std::size_t i = 0; i < count; ++i) {
         const Value entry = element(list, i);
-        names.push_back(text_not_empty(entry));
-        if (!dragged.insert(names.back()).second) refuse(entry, "names a handle that is dragged already");
+        companions.push_back(read_companion(entry));
+        if (!dragged.insert(companions.back().handle).second)
+            refuse(entry, "names a handle that is dragged already");
     }
-    return names;
+    return companions;
 }
 
 DragLine read_drag(const Value& line) {
     allow_keys(line, {"op", "handle", "pivot", "frames", "with"});
     DragLine drag;
     drag.handle = text_not_empty(member(line, "handle"));
-    if (const auto with = optional_member(line, "with")) drag.with = read_others(*with, drag.handle);
+    if (const auto with = optional_member(line, "with")) drag.with = read_companions(*with, drag.handle);
     if (const auto pivot = optional_member(line, "pivot")) drag.pivot = vector(*pivot);
     const Value frames = member(line, "frames");
     const std::size_t count = length_of_list(frames);

@@ -197,13 +197,20 @@ void append_line(std::string& text, const HandleLine& line) {
     if (line.pivot) append_vector(key(text, "pivot"), *line.pivot);
 }
 
-// Those that go along.
-void append_names(std::string& text, const std::vector<std::string>& names) {
-    if (names.empty()) return;
+void append_companion(std::string& text, const Companion& companion) {
+    if (!companion.mirror) return append_text(text, companion.handle);
+    append_text(text += "{\"handle\":", companion.handle);
+    append_vector(key(text, "across"), companion.mirror->across);
+    append_vector(key(text, "pivot"), companion.mirror->pivot);
+    text += '}';
+}
+
+void append_companions(std::string& text, const std::vector<Companion>& companions) {
+    if (companions.empty()) return;
     char separator = '[';
     key(text, "with");
-    for (const std::string& name : names) {
-        append_text(text += separator, name);
+    for (const Companion& companion : companions) {
+        append_companion(text += separator, companion);
         separator = ',';
     }
     text += ']';
@@ -212,7 +219,7 @@ void append_names(std::string& text, const std::vector<std::string>& names) {
 void append_line(std::string& text, const DragLine& line) {
     append_text(key(text, "handle"), line.handle);
     append_vector(key(text, "pivot"), line.pivot);
-    append_names(text, line.with);
+    append_companions(text, line.with);
     char separator = '[';
     key(text, "frames");
     for (const HandlePose& frame : line.frames) {

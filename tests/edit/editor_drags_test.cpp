@@ -44,7 +44,7 @@ TEST_F(BarEditor, KnowsThePoseOfDragsThatTheDocumentHasNotAnswered) {
     calm();
     EXPECT_FALSE(poses_may_change(editor_));
     EXPECT_NEAR(turned(editor_), 300, 1e-6);
-    apply(editor_, ResetPose{"high"});
+    apply(editor_, ResetPoses{{"high"}});
     EXPECT_TRUE(poses_may_change(editor_));
     calm();
     EXPECT_EQ(turned(editor_), 0);
@@ -108,7 +108,7 @@ TEST_F(TwoChosen, AreMovedTogetherInOneStep) {
     for (const char* name : {"high", "middle"})
         EXPECT_NEAR(motion_of_handle(name).turned.z(), std::numbers::pi / 6, 1e-6) << name;
     EXPECT_EQ(editor_.also_chosen, std::vector<std::string>{"middle"}) << "they still go together";
-    apply(editor_, ResetPose{"middle"});
+    apply(editor_, ResetPoses{{"middle"}});
     calm();
     EXPECT_FALSE(leaves_rest(motion_of_handle("middle")));
     EXPECT_NEAR(motion_of_handle("high").turned.z(), std::numbers::pi / 6, 1e-6);
@@ -155,7 +155,7 @@ TEST_F(TwoChosen, MoveTogetherUnderANameThatIsYetToCome) {
     turn_by(editor_, 30);
     calm();
     EXPECT_NEAR(motion_of_handle("belt").turned.z(), std::numbers::pi / 6, 1e-6);
-    apply(editor_, DeleteHandle{"belt"});
+    apply(editor_, DeleteHandles{{"belt"}});
     turn_by(editor_, 30);
     calm();
     EXPECT_NEAR(motion_of_handle("high").turned.z(), std::numbers::pi / 6, 1e-6) << "without the other";
@@ -176,7 +176,7 @@ TEST_F(TwoChosen, UntilTheyAreNoLonger) {
     apply(editor_, ChooseAlso{"belt"});
     EXPECT_TRUE(also().empty());
     apply(editor_, ChooseAlso{"belt"});
-    apply(editor_, DeleteHandle{"belt"});
+    apply(editor_, DeleteHandles{{"belt"}});
     calm();
     EXPECT_TRUE(also().empty());
     turn_by(editor_, 30);
@@ -192,7 +192,7 @@ TEST_F(BarEditor, ResetsAndMirrorsAPoseThatTheDocumentHasNotAnswered) {
     apply(editor_, ChooseHandle{"high"});
     calm();
     turn_by(editor_, 30);
-    apply(editor_, ResetPose{"high"});
+    apply(editor_, ResetPoses{{"high"}});
     calm();
     EXPECT_EQ(editor_.past.size(), 4U + 2U) << "two selections and handles, a turn and its way back";
     EXPECT_EQ(turned(editor_), 0);

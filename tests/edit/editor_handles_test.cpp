@@ -59,7 +59,7 @@ TEST_F(BarEditor, AnActCountsForTheHandlesThatThereAreWhenItsTurnComes) {
         const auto found = std::ranges::find(handles, name, &Handle::name);
         return found == handles.end() ? nullptr : &*found;
     };
-    apply(editor_, DeleteHandle{"lowest"}); // the editor has not seen any of these when the next comes
+    apply(editor_, DeleteHandles{{"lowest"}}); // the editor has not seen any of these when the next comes
     apply(editor_, ChangeRole{"low", HandleRole::moving});
     calm();
     EXPECT_EQ(named("lowest"), nullptr) << "it was deleted before";

@@ -28,7 +28,7 @@ TEST_F(BarEditor, UndoAndRedoBringTheChosenHandleBack) {
     apply(editor_, UndoStep{});
     calm();
     EXPECT_EQ(editor_.chosen, "belt");
-    apply(editor_, DeleteHandle{"belt"});
+    apply(editor_, DeleteHandles{{"belt"}});
     calm();
     EXPECT_FALSE(chosen_handle(editor_));
     apply(editor_, UndoStep{});
@@ -54,7 +54,7 @@ TEST_F(BarEditor, SaysWhatIsTakenBackAndDoneAgain) {
     select_heights(-1, 1);
     EXPECT_EQ(editor_.just_done, "");
     EXPECT_EQ(words_of_undo(editor_), "other points selected or hidden");
-    apply(editor_, DeleteHandle{"high"});
+    apply(editor_, DeleteHandles{{"high"}});
     EXPECT_EQ(editor_.just_done, R"("high" is deleted, and its points stay; Ctrl+Z takes it back)");
     calm();
     apply(editor_, UndoStep{});
@@ -97,7 +97,7 @@ TEST_F(BarEditor, ResettingAPoseOfAWholeTurnUnwindsIt) {
     make_handles();
     const LineArray<float> rest = editor_.frame.positions();
     transform_chosen('R', 'Z', "360");
-    apply(editor_, ResetPose{"high"});
+    apply(editor_, ResetPoses{{"high"}});
     calm();
     ASSERT_EQ(editor_.frame.positions().size(), rest.size());
     float farthest = 0;
@@ -203,7 +203,7 @@ TEST_F(BarEditor, DeletingAHandleThatIsGoneCommitsNothing) {
     apply(editor_, MakeHandle{HandleRole::moving, "third"});
     calm();
     apply(editor_, UndoStep{});
-    apply(editor_, DeleteHandle{"third"});
+    apply(editor_, DeleteHandles{{"third"}});
     calm();
     EXPECT_TRUE(editor_.document->posed);
     ASSERT_TRUE(can_redo(editor_));
@@ -356,8 +356,9 @@ TEST_F(BarEditor, PlayingAStepIsDoingItAgain) {
     SettingsChange samples;
     samples.samples = 500;
     EXPECT_TRUE(poses_may_change(editor_));
-    for (const Command& from_pose : {Command(CommitPose{}), Command(ChangeSettings{samples}),
-                                     Command(BeginDrag{}), Command(ResetPose{"high"}), Command(SetPivot{})}) {
+    for (const Command& from_pose :
+         {Command(CommitPose{}), Command(ChangeSettings{samples}), Command(BeginDrag{}),
+          Command(ResetPoses{{"high"}}), Command(SetPivot{})}) {
         apply(editor_, from_pose);
         EXPECT_EQ(editor_.past.size(), steps) << "it would take another pose than is shown";
         EXPECT_FALSE(editor_.drag);

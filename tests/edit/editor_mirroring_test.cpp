@@ -190,7 +190,7 @@ TEST_F(BarEditor, MirrorsAPoseInTheShapeThatWasCommitted) {
     transform_chosen('G', 'Z', "3");
     press(Key::enter); // committed
     calm();
-    apply(editor_, DeleteHandle{"whole"});
+    apply(editor_, DeleteHandles{{"whole"}});
     calm();
     apply(editor_, FrameView{});
     select_heights(2.5, 3.5); // the middle of the bar is at 3 now

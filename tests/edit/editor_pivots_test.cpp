@@ -65,7 +65,7 @@ TEST_F(BarEditor, EveryHandleKeepsItsPivotAndTakesItAlong) {
     EXPECT_LT(glm::distance(at("high"), joint), 1e-9);
     transform_chosen('G', 'Z', "1");
     EXPECT_LT(glm::distance(at("high"), joint + glm::dvec3(0, 0, 1)), 1e-9) << "it goes along";
-    apply(editor_, ResetPose{"high"});
+    apply(editor_, ResetPoses{{"high"}});
     calm();
     EXPECT_LT(glm::distance(at("high"), joint), 1e-9);
     apply(editor_, UndoStep{});
@@ -183,7 +183,7 @@ TEST_F(BarEditor, AHandleOfANameThatWasBeginsWithNoPivot) {
         return gizmo_of(editor_)->center;
     };
     apply(editor_, SetPivot{elsewhere});
-    apply(editor_, DeleteHandle{"high"});
+    apply(editor_, DeleteHandles{{"high"}});
     calm();
     select_heights(2, 3);
     apply(editor_, MakeHandle{HandleRole::moving, "high"});
@@ -222,7 +222,7 @@ TEST_F(BarEditor, ANewHandleOfAnOldNameHasNoPivotWhenOpenedAgain) {
     editor_.pivots["high"] = {0.5, 0, 1.5}; // as an older session had it, which told of none
     turn_chosen("30");
     apply(editor_, CommitPose{});
-    apply(editor_, DeleteHandle{"high"});
+    apply(editor_, DeleteHandles{{"high"}});
     select_heights(-0.5, 0.5);
     apply(editor_, MakeHandle{HandleRole::moving, "high"});
     calm();
@@ -238,12 +238,12 @@ TEST_F(BarEditor, AResetThatIsGivenTwiceIsOne) {
     apply(editor_, SetPivot{joint});
     turn_chosen("360");
     const std::size_t steps = editor_.past.size();
-    apply(editor_, ResetPose{"high"});
-    apply(editor_, ResetPose{"high"});
+    apply(editor_, ResetPoses{{"high"}});
+    apply(editor_, ResetPoses{{"high"}});
     calm();
     EXPECT_EQ(editor_.past.size(), steps + 1);
     EXPECT_LT(glm::distance(*pivot_of(editor_, "high"), joint), 1e-9);
-    apply(editor_, ResetPose{"high"});
+    apply(editor_, ResetPoses{{"high"}});
     calm();
     EXPECT_EQ(editor_.past.size(), steps + 1) << "it is at rest";
 }

@@ -294,8 +294,8 @@ TEST_F(BarEditor, ACancelledDragKeepsWhatCanBeRedone) {
 
 TEST_F(BarEditor, UndoBehindARefusedStepTakesNothingElseBack) {
     make_handles();
-    apply(editor_, DeleteHandle{"low"});
-    apply(editor_, DeleteHandle{"low"}); // refused, but the editor does not know yet
+    apply(editor_, DeleteHandles{{"low"}});
+    apply(editor_, DeleteHandles{{"low"}}); // refused, but the editor does not know yet
     apply(editor_, UndoStep{});
     calm();
     EXPECT_EQ(editor_.document->handles.size(), 1U) << "the first deletion stands";

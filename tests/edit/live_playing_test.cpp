@@ -159,7 +159,7 @@ TEST_F(PlayedBar, ResettingAPoseUnwindsItsTurns) {
     const LineArray<float> rest = frame_.positions();
     drag({turned(2 * pi)});
     EXPECT_GT(largest_displacement(), 0.2);
-    live_->reset_pose(++step_, "high");
+    live_->reset_poses(++step_, {"high"});
     settle_down();
     EXPECT_LT(largest_displacement(), 1e-4);
     EXPECT_FALSE(live_->view()->posed) << "there is nothing to commit, nor to reset";
@@ -192,7 +192,7 @@ TEST_F(PlayedBar, ResettingAPoseGoesByTheMiddleInTheShapeThatWasCommitted) {
     turn.axis = {0, 0, 1};
     turn.angle = 2.6;
     drag({turn});
-    live_->reset_pose(++step_, "high");
+    live_->reset_poses(++step_, {"high"});
     settle_down();
     const DragLine back = last_drag();
     EXPECT_NEAR(back.pivot.x(), 3, 0.02);

@@ -51,7 +51,7 @@ TEST(MirrorPlane, ShowsMotionsAsAMirrorDoes) {
     motion.linear = motion.rotation.toRotationMatrix();
     motion.offset = {0.1, 0.2, 0.3};
     const Vec3d shift(0.5, -0.25, 2);
-    const HandleMotion image = mirrored(motion, plane, shift);
+    const HandleMotion image = seen_in(reflection(plane, shift), motion);
     const auto seen = [&](Vec3d p) { return Vec3d(Vec3d(p.x(), 1.4 - p.y(), p.z()) + shift); };
     for (const Vec3d& p : {Vec3d(0, 0, 0), Vec3d(1, 2, 3), Vec3d(-1, 0.7, 2)}) {
         const Vec3d there = motion.linear * p + motion.offset;

@@ -234,5 +234,27 @@ TEST(PoseNumbers, OfAShearedHandleHaveTheFactorThatIsTyped) {
     EXPECT_LT((found.place - wanted.place).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(PoseNumbers, TakeAMoveOrAScalingBackAndNothingElse) {
+    std::mt19937 random(6);
+    Transform aslant; // which shears what was turned
+    aslant.scale = {2, 1, 0.7};
+    for (int i = 0; i < 100; ++i) {
+        auto [motion, pivot] = any_case(random);
+        if (i % 2 == 1) {
+            motion = followed_by(motion, aslant);
+            pivot = after(aslant, pivot);
+        }
+        const PoseNumbers before = numbers_of(motion, pivot);
+        const Transform home = unmoved(motion, pivot), size = unscaled(motion, pivot);
+        const PoseNumbers moved = numbers_of(followed_by(motion, home), after(home, pivot));
+        EXPECT_LT((moved.place - (pivot - before.moved)).norm(), 1e-9);
+        EXPECT_LT((moved.scaled - before.scaled).norm(), 1e-9);
+        const HandleMotion scaled = followed_by(motion, size);
+        EXPECT_LT((scaled.linear - motion.rotation.toRotationMatrix()).norm(), 1e-9) << i;
+        EXPECT_LT((scaled.turned - motion.turned).norm(), 1e-6) << i;
+        EXPECT_LT((numbers_of(scaled, after(size, pivot)).place - pivot).norm(), 1e-9);
+    }
+}
+
 } // namespace
 } // namespace knead

@@ -84,7 +84,11 @@ protected:
             return one_of(
                 {HandleRole::fixed, HandleRole::moving, HandleRole::moving, HandleRole::region_of_interest});
         };
-        switch (below(13)) {
+        const auto any_handles = [&] { return chosen_with(editor_, any_handle()); };
+        switch (below(14)) {
+        case 13:
+            if (below(2) == 0) return MirrorMoves{};
+            return MirrorMoves{static_cast<int>(below(3))};
         case 12:
             return SetPivot{glm::dvec3(between(-1, 1), between(-1, 1), between(-1, 1))};
         case 0:
@@ -98,9 +102,9 @@ protected:
         case 4:
             return ColorHandle{any_handle(), 0x4aa8ffU};
         case 5:
-            return DeleteHandle{any_handle()};
+            return DeleteHandles{any_handles()};
         case 6:
-            return ResetPose{any_handle()};
+            return ResetPoses{any_handles()};
         case 7:
             return MirrorHandle{any_handle(), static_cast<int>(below(3))};
         case 8:

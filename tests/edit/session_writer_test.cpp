@@ -124,8 +124,10 @@ public:
 
     DragLine drag() {
         DragLine line{name(), vector(), {}};
-        for (std::size_t more = below(3); more > 0; --more)
-            line.with.push_back(name() + std::to_string(more));
+        for (std::size_t more = below(3); more > 0; --more) {
+            line.with.push_back({name() + std::to_string(more)});
+            if (coin()) line.with.back().mirror = {direction(), vector()};
+        }
         line.frames.resize(1 + below(4));
         for (HandlePose& frame : line.frames) frame = pose();
         return line;

@@ -95,14 +95,16 @@ template<int axis>
 void mirror(const Ui& ui) {
     ui.tell(MirrorHandle{ui.editor.chosen, axis});
 }
-// Takes a part of the chosen handle's pose back, by a drag as the hand would make it.
+// Takes a part of the chosen handle's pose back, by a drag of it alone.
 template<Transform (*part)(const HandleMotion& motion, const Vec3d& pivot)>
 void take_back(const Ui& ui) {
     const std::optional<ChosenPose> pose = pose_of_chosen(ui.editor);
     if (!pose || poses_may_change(ui.editor)) return;
     const Transform transform = part(pose->motion, to_eigen(pose->pivot));
-    if (does_nothing(transform)) return;
-    ui.tell(BeginDrag{pose->pivot});
+    const bool is_rounding = glm::length(transform.shift) < 1e-6 * ui.editor.opened.bounds.diagonal() &&
+                             transform.angle == 0 && transform.scale == glm::dvec3(1.0);
+    if (does_nothing(transform) || is_rounding) return;
+    ui.tell(BeginDrag{pose->pivot, true});
     ui.tell(DragTo{transform});
     ui.tell(EndDrag{});
 }

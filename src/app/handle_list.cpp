@@ -127,7 +127,10 @@ GoesAlong goes_along(const Editor& editor, const std::string& handle) {
     const auto is_in = [&](const std::vector<std::string>& names) {
         return std::ranges::find(names, handle) != names.end();
     };
-    if (editor.symmetry && is_in(editor.symmetry->counterparts)) return GoesAlong::mirrored;
+    const auto& symmetry = editor.symmetry;
+    if (symmetry &&
+        std::ranges::find(symmetry->pairs, handle, &Symmetry::Pair::counterpart) != symmetry->pairs.end())
+        return GoesAlong::mirrored;
     if (is_in(editor.also_chosen)) return GoesAlong::same;
     return GoesAlong::no;
 }
@@ -138,7 +141,7 @@ const char* manner_of(const Editor& editor, const Handle& handle) {
     if (goes_along(editor, handle.name) == GoesAlong::mirrored) return "mirrored";
     const bool is_chosen_alone = handle.name == editor.chosen && editor.also_chosen.empty();
     if (is_chosen_alone && handle.role == HandleRole::moving && editor.symmetry &&
-        editor.symmetry->counterparts.empty())
+        editor.symmetry->pairs.empty())
         return "alone";
     if (handle.free_rotation) return handle.falloff > 0 ? "soft peg" : "peg";
     return handle.falloff > 0 ? "soft" : "";

@@ -2,6 +2,7 @@
 
 #include "app/actions.h"
 #include "app/loop.h"
+#include "app/remembered.h"
 #include "app/timeline.h"
 #include "app/widgets.h"
 #include "edit/cures.h"
@@ -198,7 +199,9 @@ void lay_out(Loop& loop) {
     const float bottom = status_height(loop) + timeline_height(loop);
     const auto width = static_cast<float>(window.width), height = static_cast<float>(window.height);
     const bool has_panels = loop.editor.document && state.show_panels;
-    const float right = has_panels ? std::round(std::min(state.panel_width * scale, width / 2)) : 0;
+    const float right =
+        has_panels ? std::round(std::min(state.panel_width * scale, std::max(width / 2, least_panel * scale)))
+                   : 0;
     state.view = {left, top, std::max(1.0f, width - left - right), std::max(1.0f, height - top - bottom)};
     loop.editor.viewport = {std::max(1, static_cast<int>(state.view.width * state.pixel_ratio)),
                             std::max(1, static_cast<int>(state.view.height * state.pixel_ratio))};

@@ -31,7 +31,9 @@ void take_size(const std::string& value, Remembered& choices) {
 
 void take_panel(const std::string& value, Remembered& choices) {
     int width = 0;
-    if (std::sscanf(value.c_str(), "%5d", &width) == 1 && width >= least_panel && width <= most_panel)
+    char more = 0;
+    if (std::sscanf(value.c_str(), "%5d%c", &width, &more) == 1 && width >= least_panel &&
+        width <= most_panel)
         choices.panel = width;
 }
 

@@ -289,16 +289,11 @@ Picture Scene::picture(const Editor& editor, PointLook look) {
         look.pixel_scale *= 2;
     }
     const std::size_t pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-    const auto draw = [&] {
-        return draw_picture(state_->renderer, editor.camera, size, look, 4 * pixels <= most_drawn ? 2 : 1);
-    };
-    if (!state_->lines.mirror_axis) return draw();
-    SceneLinesOf in_picture = state_->lines; // the mirror is a tool, as the gizmo is
-    in_picture.mirror_axis.reset();
-    state_->renderer.set_overlay(scene_lines(editor, in_picture));
-    Picture picture = draw();
-    state_->renderer.set_overlay(scene_lines(editor, state_->lines));
-    return picture;
+    if (SceneLinesOf& lines = state_->lines; lines.mirror_axis) {
+        lines.mirror_axis.reset(); // a tool, as the gizmo is: the next picture of the window has it again
+        state_->renderer.set_overlay(scene_lines(editor, lines));
+    }
+    return draw_picture(state_->renderer, editor.camera, size, look, 4 * pixels <= most_drawn ? 2 : 1);
 }
 
 bool Scene::is_drawn_in_software() const {

@@ -133,8 +133,10 @@ SceneLinesOf scene_lines_of(const Editor& editor, const Display& display,
     SceneLinesOf what;
     what.grid = display.grid && !is_seen_edge_on(editor.camera);
     what.up = editor.camera.up;
-    if (editor.symmetry && display.handles)
-        what.mirror_axis = editor.symmetry->axis, what.mirror_at = editor.symmetry->at;
+    if (editor.symmetry && display.handles) {
+        what.mirror_axis = editor.symmetry->axis;
+        what.mirror_at = editor.symmetry->at;
+    }
     const DocumentView& document = *editor.document;
     const bool there = document.sample_vertices && document.sample_vertices->size() <= most_shown_samples;
     what.samples = there && display.samples;

@@ -55,10 +55,16 @@ void grip(const Ui& ui, const Rectangle& where) {
         ImGui::GetWindowDrawList()->AddRectFilled(
             {where.x, where.y}, {where.x + ui.scaled(2), where.y + where.height}, palette::accent);
     }
-    if (ImGui::IsItemActive()) // not by how far the hand went: where it turns back the edge is there
-        width = (where.x + where.width - ImGui::GetIO().MousePos.x) / ui.state.scale;
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+    std::optional<float>& grabbed = ui.state.panel_grabbed;
+    const float cursor = ImGui::GetIO().MousePos.x;
+    if (ImGui::IsItemActivated()) grabbed = cursor - where.x;
+    if (!ImGui::IsItemActive()) grabbed.reset();
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         width = static_cast<float>(Remembered().panel);
+        grabbed.reset(); // until the next press
+    }
+    if (grabbed && cursor - where.x != *grabbed)
+        width = (where.x + where.width + *grabbed - cursor) / ui.state.scale;
     width = std::clamp(width, static_cast<float>(least_panel), static_cast<float>(most_panel));
     ImGui::PopClipRect();
     ImGui::SetCursorScreenPos(begin);

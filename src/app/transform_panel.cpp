@@ -135,7 +135,8 @@ std::string words_about(const Ui& ui, const RowLook& look, Field field, double v
     words += moves_pivot(ui, field) ? "Where its pivot is: moves that alone, as the gizmo's arrows do now"
                                     : look.words;
     if (look.row == PoseRow::scaled && is_sheared)
-        words += ". It was stretched along other axes than its own, too: only Reset takes all of that back";
+        words +=
+            ". It was stretched along other axes than its own, too: Reset and Alt+S take all of that back";
     return words + (is_disabled() ? "." : ". Slide it, or click and type; Tab goes on.");
 }
 

@@ -206,6 +206,7 @@ struct UiState : UiOfDocument {
     bool show_about = false;
     bool show_panels = true;
     float panel_width = 310; // of the panels at the right, on a display of scale 1; remembered
+    std::optional<float> panel_grabbed = {}; // by the hand, so far from their edge; nothing: they are not
     MenuWalk menus;
     bool full_screen = false;          // asked for
     bool as_opened = false;            // the cloud is shown as it was before all edits, to compare

@@ -94,6 +94,7 @@ struct MirrorHandle {
 
 struct BeginDrag { // of the chosen handle, and of those that go along
     glm::dvec3 pivot{0.0};
+    bool alone = false; // without these
 };
 struct DragTo {
     Transform transform; // on top of the pose at BeginDrag

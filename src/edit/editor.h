@@ -80,9 +80,12 @@ struct EditorDrag {
 // Moves are made on both sides of the cloud. Which handle lies across from which goes by the shape as it was
 // opened: no pose parts two of them.
 struct Symmetry {
-    int axis = 0;                          // 0, 1, 2: across x, y, z
-    double at = 0;                         // along it, relative to the cloud's origin: where the plane lies
-    std::vector<std::string> counterparts; // of what is chosen: they go along, mirrored
+    int axis = 0;  // 0, 1, 2: across x, y, z
+    double at = 0; // along it, relative to the cloud's origin: where the plane lies
+    struct Pair {
+        std::string handle, counterpart;
+    };
+    std::vector<Pair> pairs; // of what is chosen, what has a counterpart: that goes along, mirrored
 };
 
 struct Editor {
@@ -138,6 +141,8 @@ struct Editor {
     StepNumber last_step = step_of_opened_session;
     // Names of handles that were posted and that the document has not shown yet.
     std::vector<std::pair<StepNumber, std::string>> posted_names;
+    // And names that it will not have any more: of handles that were renamed or deleted.
+    std::vector<std::pair<StepNumber, std::string>> names_to_go;
     std::string just_made; // a handle, after which nothing was done or chosen; empty: none
     // What was just taken back, done again or deleted, in a sentence, until something else is told; or empty.
     std::string just_done;

@@ -7,6 +7,7 @@
 #include "edit/handle_lines.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace knead {
 
@@ -97,6 +98,17 @@ bool is_free(const Editor& editor, const std::string& name) {
     });
 }
 
+bool will_be_there(const Editor& editor, const std::string& name) {
+    const auto last_of = [&](const auto& names) {
+        StepNumber last = 0;
+        for (const auto& [step, posted] : names)
+            if (posted == name) last = std::max(last, step);
+        return last;
+    };
+    const StepNumber comes = last_of(editor.posted_names), goes = last_of(editor.names_to_go);
+    return comes == goes ? number_of(editor, name).has_value() : comes > goes; // equal: neither
+}
+
 std::string free_name(const Editor& editor, HandleRole role) {
     for (unsigned number = 1;; ++number) {
         std::string name = std::string(word_for(role)) + " " + std::to_string(number);
@@ -147,9 +159,11 @@ std::vector<std::string> chosen_with(const Editor& editor, const std::string& ha
         handle == editor.chosen || std::ranges::find(editor.also_chosen, handle) != editor.also_chosen.end();
     std::vector<std::string> handles{handle};
     if (!is_one_of_them) return handles;
-    if (handle != editor.chosen) handles.push_back(editor.chosen);
-    for (const std::string& other : editor.also_chosen)
-        if (other != handle) handles.push_back(other);
+    const auto add = [&](const std::string& other) {
+        if (other != handle && will_be_there(editor, other)) handles.push_back(other);
+    };
+    add(editor.chosen);
+    std::ranges::for_each(editor.also_chosen, add);
     return handles;
 }
 
@@ -167,12 +181,14 @@ void carry_out(Editor& editor, const RenameHandle& command) {
         return say(editor, Notice::Kind::error, "There is a handle " + quoted(command.to) + " already.");
     const StepNumber step = post_step(editor, {RenameLine{command.handle, command.to}});
     editor.posted_names.emplace_back(step, command.to);
+    editor.names_to_go.emplace_back(step, command.handle);
     put_pivot_with(editor.past.back(), editor, command.to, pivot_of(editor, command.handle));
     put_pivot_with(editor.past.back(), editor, command.handle, std::nullopt);
     std::vector<std::string> also = editor.also_chosen;
     std::ranges::replace(also, command.handle, command.to);
     if (editor.chosen == command.handle) choose_with_step(editor, command.to);
     editor.also_chosen = std::move(also);
+    find_counterparts(editor);
 }
 
 // As with a new handle, the tint of what the handle has now takes the place of the selection.
@@ -214,15 +230,19 @@ void carry_out(Editor& editor, const ColorHandle& command) {
 
 void carry_out(Editor& editor, const DeleteHandles& command) {
     std::vector<std::string> handles = command.handles;
-    std::erase_if(handles, [&](const std::string& name) { return !number_of(editor, name); });
+    std::erase_if(handles, [&](const std::string& name) { return !will_be_there(editor, name); });
     if (handles.empty()) return;
     std::vector<SessionAction> lines;
     for (const std::string& name : handles) lines.emplace_back(DeleteLine{name});
     post_step(editor, std::move(lines));
-    for (const std::string& name : handles) put_pivot_with(editor.past.back(), editor, name, std::nullopt);
-    const std::string words = handles.size() == 1
-                                  ? knead::quoted(handles[0]) + " is deleted, and its points stay"
-                                  : counted(handles.size(), "handle") + " are deleted, and their points stay";
+    for (const std::string& name : handles) {
+        put_pivot_with(editor.past.back(), editor, name, std::nullopt);
+        editor.names_to_go.emplace_back(editor.last_step, name);
+    }
+    find_counterparts(editor);
+    const std::string words =
+        handles.size() == 1 ? quoted(std::as_const(handles).front()) + " is deleted, and its points stay"
+                            : counted(handles.size(), "handle") + " are deleted, and their points stay";
     editor.just_done = words + "; Ctrl+Z takes it back";
 }
 

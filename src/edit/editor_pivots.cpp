@@ -27,7 +27,7 @@ bool is_of_no_line(const Editor& editor, const PivotMove& move) {
 // While moves are mirrored, so are the joints that they go by.
 std::vector<PivotMove> with_counterpart(const Editor& editor, const PivotMove& move) {
     std::vector<PivotMove> moves{move};
-    if (const auto across = joint_across(editor, move.after.value_or(glm::dvec3(0.0)))) {
+    if (const auto across = joint_across(editor, move.handle, move.after.value_or(glm::dvec3(0.0)))) {
         const std::optional<glm::dvec3> before = pivot_of(editor, across->handle);
         const std::optional<glm::dvec3> after = move.after ? std::optional(across->pivot) : std::nullopt;
         if (before != after) moves.push_back({across->handle, before, after});
@@ -42,13 +42,13 @@ void put_pivots(Editor& editor, std::vector<PivotMove> moves) {
     EditorStep step = coming_step(editor, are_of_lines ? ++editor.last_step : 0);
     step.chosen_before = step.chosen_after = moves[0].handle;
     std::vector<PivotPlace> places;
-    for (const PivotMove& move : moves) {
-        put_pivot(editor, move.handle, move.after);
-        places.push_back({move.handle, std::nullopt});
-        if (move.after) places.back().place = to_eigen(*move.after) + editor.opened.cloud->origin;
+    for (auto move = moves.rbegin(); move != moves.rend(); ++move) { // the last one names the step
+        places.push_back({move->handle, std::nullopt});
+        if (move->after) places.back().place = to_eigen(*move->after) + editor.opened.cloud->origin;
     }
-    step.pivots = std::move(moves);
     if (step.document) editor.live->put_pivots(step.document, std::move(places));
+    for (const PivotMove& move : moves) put_pivot(editor, move.handle, move.after);
+    step.pivots = std::move(moves);
     add_step(editor, std::move(step));
 }
 

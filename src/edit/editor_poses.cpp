@@ -82,7 +82,8 @@ void carry_out(Editor& editor, const ResetPoses& command) {
     std::vector<std::string> handles = command.handles;
     std::erase_if(handles, [&](const std::string& name) {
         const auto number = number_of(editor, name);
-        return !number || editor.document->handles[*number].role != HandleRole::moving;
+        return !will_be_there(editor, name) ||
+               (number && editor.document->handles[*number].role != HandleRole::moving);
     });
     if (handles.empty() || !is_or_will_be_posed(editor)) return;
     EditorStep step = coming_step(editor, ++editor.last_step);
@@ -90,8 +91,9 @@ void carry_out(Editor& editor, const ResetPoses& command) {
     add_step(editor, std::move(step));
     for (const std::string& name : handles) {
         const auto pivot = pivot_of(editor, name);
-        if (!pivot) continue;
-        const Vec3d at_rest = point_at_rest(motion_now(editor, *number_of(editor, name)), to_eigen(*pivot));
+        const auto number = number_of(editor, name);
+        if (!pivot || !number) continue;
+        const Vec3d at_rest = point_at_rest(motion_now(editor, *number), to_eigen(*pivot));
         put_pivot_with(editor.past.back(), editor, name, to_glm(at_rest));
     }
 }
@@ -157,7 +159,8 @@ void forget_drag(Editor& editor, StepNumber step) {
 
 namespace {
 
-// As the document is told of those that go along; of some it may know the names before the editor does.
+// As the document is told of those that go along. Of some it will know the names before the editor does; how
+// they would be mirrored is not known then, and where moves are, they stay.
 std::vector<Companion> companions(const Editor& editor, const EditorDrag& drag, const glm::dvec3& pivot) {
     std::vector<Companion> companions;
     for (const EditorDrag::Along& along : drag.along) {
@@ -167,7 +170,7 @@ std::vector<Companion> companions(const Editor& editor, const EditorDrag& drag, 
                                                                   editor.opened.cloud->origin};
     }
     for (const std::string& other : editor.also_chosen)
-        if (!number_of(editor, other)) companions.push_back({other});
+        if (!editor.symmetry && !number_of(editor, other)) companions.push_back({other});
     return companions;
 }
 
@@ -183,11 +186,12 @@ void carry_out(Editor& editor, const BeginDrag& command) {
     drag.handle = editor.chosen;
     drag.middle = pose.pivot;
     drag.motion = {pose.motion, pose.motion};
-    drag.along = handles_along(editor, command.pivot);
+    if (!command.alone) drag.along = handles_along(editor, command.pivot);
     EditorStep step = coming_step(editor, drag.step);
     step.is_drag = true;
     editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin,
-                            companions(editor, drag, command.pivot));
+                            command.alone ? std::vector<Companion>{}
+                                          : companions(editor, drag, command.pivot));
     if (editor.drag) editor.earlier_drags.push_back(std::move(*editor.drag));
     editor.drag = std::move(drag);
     add_step(editor, std::move(step));

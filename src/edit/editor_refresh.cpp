@@ -77,6 +77,7 @@ void take_over(Editor& editor) {
     editor.also_chosen.clear();
     editor.symmetry.reset();
     editor.posted_names.clear();
+    editor.names_to_go.clear();
     editor.just_made.clear();
     editor.pivots.clear();
     editor.moved_pivot.reset();
@@ -130,10 +131,17 @@ void forget_future(Editor& editor, StepNumber step) {
     if (editor.looks_from && at < *editor.looks_from) --*editor.looks_from;
 }
 
+// Those of steps that the document has answered.
+template<typename IsAnswered>
+void forget_names(Editor& editor, IsAnswered&& is_answered) {
+    for (auto* names : {&editor.posted_names, &editor.names_to_go})
+        std::erase_if(*names, [&](const auto& posted) { return is_answered(posted.first); });
+}
+
 // A step that the document refused is no step: it leaves the history, and the selection comes back.
 void forget_refused(Editor& editor) {
     for (const auto [step, ends_redo] : editor.live->take_refused()) {
-        std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first == step; });
+        forget_names(editor, [&](StepNumber of) { return of == step; });
         forget_future(editor, step);
         for (EditorStep& past : editor.past)
             if (past.joined == step) past.joined = 0;
@@ -176,10 +184,14 @@ bool refresh_view(Editor& editor) {
     editor.document = std::move(view);
     editor.opened.file = editor.document->cloud;
     if (other_handles) mark_handles(editor);
+    const std::size_t also_chosen = editor.also_chosen.size();
     keep_also_chosen(editor);
-    if (other_handles || other_names) find_counterparts(editor);
     const StepNumber done = editor.document->last_step;
-    std::erase_if(editor.posted_names, [&](const auto& posted) { return posted.first <= done; });
+    const std::size_t to_go = editor.names_to_go.size();
+    forget_names(editor, [&](StepNumber of) { return of <= done; });
+    if (other_handles || other_names || to_go != editor.names_to_go.size() ||
+        also_chosen != editor.also_chosen.size())
+        find_counterparts(editor);
     for (EditorStep& step : editor.past)
         if (step.document <= done) step.undone.clear();
     if (editor.drag && editor.drag->ended && done >= editor.drag->step) editor.drag.reset();

@@ -75,20 +75,17 @@ std::size_t followers_of(const Editor& editor, const Handle& handle) {
     return number < editor.followers.size() ? editor.followers[number] : handle.points->size();
 }
 
-void for_some_points(const Editor& editor, const Handle& handle, const std::function<void(Index)>& visit) {
+std::optional<Vec3d> middle_in(std::span<const float> positions, const Editor& editor, const Handle& handle) {
     const std::vector<Index>& points = *handle.points;
     const std::size_t stride = std::max<std::size_t>(1, points.size() / enough_for_middle);
-    for (std::size_t k = 0; k < points.size(); k += stride)
-        if (const Index i = editor.ordered[points[k]]; i != no_index) visit(i);
-}
-
-std::optional<Vec3d> middle_in(std::span<const float> positions, const Editor& editor, const Handle& handle) {
     Vec3d sum = Vec3d::Zero();
     double count = 0;
-    for_some_points(editor, handle, [&](Index i) {
+    for (std::size_t k = 0; k < points.size(); k += stride) {
+        const Index i = editor.ordered[points[k]];
+        if (i == no_index) continue;
         sum += point_at(positions, i);
         ++count;
-    });
+    }
     if (count == 0) return std::nullopt;
     return sum / count;
 }
@@ -302,13 +299,13 @@ namespace {
 
 // What goes along with the chosen handle while moves are mirrored.
 std::string words_about_symmetry(const Editor& editor, const Symmetry& symmetry) {
-    const std::size_t mirrored = symmetry.counterparts.size();
+    const std::size_t mirrored = symmetry.pairs.size();
     const std::size_t all = moved_with(editor, editor.chosen).size() - 1;
     if (all == 0)
-        return quoted(editor.chosen) + " moves alone: no moving handle lies across " + "xyz"[symmetry.axis] +
-               " from it. Mirror makes one.";
+        return quoted(editor.chosen) + " moves alone: no moving handle is its counterpart across " +
+               "xyz"[symmetry.axis] + ". Mirror makes one.";
     if (all == 1 && mirrored == 1)
-        return quoted(symmetry.counterparts[0]) + " does what " + quoted(editor.chosen) +
+        return quoted(symmetry.pairs[0].counterpart) + " does what " + quoted(editor.chosen) +
                " does, mirrored: press G, R or S, or drag the gizmo.";
     return quoted(editor.chosen) + " takes " + counted(all, "handle") + " along, " +
            (mirrored == 0 ? "none" : std::to_string(mirrored)) +

@@ -35,6 +35,9 @@ std::optional<std::size_t> number_of(const Editor& editor, const std::string& na
 // Whether no handle has this name, of the document's and of those that are on their way there.
 bool is_free(const Editor& editor, const std::string& name);
 
+// Whether the document will have a handle of this name once it has carried out what was posted.
+bool will_be_there(const Editor& editor, const std::string& name);
+
 // Another handle is chosen, or none; with the step done last, if that made it or is to bring it back.
 void choose(Editor& editor, const std::string& handle);
 void choose_with_step(Editor& editor, const std::string& handle);
@@ -105,20 +108,19 @@ Transform transform_of(const EditorDrag& drag, const EditorDrag::Along& along);
 
 // Where the points are in this edit while no handle is moved: 3n, in the order of computation.
 std::span<const float> rest_positions(const Editor& editor);
-// Calls visit(i) for some of a handle's points, all over it: the place of each in the order.
-void for_some_points(const Editor& editor, const Handle& handle, const std::function<void(Index)>& visit);
 // The middle of a handle's points in a shape, as above; nothing for one without a finite point.
 std::optional<Vec3d> middle_in(std::span<const float> positions, const Editor& editor, const Handle& handle);
 
 // Looks for the counterparts of what is chosen, after another is chosen or the handles have changed.
 void find_counterparts(Editor& editor);
-// Where the joint of the chosen handle's counterpart is when that of the chosen one is at `pivot`, both as
-// they are now; none: there is no counterpart.
+// Where the joint of a chosen handle's counterpart is when that of the handle is at `pivot`, both as they are
+// now; none: there is no counterpart.
 struct JointAcross {
     std::string handle;
     glm::dvec3 pivot{0.0};
 };
-std::optional<JointAcross> joint_across(const Editor& editor, const glm::dvec3& pivot);
+std::optional<JointAcross> joint_across(const Editor& editor, const std::string& handle,
+                                        const glm::dvec3& pivot);
 // The handles that go along in a drag of the chosen handle about `pivot`.
 std::vector<EditorDrag::Along> handles_along(const Editor& editor, const glm::dvec3& pivot);
 

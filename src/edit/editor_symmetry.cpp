@@ -4,6 +4,7 @@
 #include "edit/mirroring.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace knead {
 
@@ -11,6 +12,9 @@ namespace {
 
 // Two handles of which the one is so many times as large as the other are not counterparts.
 constexpr double most_times_as_large = 2;
+
+// So many points tell where a handle is, and how large.
+constexpr std::size_t enough_points = 500;
 
 MirrorPlane plane_of(const Symmetry& symmetry) {
     return {symmetry.axis, symmetry.at, false};
@@ -23,39 +27,49 @@ struct Place {
     double size = 0; // the usual distance of its points from there
 };
 
-double size_of(const Editor& editor, const Handle& handle, const Vec3d& middle) {
-    double sum = 0, count = 0;
-    for_some_points(editor, handle, [&](Index i) {
-        sum += (point_at(editor.opened.opened->positions, i) - middle).squaredNorm();
+std::optional<Place> place_of(const Editor& editor, const Handle& handle) {
+    const std::vector<Index>& points = *handle.points;
+    const std::size_t stride = std::max<std::size_t>(1, points.size() / enough_points);
+    Place place{&handle};
+    double squares = 0, count = 0;
+    for (std::size_t k = 0; k < points.size(); k += stride) {
+        const Index i = editor.ordered[points[k]];
+        if (i == no_index) continue;
+        const Vec3d point = point_at(editor.opened.opened->positions, i);
+        place.middle += point;
+        squares += point.squaredNorm();
         ++count;
-    });
-    return std::sqrt(sum / count);
+    }
+    if (count == 0) return std::nullopt;
+    place.middle /= count;
+    place.size = std::sqrt(std::max(0.0, squares / count - place.middle.squaredNorm()));
+    return place;
 }
 
+// Of those that move, and will still be there by that name when the document hears of it.
 std::vector<Place> places_of(const Editor& editor) {
     std::vector<Place> places;
-    for (const Handle& handle : editor.document->handles) {
-        if (handle.role != HandleRole::moving) continue;
-        const auto middle = middle_in(editor.opened.opened->positions, editor, handle);
-        if (middle) places.push_back({&handle, *middle, size_of(editor, handle, *middle)});
-    }
+    for (const Handle& handle : editor.document->handles)
+        if (handle.role == HandleRole::moving && will_be_there(editor, handle.name))
+            if (const auto place = place_of(editor, handle)) places.push_back(*place);
     return places;
 }
 
-bool are_alike(const Place& a, const Place& b) {
+bool are_about_as_large(const Place& a, const Place& b) {
     return std::max(a.size, b.size) <= most_times_as_large * std::min(a.size, b.size);
 }
 
 // Of those on the other side that are about as large, the one nearest to the mirror image of this one; null:
-// there is none. It may be as far off as the plane, and as the two are wide, as the legs of what walks are.
-// What lies on the plane has none.
+// there is none. It may be as far off as the plane, and as the two are wide, as the legs of what walks are;
+// but not as far as this one itself: what lies about on the plane, as head and neck do, has none.
 const Place* nearest_across(const std::vector<Place>& places, const Place& place, const MirrorPlane& plane) {
     const auto side = [&](const Place& of) { return of.middle[plane.axis] - plane.at; };
     const Vec3d image = seen_in(reflection(plane, Vec3d::Zero()), place.middle);
+    const double aside = std::abs(side(place));
     const Place* nearest = nullptr;
     for (const Place& other : places) {
-        if (side(other) * side(place) >= 0 || !are_alike(place, other)) continue;
-        const double reach = std::abs(side(place)) + place.size + other.size;
+        if (side(other) * side(place) >= 0 || !are_about_as_large(place, other)) continue;
+        const double reach = std::min(2 * aside, aside + place.size + other.size);
         const double distance = (other.middle - image).norm();
         if (distance < reach && (!nearest || distance < (nearest->middle - image).norm())) nearest = &other;
     }
@@ -68,9 +82,7 @@ const Place* counterpart(const std::vector<Place>& places, const Place& place, c
     return other && nearest_across(places, *other, plane) == &place ? other : nullptr;
 }
 
-struct Pair {
-    std::string handle, counterpart;
-};
+using Pair = Symmetry::Pair;
 
 // Of what is chosen, what has a counterpart. Where both are chosen, the one that was first leads.
 std::vector<Pair> chosen_pairs(const Editor& editor) {
@@ -87,7 +99,7 @@ std::vector<Pair> chosen_pairs(const Editor& editor) {
     return pairs;
 }
 
-const Handle& handle_named(const Editor& editor, const std::string& name) {
+const Handle& handle_of_document(const Editor& editor, const std::string& name) {
     return editor.document->handles[*number_of(editor, name)];
 }
 
@@ -95,7 +107,8 @@ const Handle& handle_named(const Editor& editor, const std::string& name) {
 // across at rest, as far off the mirror image as the middles of the two are.
 Vec3d place_across(const Editor& editor, const Pair& pair, const Vec3d& place) {
     const auto at_rest = [&](const std::string& name) {
-        return middle_in(rest_positions(editor), editor, handle_named(editor, name)).value_or(Vec3d::Zero());
+        return middle_in(rest_positions(editor), editor, handle_of_document(editor, name))
+            .value_or(Vec3d::Zero());
     };
     const Reflection mirror =
         reflection(Vec3d::Unit(editor.symmetry->axis), at_rest(pair.handle), at_rest(pair.counterpart));
@@ -108,33 +121,33 @@ Vec3d place_across(const Editor& editor, const Pair& pair, const Vec3d& place) {
 // gave both of them one.
 Reflection mirror_between(const Editor& editor, const Pair& pair, const Vec3d& pivot) {
     const bool have_joints = pivot_of(editor, pair.handle) && pivot_of(editor, pair.counterpart);
-    const Vec3d there = have_joints ? to_eigen(place_of_gizmo(editor, handle_named(editor, pair.counterpart)))
-                                    : place_across(editor, pair, pivot);
+    const Vec3d there = have_joints
+                            ? to_eigen(place_of_gizmo(editor, handle_of_document(editor, pair.counterpart)))
+                            : place_across(editor, pair, pivot);
     return reflection(Vec3d::Unit(editor.symmetry->axis), pivot, there);
 }
 
 } // namespace
 
 void find_counterparts(Editor& editor) {
-    if (!editor.symmetry) return;
-    editor.symmetry->counterparts.clear();
-    for (Pair& pair : chosen_pairs(editor))
-        editor.symmetry->counterparts.push_back(std::move(pair.counterpart));
+    if (editor.symmetry) editor.symmetry->pairs = chosen_pairs(editor);
 }
 
 std::vector<std::string> moved_with(const Editor& editor, const std::string& handle) {
     std::vector<std::string> handles = chosen_with(editor, handle);
     if (!editor.symmetry || std::ranges::find(handles, editor.chosen) == handles.end()) return handles;
-    for (const std::string& other : editor.symmetry->counterparts)
-        if (std::ranges::find(handles, other) == handles.end()) handles.push_back(other);
+    for (const Pair& pair : editor.symmetry->pairs)
+        if (std::ranges::find(handles, pair.counterpart) == handles.end())
+            handles.push_back(pair.counterpart);
     return handles;
 }
 
-std::optional<JointAcross> joint_across(const Editor& editor, const glm::dvec3& pivot) {
-    for (const Pair& pair : chosen_pairs(editor))
-        if (pair.handle == editor.chosen)
-            return JointAcross{pair.counterpart, to_glm(place_across(editor, pair, to_eigen(pivot)))};
-    return std::nullopt;
+std::optional<JointAcross> joint_across(const Editor& editor, const std::string& handle,
+                                        const glm::dvec3& pivot) {
+    if (!editor.symmetry) return std::nullopt;
+    const auto pair = std::ranges::find(editor.symmetry->pairs, handle, &Pair::handle);
+    if (pair == editor.symmetry->pairs.end()) return std::nullopt;
+    return JointAcross{pair->counterpart, to_glm(place_across(editor, *pair, to_eigen(pivot)))};
 }
 
 std::vector<EditorDrag::Along> handles_along(const Editor& editor, const glm::dvec3& pivot) {
@@ -146,13 +159,14 @@ std::vector<EditorDrag::Along> handles_along(const Editor& editor, const glm::dv
         along.push_back(
             {name, place_of_gizmo(editor, editor.document->handles[*number]), {now, now}, mirror});
     };
-    const std::vector<Pair> pairs = chosen_pairs(editor);
+    const std::vector<Pair>* const pairs = editor.symmetry ? &editor.symmetry->pairs : nullptr;
     for (const std::string& other : editor.also_chosen)
-        if (std::ranges::find(pairs, other, &Pair::counterpart) == pairs.end()) add(other, std::nullopt);
-    if (!editor.symmetry) return along;
+        if (!pairs || std::ranges::find(*pairs, other, &Pair::counterpart) == pairs->end())
+            add(other, std::nullopt);
+    if (!pairs) return along;
     // Of all of them, which turn about one pivot.
     Reflection mirror = reflection(plane_of(*editor.symmetry), Vec3d::Zero());
-    for (const Pair& pair : pairs) {
+    for (const Pair& pair : *pairs) {
         if (pair.handle == editor.chosen) mirror = mirror_between(editor, pair, to_eigen(pivot));
         add(pair.counterpart, mirror);
     }

@@ -135,6 +135,7 @@ void LiveWork::carry_out(task::MakePosed& task) {
 std::vector<SessionAction> LiveWork::ways_back(const std::vector<std::string>& handles) {
     std::vector<SessionAction> lines;
     for (const std::string& name : handles) {
+        if (!moves(name)) continue; // it may have gone meanwhile
         const std::vector<HandleMotion> way = document_->way_of(name);
         if (is_back(way)) continue;
         const auto handle = std::ranges::find(document_->handles(), name, &Handle::name);

@@ -36,8 +36,8 @@ protected:
         return editor_.document->motions[static_cast<std::size_t>(found - handles.begin())];
     }
     std::string counterpart() {
-        const auto& all = editor_.symmetry->counterparts;
-        return all.empty() ? std::string() : all[0];
+        const auto& pairs = editor_.symmetry->pairs;
+        return pairs.empty() ? std::string() : pairs[0].counterpart;
     }
 };
 
@@ -108,6 +108,54 @@ TEST_F(BothEnds, TurnAboutJointsAcrossFromEachOther) {
     EXPECT_LT((own.linear * Vec3d(0, 0, -1.75) + own.offset - Vec3d(0, 0, -1.75)).norm(), 1e-6);
 }
 
+// Head and neck lie on the plane but for a little, one to this side of it and one to the other.
+TEST_F(BothEnds, AreNotWhatLiesInTheMiddle) {
+    apply(editor_, MirrorMoves{0});
+    for (int k = 0; k < 6; ++k)
+        make_moving(("disc " + std::to_string(k)).c_str(), 0.5 + 0.2 * k, 0.6 + 0.2 * k);
+    for (const Handle& handle : editor_.document->handles) {
+        apply(editor_, ChooseHandle{handle.name});
+        EXPECT_EQ(counterpart(), "") << handle.name;
+    }
+}
+
+// Whose names are on their way to others, or that are deleted, go nowhere under their old ones.
+TEST_F(BothEnds, AreNoneWhileTheirNamesChange) {
+    const auto turn = [&] {
+        Transform by;
+        by.axis = {1, 0, 0};
+        by.angle = 30 * degree;
+        apply(editor_, BeginDrag{});
+        apply(editor_, DragTo{by});
+        apply(editor_, EndDrag{});
+    };
+    apply(editor_, RenameHandle{"low", "belt"});
+    EXPECT_EQ(counterpart(), "");
+    turn();
+    apply(editor_, SetPivot{glm::dvec3(0, 0, 1)});
+    apply(editor_, ResetPoses{moved_with(editor_, "high")});
+    calm();
+    EXPECT_EQ(counterpart(), "belt");
+    EXPECT_FALSE(leaves_rest(motion_of_handle("high")));
+    EXPECT_FALSE(pivot_of(editor_, "low") || pivot_of(editor_, "belt"));
+    turn();
+    calm();
+    EXPECT_NEAR(motion_of_handle("belt").turned.x(), -30 * degree, 1e-6);
+    editor_.notices.clear();
+    apply(editor_, ChooseAlso{"belt"});
+    apply(editor_, RenameHandle{"belt", "low"});
+    apply(editor_, ResetPoses{moved_with(editor_, "high")}); // by the name that it will have then
+    apply(editor_, DeleteHandles{{"low"}});
+    apply(editor_, DeleteHandles{{"high", "low"}});
+    calm();
+    for (const Notice& notice : editor_.notices) EXPECT_NE(notice.kind, Notice::Kind::error) << notice.words;
+    EXPECT_EQ(editor_.document->handles.size(), 1U);
+    apply(editor_, UndoStep{});
+    apply(editor_, UndoStep{});
+    calm();
+    for (const char* name : {"high", "low"}) EXPECT_FALSE(leaves_rest(motion_of_handle(name))) << name;
+}
+
 // No pose parts them, committed or not, nor one that stands aside as legs do.
 TEST_F(BothEnds, StayAcrossFromEachOther) {
     apply(editor_, MirrorMoves{});
@@ -156,7 +204,8 @@ TEST_F(BothEnds, OfWhatIsChosenTogether) {
     apply(editor_, ChooseHandle{"high"});
     apply(editor_, ChooseAlso{"ring"});
     calm();
-    EXPECT_EQ(editor_.symmetry->counterparts, (std::vector<std::string>{"low", "belt"}));
+    ASSERT_EQ(editor_.symmetry->pairs.size(), 2U);
+    EXPECT_EQ(editor_.symmetry->pairs[1].counterpart, "belt");
     EXPECT_NE(next_step(editor_).find("takes 3 handles along, 2 of them mirrored"), std::string::npos);
     transform_chosen('G', 'Z', "0.2");
     EXPECT_NEAR(motion_of_handle("ring").offset.z(), 0.2, 1e-9);

@@ -295,7 +295,7 @@ TEST_F(BarEditor, ACancelledDragKeepsWhatCanBeRedone) {
 TEST_F(BarEditor, UndoBehindARefusedStepTakesNothingElseBack) {
     make_handles();
     apply(editor_, DeleteHandles{{"low"}});
-    apply(editor_, DeleteHandles{{"low"}}); // refused, but the editor does not know yet
+    apply(editor_, RenameHandle{"low", "foot"}); // refused, but the editor does not know yet
     apply(editor_, UndoStep{});
     calm();
     EXPECT_EQ(editor_.document->handles.size(), 1U) << "the first deletion stands";

@@ -38,9 +38,13 @@ void face_creature(Editor& editor) {
     orbit(editor.camera, Orbiting::turntable, {-0.2 * height, 0.09 * height}, editor.viewport);
 }
 
-// A session that is left is looked at from there when it is opened again.
-void leave_session(const std::filesystem::path& session, const Camera& camera) {
-    if (!session.empty()) keep_view(session, camera);
+// How a session that is left is looked at when it is opened again, and posed.
+KeptView view_of(const Editor& editor) {
+    return {editor.camera, editor.symmetry ? std::optional(editor.symmetry->axis) : std::nullopt};
+}
+
+void leave_session(const std::filesystem::path& session, const KeptView& view) {
+    if (!session.empty()) keep_view(session, view);
 }
 
 // The first look at what was opened.
@@ -52,7 +56,10 @@ void look_at_opened(Loop& loop) {
     if (loop.state.opening_demonstration) face_creature(editor);
     apply(editor, FrameView{FrameWhat::everything});
     if (loop.state.opening_demonstration || editor.document->session.empty()) return;
-    if (const auto view = kept_view(editor.document->session)) editor.camera = *view;
+    const auto view = kept_view(editor.document->session);
+    if (!view) return;
+    editor.camera = view->camera;
+    apply(editor, MirrorMoves{view->mirror_axis});
 }
 
 // Takes in what the document has made. Returns whether anything is new.
@@ -61,11 +68,11 @@ bool take_news(Loop& loop) {
     const bool was_opening = editor.opening != nullptr;
     std::filesystem::path session_before;
     if (was_opening && editor.document) session_before = editor.document->session;
-    const Camera camera_before = editor.camera;
+    const KeptView view_before = view_of(editor);
     const LiveDocument* before = editor.live.get();
     const bool changed = refresh(editor);
     if (was_opening && !editor.opening && editor.live.get() != before) {
-        leave_session(session_before, camera_before);
+        leave_session(session_before, view_before);
         const OpenRequest& request = editor.opening_request;
         if (request.restore)
             std::erase_if(loop.state.lost,
@@ -183,7 +190,7 @@ void run_editor(const EditorOptions& options) {
         loop.frames_to_draw = std::max(0, loop.frames_to_draw - 1);
     }
     if (!options.observer) remember_size(loop.window, loop.state.panel_width);
-    if (loop.editor.document) leave_session(loop.editor.document->session, loop.editor.camera);
+    if (loop.editor.document) leave_session(loop.editor.document->session, view_of(loop.editor));
     // Whoever closes the window has saved what they wanted to keep.
     if (loop.editor.live) loop.editor.live->discard_journal();
 }

@@ -43,18 +43,18 @@ TEST_F(RecentFiles, ASessionIsLookedAtFromWhereItWasLeft) {
     camera.offset = {0.25, -0.125};
     camera.orthographic = true;
     camera.up = UpAxis::minus_y;
-    keep_view(a, camera);
-    keep_view(b, Camera{});
-    EXPECT_EQ(kept_view(folder_ / "." / "a.knead"), camera) << "to the last bit, by another name";
-    EXPECT_EQ(kept_view(b), Camera{});
+    keep_view(a, {camera});
+    keep_view(b, {Camera{}, 1});
+    EXPECT_EQ(kept_view(folder_ / "." / "a.knead"), KeptView{camera}) << "to the last bit, by another name";
+    EXPECT_EQ(kept_view(b), (KeptView{Camera{}, 1}));
     camera.distance = 3;
-    keep_view(a, camera);
-    EXPECT_EQ(kept_view(a), camera) << "the newest";
+    keep_view(a, {camera, 2});
+    EXPECT_EQ(kept_view(a), (KeptView{camera, 2})) << "the newest";
     write_text(folder_ / "state/knead/views",
                "0 0 0 -1 1 0 0 0 0 0 0 0 " + a.string() + "\nnan " + b.string() + '\n');
     EXPECT_FALSE(kept_view(a)) << "it stands nowhere";
     EXPECT_FALSE(kept_view(b));
-    keep_view(b, camera);
+    keep_view(b, {camera});
     std::vector<std::filesystem::path> recent;
     forget_files(recent);
     EXPECT_FALSE(kept_view(b));

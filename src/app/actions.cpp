@@ -2,8 +2,6 @@
 
 #include "app/widgets.h"
 #include "base/require.h"
-#include "edit/pose_numbers.h"
-#include "edit/view_vectors.h"
 
 #include <array>
 
@@ -95,18 +93,9 @@ template<int axis>
 void mirror(const Ui& ui) {
     ui.tell(MirrorHandle{ui.editor.chosen, axis});
 }
-// Takes a part of the chosen handle's pose back, by a drag of it alone.
-template<Transform (*part)(const HandleMotion& motion, const Vec3d& pivot)>
+template<PosePart part>
 void take_back(const Ui& ui) {
-    const std::optional<ChosenPose> pose = pose_of_chosen(ui.editor);
-    if (!pose || poses_may_change(ui.editor)) return;
-    const Transform transform = part(pose->motion, to_eigen(pose->pivot));
-    const bool is_rounding = glm::length(transform.shift) < 1e-6 * ui.editor.opened.bounds.diagonal() &&
-                             transform.angle == 0 && transform.scale == glm::dvec3(1.0);
-    if (does_nothing(transform) || is_rounding) return;
-    ui.tell(BeginDrag{pose->pivot, true});
-    ui.tell(DragTo{transform});
-    ui.tell(EndDrag{});
+    ui.tell(TakeBackPart{moved_with(ui.editor, ui.editor.chosen), part});
 }
 bool chosen_is_posed(const Ui& ui) {
     return moving_handle_is_chosen(ui) && something_is_posed(ui);
@@ -347,11 +336,11 @@ const Action handle_actions[] = {
      "Puts what is chosen back where it was at rest, with what goes along", on('R', alt),
      [](const Ui& ui) { ui.tell(ResetPoses{moved_with(ui.editor, ui.editor.chosen)}); }, chosen_is_posed},
     {"Handles", "Take its move back", "Alt+G",
-     "Puts the chosen handle's pivot back where it was at rest; its turn and size stay", on('G', alt),
-     take_back<unmoved>, chosen_is_posed},
+     "Puts the chosen handle's pivot back where it was at rest, and what goes along; turn and size stay",
+     on('G', alt), take_back<PosePart::move>, chosen_is_posed},
     {"Handles", "Take its scaling back", "Alt+S",
-     "Makes the chosen handle as large as it was at rest; its place and turn stay", on('S', alt),
-     take_back<unscaled>, chosen_is_posed},
+     "Makes the chosen handle as large as it was at rest, and what goes along; place and turn stay",
+     on('S', alt), take_back<PosePart::scaling>, chosen_is_posed},
     {"Handles/Mirror", "Along X", "", "Makes the same handle, mirrored, on the other side along x",
      std::nullopt, mirror<0>, handle_is_chosen},
     {"Handles/Mirror", "Along Y", "", "Makes the same handle, mirrored, on the other side along y",

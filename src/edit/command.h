@@ -83,6 +83,11 @@ struct DeleteHandles {
 struct ResetPoses { // of those that move
     std::vector<std::string> handles;
 };
+enum class PosePart { move, scaling };
+struct TakeBackPart { // of the poses of those that move; the rest of each stays
+    std::vector<std::string> handles;
+    PosePart part = PosePart::move;
+};
 // The points on the other side of the cloud become a handle as this one is, with its pose mirrored; where a
 // moving one holds these already, that one takes the pose of a moving one.
 struct MirrorHandle {
@@ -94,7 +99,6 @@ struct MirrorHandle {
 
 struct BeginDrag { // of the chosen handle, and of those that go along
     glm::dvec3 pivot{0.0};
-    bool alone = false; // without these
 };
 struct DragTo {
     Transform transform; // on top of the pose at BeginDrag
@@ -157,9 +161,9 @@ struct SetPivotUnder { // a double click: the point under the cursor becomes the
 using Command =
     std::variant<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, DropChoice,
                  ChangeHidden, MakeHandle, ChooseHandle, ChooseAlso, MirrorMoves, RenameHandle, AssignPoints,
-                 ChangeRole, ChangeHold, ColorHandle, DeleteHandles, ResetPoses, MirrorHandle, BeginDrag,
-                 DragTo, EndDrag, CancelDrag, RefuseTransform, SetPivot, SetPivotInside, SetPivotToSelection,
-                 ChangeSettings, ChooseSamples, CommitPose, UndoStep, RedoStep, PlayStep, PacePlaying,
-                 AdvancePlaying, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
+                 ChangeRole, ChangeHold, ColorHandle, DeleteHandles, ResetPoses, TakeBackPart, MirrorHandle,
+                 BeginDrag, DragTo, EndDrag, CancelDrag, RefuseTransform, SetPivot, SetPivotInside,
+                 SetPivotToSelection, ChangeSettings, ChooseSamples, CommitPose, UndoStep, RedoStep, PlayStep,
+                 PacePlaying, AdvancePlaying, MoveCamera, FrameView, LookAtSide, SetPivotUnder>;
 
 } // namespace knead

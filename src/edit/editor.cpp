@@ -117,15 +117,15 @@ bool is_one_of(const Command& command) {
 bool is_act(const Command& command) {
     return is_one_of<SelectRegion, SelectPointUnder, ChangeSelection, SelectHandlePoints, ChangeHidden,
                      MakeHandle, RenameHandle, AssignPoints, ChangeRole, ChangeHold, ColorHandle,
-                     DeleteHandles, ResetPoses, MirrorHandle, BeginDrag, SetPivot, SetPivotInside,
-                     SetPivotToSelection, ChangeSettings, ChooseSamples, CommitPose>(command);
+                     DeleteHandles, ResetPoses, TakeBackPart, MirrorHandle, BeginDrag, SetPivot,
+                     SetPivotInside, SetPivotToSelection, ChangeSettings, ChooseSamples, CommitPose>(command);
 }
 
 // Whether it goes on from the pose as it is, or makes it the rest shape, or may.
 bool goes_on_from_pose(const Command& command) {
     return is_one_of<MakeHandle, AssignPoints, ChangeRole, ChangeHold, DeleteHandles, ResetPoses,
-                     MirrorHandle, BeginDrag, SetPivot, SetPivotInside, SetPivotToSelection, ChangeSettings,
-                     CommitPose>(command);
+                     TakeBackPart, MirrorHandle, BeginDrag, SetPivot, SetPivotInside, SetPivotToSelection,
+                     ChangeSettings, CommitPose>(command);
 }
 
 // Whether it only looks at what is there.

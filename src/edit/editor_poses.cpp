@@ -5,6 +5,7 @@
 #include "edit/handle_lines.h"
 #include "edit/handle_motion.h"
 #include "edit/mirroring.h"
+#include "edit/pose_numbers.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -98,6 +99,44 @@ void carry_out(Editor& editor, const ResetPoses& command) {
     }
 }
 
+namespace {
+
+// By less of the diagonal, a handle was not moved: its middle is known as closely as floats tell.
+constexpr double rounding = 1e-6;
+
+Transform that_takes_back(PosePart part, const HandleMotion& motion, const Vec3d& pivot, double diagonal) {
+    if (part == PosePart::scaling) return unscaled(motion, pivot);
+    const Transform back = unmoved(motion, pivot);
+    return glm::length(back.shift) > rounding * diagonal ? back : Transform{};
+}
+
+} // namespace
+
+// Each goes back by itself, about its own pivot, in a drag of one frame.
+void carry_out(Editor& editor, const TakeBackPart& command) {
+    if (!needs_document(editor) || poses_may_change(editor)) return;
+    const Vec3d& origin = editor.opened.cloud->origin;
+    std::vector<SessionAction> lines;
+    std::vector<PivotMove> pivots;
+    for (const std::string& name : command.handles) {
+        const auto number = number_of(editor, name);
+        if (!number || !will_be_there(editor, name)) continue;
+        const Handle& handle = editor.document->handles[*number];
+        if (handle.role != HandleRole::moving) continue;
+        const glm::dvec3 pivot = place_of_gizmo(editor, handle);
+        const HandleMotion motion = motion_now(editor, *number);
+        const Transform back =
+            that_takes_back(command.part, motion, to_eigen(pivot), editor.opened.bounds.diagonal());
+        if (does_nothing(back)) continue;
+        const Vec3d in_file = to_eigen(pivot) + origin;
+        lines.emplace_back(DragLine{name, in_file, {pose_of(followed_by(motion, back), in_file, origin)}});
+        if (pivot_of(editor, name)) pivots.push_back({name, pivot, transformed(back, pivot)});
+    }
+    if (lines.empty()) return;
+    post_step(editor, std::move(lines));
+    for (const PivotMove& move : pivots) put_pivot_with(editor.past.back(), editor, move.handle, move.after);
+}
+
 void carry_out(Editor& editor, const MirrorHandle& command) {
     const auto number = number_of(editor, command.handle);
     if (!number) return;
@@ -186,12 +225,11 @@ void carry_out(Editor& editor, const BeginDrag& command) {
     drag.handle = editor.chosen;
     drag.middle = pose.pivot;
     drag.motion = {pose.motion, pose.motion};
-    if (!command.alone) drag.along = handles_along(editor, command.pivot);
+    drag.along = handles_along(editor, command.pivot);
     EditorStep step = coming_step(editor, drag.step);
     step.is_drag = true;
     editor.live->begin_drag(drag.step, editor.chosen, to_eigen(command.pivot) + editor.opened.cloud->origin,
-                            command.alone ? std::vector<Companion>{}
-                                          : companions(editor, drag, command.pivot));
+                            companions(editor, drag, command.pivot));
     if (editor.drag) editor.earlier_drags.push_back(std::move(*editor.drag));
     editor.drag = std::move(drag);
     add_step(editor, std::move(step));

@@ -147,6 +147,7 @@ void carry_out(Editor& editor, const ChangeHold& command);
 void carry_out(Editor& editor, const ColorHandle& command);
 void carry_out(Editor& editor, const DeleteHandles& command);
 void carry_out(Editor& editor, const ResetPoses& command);
+void carry_out(Editor& editor, const TakeBackPart& command);
 void carry_out(Editor& editor, const MirrorHandle& command);
 void carry_out(Editor& editor, const SelectHandlePoints& command);
 void carry_out(Editor& editor, const DropChoice& command);

@@ -142,6 +142,7 @@ TEST_F(BothEnds, AreNoneWhileTheirNamesChange) {
     calm();
     EXPECT_NEAR(motion_of_handle("belt").turned.x(), -30 * degree, 1e-6);
     editor_.notices.clear();
+    apply(editor_, MirrorMoves{});
     apply(editor_, ChooseAlso{"belt"});
     apply(editor_, RenameHandle{"belt", "low"});
     apply(editor_, ResetPoses{moved_with(editor_, "high")}); // by the name that it will have then
@@ -192,10 +193,40 @@ TEST_F(BothEnds, AreOnlyThoseThatAreNearestToEachOther) {
     EXPECT_FALSE(leaves_rest(motion_of_handle("ring")));
 }
 
+// Each by itself, whatever went along with what.
+TEST_F(BothEnds, TakeAMoveAndAScalingBack) {
+    transform_chosen('G', 'Z', "0.5");
+    transform_chosen('S', 'X', "2");
+    transform_chosen('R', 'X', "30");
+    apply(editor_, MirrorMoves{});
+    transform_chosen('G', 'Y', "0.25");
+    apply(editor_, MirrorMoves{2});
+    const std::size_t steps = editor_.past.size();
+    const auto moved_by = [&](const char* name) {
+        const Handle& handle = editor_.document->handles[name == std::string("high") ? 1 : 2];
+        const Vec3d now = to_eigen(*middle_of(editor_, handle));
+        return (now - point_at_rest(motion_of_handle(name), now)).norm();
+    };
+    EXPECT_GT(moved_by("high"), 0.5);
+    EXPECT_GT(moved_by("low"), 0.45);
+    for (const PosePart part : {PosePart::move, PosePart::scaling, PosePart::move, PosePart::scaling}) {
+        apply(editor_, TakeBackPart{moved_with(editor_, "high"), part});
+        calm();
+    }
+    EXPECT_EQ(editor_.past.size(), steps + 2) << "one step each, and none where nothing is left";
+    for (const char* name : {"high", "low"}) {
+        EXPECT_LT(moved_by(name), 1e-4) << name;
+        const HandleMotion& motion = motion_of_handle(name);
+        EXPECT_LT((motion.linear - motion.rotation.toRotationMatrix()).norm(), 1e-9) << name;
+        EXPECT_NEAR(std::abs(motion.turned.x()), 30 * degree, 1e-6) << name;
+    }
+}
+
 // Both of two that lie across from each other go as the mirror says, and another that is chosen takes its own
 // counterpart along.
 TEST_F(BothEnds, OfWhatIsChosenTogether) {
     apply(editor_, ChooseAlso{"low"});
+    EXPECT_TRUE(editor_.also_chosen.empty()) << "it goes along as it is";
     transform_chosen('G', 'Z', "0.1");
     EXPECT_NEAR(motion_of_handle("low").offset.z(), -0.1, 1e-9);
     apply(editor_, UndoStep{});

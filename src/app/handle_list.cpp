@@ -124,15 +124,12 @@ void color_swatch(const Ui& ui, const Handle& handle, ImVec2 middle) {
 // How the handle goes along with the chosen one, if it does.
 enum class GoesAlong { no, same, mirrored };
 GoesAlong goes_along(const Editor& editor, const std::string& handle) {
-    const auto is_in = [&](const std::vector<std::string>& names) {
-        return std::ranges::find(names, handle) != names.end();
-    };
     const auto& symmetry = editor.symmetry;
+    const auto& also = editor.also_chosen;
     if (symmetry &&
         std::ranges::find(symmetry->pairs, handle, &Symmetry::Pair::counterpart) != symmetry->pairs.end())
         return GoesAlong::mirrored;
-    if (is_in(editor.also_chosen)) return GoesAlong::same;
-    return GoesAlong::no;
+    return std::ranges::find(also, handle) != also.end() ? GoesAlong::same : GoesAlong::no;
 }
 
 // In a word how it holds, where that is not the usual way; or while moves are mirrored, how it goes along.

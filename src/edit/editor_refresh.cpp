@@ -142,6 +142,7 @@ void forget_names(Editor& editor, IsAnswered&& is_answered) {
 void forget_refused(Editor& editor) {
     for (const auto [step, ends_redo] : editor.live->take_refused()) {
         forget_names(editor, [&](StepNumber of) { return of == step; });
+        find_counterparts(editor); // some names stay that were to go
         forget_future(editor, step);
         for (EditorStep& past : editor.past)
             if (past.joined == step) past.joined = 0;

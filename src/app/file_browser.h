@@ -50,7 +50,7 @@ struct FileBrowser {
     NewFolder new_folder;
     std::string typed;                    // the name, or a path
     std::string filter;                   // what was typed of a name that is looked for; empty: all is shown
-    SaveColumns columns;                  // of an exported cloud
+    ExportOptions options;                // of an exported cloud
     std::string usual_extension = ".ply"; // of an exported cloud whose name has none
     bool every_file = false;              // also those of another kind than is looked for
     int chosen = -1;                      // among the entries

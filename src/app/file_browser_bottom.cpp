@@ -35,8 +35,8 @@ bool has_line_of_columns(const Ui& ui) {
     return ui.state.browser.purpose == BrowseFor::save_cloud && is_narrow(ui);
 }
 
-// Whether it is to be said of points that are not seen that they are written all the same.
-bool tells_of_hidden(const Ui& ui) {
+// Whether there are points that are not seen and could be left out.
+bool asks_about_hidden(const Ui& ui) {
     return ui.state.browser.purpose == BrowseFor::save_cloud && ui.editor.hidden > 0;
 }
 
@@ -80,7 +80,7 @@ float bottom_height(const Ui& ui) {
                                               ImGui::GetTextLineHeight();
     const float row = ImGui::GetFrameHeightWithSpacing();
     const float format = ui.state.browser.purpose == BrowseFor::save_cloud ? row : 0;
-    const float hidden = tells_of_hidden(ui) && is_narrow(ui) ? ImGui::GetTextLineHeightWithSpacing() : 0;
+    const float hidden = asks_about_hidden(ui) && is_narrow(ui) ? row : 0;
     const float help = ui.state.browser.missing_folder.empty() ? 0 : row;
     return ui.scaled(92) + lines + help + format + hidden + (has_line_of_columns(ui) ? row : 0);
 }
@@ -108,7 +108,7 @@ void choose(const Ui& ui) {
             ui.wish(WishTakeHandles{file});
     } else {
         if (!can_save(browser, file)) return;
-        ui.wish(WishSaveTo{browser.purpose, file, true, browser.columns});
+        ui.wish(WishSaveTo{browser.purpose, file, true, browser.options});
     }
     browser.folder = file.parent_path(); // where the next one begins
     ImGui::CloseCurrentPopup();
@@ -148,27 +148,23 @@ void format_choice(const Ui& ui) {
 }
 
 // Beside the format, or below it where there is no room.
-void hidden_points(const Ui& ui) {
-    if (!tells_of_hidden(ui)) return;
-    if (!is_narrow(ui)) {
-        ImGui::SameLine(0, ui.scaled(16));
-        ImGui::AlignTextToFramePadding();
-    }
-    const std::size_t count = ui.editor.hidden;
-    ImGui::TextUnformatted(
-        (grouped(count) + (count == 1 ? " hidden point is written, too" : " hidden points are written, too"))
-            .c_str());
-    explain("Hiding is for looking and choosing: the file keeps all of its points, in their order");
+void hidden_choice(const Ui& ui) {
+    if (!asks_about_hidden(ui)) return;
+    if (!is_narrow(ui)) ImGui::SameLine(0, ui.scaled(16));
+    const std::string words = "Without the " + counted(ui.editor.hidden, "hidden point");
+    ImGui::Checkbox((words + "###hidden").c_str(), &ui.state.browser.options.without_hidden);
+    explain("Leaves the points out that are hidden now, in a new file that has nothing but the others. "
+            "Otherwise the file keeps all of its points, in their order: hiding is for looking and choosing");
 }
 
 // What an exported cloud gets beside its own attributes.
 void column_choice(FileBrowser& browser) {
     ImGui::SameLine();
-    ImGui::Checkbox("With displacement", &browser.columns.displacement);
+    ImGui::Checkbox("With displacement", &browser.options.displacement);
     explain("Adds the attribute \"displacement\": how far each point is from where it was opened, in the "
             "cloud's units");
     ImGui::SameLine();
-    ImGui::Checkbox("With stretch", &browser.columns.stretch);
+    ImGui::Checkbox("With stretch", &browser.options.stretch);
     explain("Adds the attribute \"stretch\": how much farther apart a point and its neighbours are than when "
             "the cloud was opened; 1 is unstretched");
 }
@@ -214,7 +210,7 @@ void bottom_row(const Ui& ui, bool hears_keys) {
     words_about_name(browser);
     const bool entered = name_field(browser);
     if (browser.purpose == BrowseFor::save_cloud) format_choice(ui);
-    hidden_points(ui);
+    hidden_choice(ui);
     if (ImGui::Checkbox(has_line_of_columns(ui) ? "All" : "All files", &browser.every_file))
         read_folder(browser);
     explain(browser.purpose == BrowseFor::save_picture ? "Also shows files that are no pictures (.png)"

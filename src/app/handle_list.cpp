@@ -124,11 +124,8 @@ void color_swatch(const Ui& ui, const Handle& handle, ImVec2 middle) {
 // How the handle goes along with the chosen one, if it does.
 enum class GoesAlong { no, same, mirrored };
 GoesAlong goes_along(const Editor& editor, const std::string& handle) {
-    const auto& symmetry = editor.symmetry;
     const auto& also = editor.also_chosen;
-    if (symmetry &&
-        std::ranges::find(symmetry->pairs, handle, &Symmetry::Pair::counterpart) != symmetry->pairs.end())
-        return GoesAlong::mirrored;
+    if (goes_mirrored(editor, handle)) return GoesAlong::mirrored;
     return std::ranges::find(also, handle) != also.end() ? GoesAlong::same : GoesAlong::no;
 }
 

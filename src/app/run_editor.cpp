@@ -82,7 +82,7 @@ bool take_news(Loop& loop) {
         static_cast<UiOfDocument&>(loop.state) = {};
         forget_shape(loop.state.toasts);
         loop.state.display.look.scale = 1; // another cloud is another matter
-        loop.state.browser.columns = {};
+        loop.state.browser.options = {};
         if (!reads_file(loop.state.browser.purpose)) // it was about to save what was there before
             loop.state.browser.close_now = loop.state.browser.is_open;
         editor.held_saves.clear(); // which would ask about the document before

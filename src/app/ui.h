@@ -51,7 +51,7 @@ struct WishSaveTo {        // asks before anything is overwritten
     BrowseFor purpose = BrowseFor::save_session;
     std::filesystem::path file;
     bool ask = true;
-    SaveColumns columns = {};    // of a cloud
+    ExportOptions options = {};  // of a cloud
     bool anyway = false;         // although somebody else changed it since it was read or written here
     bool keeps_original = false; // of the cloud that it takes the place of
 };

@@ -193,7 +193,7 @@ void save(Work& work, const WishSaveTo& wish) {
         remember_choosing(wish.file, work.editor.chooses_samples);
         work.state.last_session = wish.file;
     } else {
-        save_cloud(work.editor, wish.file, wish.columns, wish.anyway, wish.keeps_original);
+        save_cloud(work.editor, wish.file, wish.options, wish.anyway, wish.keeps_original);
         work.state.last_export = wish.file;
     }
     if (work.state.after.waiting_for_save) work.state.after.save_was_posted = true;
@@ -315,10 +315,10 @@ void grant(Work& work, const Wish& wish) {
 }
 
 void ask_about(Work& work, const HeldSave& held) {
-    work.state.overwriting = {.purpose = held.columns ? BrowseFor::save_cloud : BrowseFor::save_session,
+    work.state.overwriting = {.purpose = held.options ? BrowseFor::save_cloud : BrowseFor::save_session,
                               .file = held.target,
                               .ask = true,
-                              .columns = held.columns.value_or(SaveColumns{}),
+                              .options = held.options.value_or(ExportOptions{}),
                               .anyway = true};
     work.state.after.save_was_posted = false;
     if (work.state.after.waiting_for_file) work.state.after = {}; // it was not written, and is asked about

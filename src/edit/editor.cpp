@@ -180,9 +180,10 @@ void apply(Editor& editor, const Command& command) {
     }
 }
 
-void save_cloud(Editor& editor, std::filesystem::path target, SaveColumns columns, bool anyway,
+void save_cloud(Editor& editor, std::filesystem::path target, ExportOptions options, bool anyway,
                 bool keeps_original) {
-    editor.live->save_cloud(std::move(target), columns, anyway, keeps_original);
+    editor.live->save_cloud(std::move(target), options, anyway, keeps_original,
+                            options.without_hidden ? hidden_points(editor) : std::vector<std::uint8_t>{});
     editor.saving = true;
 }
 

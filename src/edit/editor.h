@@ -165,7 +165,7 @@ void apply(Editor& editor, const Command& command);
 bool refresh(Editor& editor);
 
 // Write the shape as it is, or the session so far, as LiveDocument does; until they are done, `saving`.
-void save_cloud(Editor& editor, std::filesystem::path target, SaveColumns columns, bool anyway,
+void save_cloud(Editor& editor, std::filesystem::path target, ExportOptions options, bool anyway,
                 bool keeps_original = false);
 void save_session(Editor& editor, std::filesystem::path target, bool anyway);
 
@@ -185,6 +185,8 @@ const Handle* chosen_handle(const Editor& editor);          // null: none
 std::vector<std::string> chosen_with(const Editor& editor, const std::string& handle);
 // The same, and the counterparts that go along with them, mirrored.
 std::vector<std::string> moved_with(const Editor& editor, const std::string& handle);
+// Whether it goes along with what is chosen as its counterpart, mirrored.
+bool goes_mirrored(const Editor& editor, const std::string& handle);
 // Which one a name is for that is asked for now: the one that was just made, whatever is chosen. Null: none,
 // or the document has yet to make it.
 const Handle* handle_to_name(const Editor& editor);

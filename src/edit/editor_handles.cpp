@@ -150,8 +150,7 @@ void carry_out(Editor& editor, const ChooseAlso& command) {
     if (!is_moving(command.handle))
         return say(editor, Notice::Kind::information,
                    quoted(command.handle) + " is no moving handle, so it cannot go along.");
-    if (editor.symmetry && std::ranges::find(editor.symmetry->pairs, command.handle,
-                                             &Symmetry::Pair::counterpart) != editor.symmetry->pairs.end())
+    if (goes_mirrored(editor, command.handle))
         return say(editor, Notice::Kind::information,
                    quoted(command.handle) + " goes along as it is, mirrored.");
     if (std::erase(editor.also_chosen, command.handle) == 0) editor.also_chosen.push_back(command.handle);

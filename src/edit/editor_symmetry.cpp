@@ -133,6 +133,11 @@ void find_counterparts(Editor& editor) {
     if (editor.symmetry) editor.symmetry->pairs = chosen_pairs(editor);
 }
 
+bool goes_mirrored(const Editor& editor, const std::string& handle) {
+    return editor.symmetry && std::ranges::find(editor.symmetry->pairs, handle, &Pair::counterpart) !=
+                                  editor.symmetry->pairs.end();
+}
+
 std::vector<std::string> moved_with(const Editor& editor, const std::string& handle) {
     std::vector<std::string> handles = chosen_with(editor, handle);
     if (!editor.symmetry || std::ranges::find(handles, editor.chosen) == handles.end()) return handles;
@@ -159,14 +164,12 @@ std::vector<EditorDrag::Along> handles_along(const Editor& editor, const glm::dv
         along.push_back(
             {name, place_of_gizmo(editor, editor.document->handles[*number]), {now, now}, mirror});
     };
-    const std::vector<Pair>* const pairs = editor.symmetry ? &editor.symmetry->pairs : nullptr;
     for (const std::string& other : editor.also_chosen)
-        if (!pairs || std::ranges::find(*pairs, other, &Pair::counterpart) == pairs->end())
-            add(other, std::nullopt);
-    if (!pairs) return along;
+        if (!goes_mirrored(editor, other)) add(other, std::nullopt);
+    if (!editor.symmetry) return along;
     // Of all of them, which turn about one pivot.
     Reflection mirror = reflection(plane_of(*editor.symmetry), Vec3d::Zero());
-    for (const Pair& pair : *pairs) {
+    for (const Pair& pair : editor.symmetry->pairs) {
         if (pair.handle == editor.chosen) mirror = mirror_between(editor, pair, to_eigen(pivot));
         add(pair.counterpart, mirror);
     }

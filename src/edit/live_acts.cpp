@@ -2,7 +2,9 @@
 
 #include "edit/live_work.h"
 
+#include "base/counts.h"
 #include "base/error.h"
+#include "base/require.h"
 #include "edit/handle_motion.h"
 #include "edit/kept_original.h"
 #include "edit/live_opening.h"
@@ -212,14 +214,15 @@ bool LiveWork::hold_back(HeldSave save) {
 
 void LiveWork::carry_out(task::SaveCloud& task) {
     come_to_rest();
-    if (!task.anyway && hold_back({task.target, task.columns})) return;
+    if (!task.anyway && hold_back({task.target, task.options})) return;
     look_for_others(task.target);
     std::filesystem::path copy; // of the original; empty: none is kept
     if (task.keeps_original && real_name(task.target) == real_name(recording_->cloud()))
         copy = copy_original();
+    const std::vector<std::uint8_t> left_out = left_out_of(task);
     std::vector<std::string> heard;
     try {
-        heard = write(task);
+        heard = write(task, left_out);
     } catch (...) {
         std::error_code ignored;
         if (!copy.empty()) std::filesystem::remove(copy, ignored);
@@ -227,7 +230,10 @@ void LiveWork::carry_out(task::SaveCloud& task) {
     }
     if (!copy.empty()) go_by_copy(copy);
     take_note(files_.known, task.target);
-    say(Notice::Kind::information, "Saved the cloud as " + task.target.string());
+    const auto without = static_cast<std::size_t>(std::ranges::count(left_out, std::uint8_t{1}));
+    say(Notice::Kind::information,
+        "Saved the cloud as " + task.target.string() +
+            (without > 0 ? ", without its " + counted(without, "hidden point") : std::string()));
     if (!copy.empty())
         say(Notice::Kind::information, "The original is now " + copy.string() +
                                            ", and the session goes by that: save it (Ctrl+S) to go on "
@@ -260,16 +266,29 @@ void LiveWork::go_by_copy(const std::filesystem::path& copy) {
 }
 
 // What the format could not hold, in words.
-std::vector<std::string> LiveWork::write(const task::SaveCloud& task) {
+std::vector<std::string> LiveWork::write(const task::SaveCloud& task,
+                                         std::span<const std::uint8_t> left_out) {
     const std::vector<float> positions = document_->positions(progress_);
     const std::vector<float> normals = document_->normals(progress_);
-    const std::vector<float> far = task.columns.displacement ? displacement_column() : std::vector<float>{};
-    const std::vector<float> stretch = task.columns.stretch ? stretch_column() : std::vector<float>{};
+    const std::vector<float> far = task.options.displacement ? displacement_column() : std::vector<float>{};
+    const std::vector<float> stretch = task.options.stretch ? stretch_column() : std::vector<float>{};
     const std::vector<float> rotations = document_->rotations(progress_);
     PosedShape shape{positions, normals, {}, rotations};
-    if (task.columns.displacement) shape.added.push_back({"displacement", far});
-    if (task.columns.stretch) shape.added.push_back({"stretch", stretch});
-    return write_cloud(task.target, document_->cloud(), shape, progress_);
+    if (task.options.displacement) shape.added.push_back({"displacement", far});
+    if (task.options.stretch) shape.added.push_back({"stretch", stretch});
+    if (left_out.empty()) return write_cloud(task.target, document_->cloud(), shape, progress_);
+    return write_part(task.target, document_->cloud(), shape, left_out, progress_);
+}
+
+// One a point of the file, 1 for those that are left out; empty where none is.
+std::vector<std::uint8_t> LiveWork::left_out_of(const task::SaveCloud& task) const {
+    if (!task.options.without_hidden || std::ranges::find(task.hidden, std::uint8_t{1}) == task.hidden.end())
+        return {};
+    const std::vector<Index>& file_index = document_->pipeline().order().file_index;
+    require(task.hidden.size() == file_index.size(), "it is said of each point whether it is hidden");
+    std::vector<std::uint8_t> left_out(document_->cloud().size(), 0);
+    for (std::size_t i = 0; i < task.hidden.size(); ++i) left_out[file_index[i]] = task.hidden[i];
+    return left_out;
 }
 
 void LiveWork::carry_out(task::SaveSession& task) {

@@ -134,9 +134,9 @@ void LiveDocument::advance_play(int frames) {
     shared_->change([&](LiveShared& shared) { shared.pace.frames += frames; });
 }
 
-void LiveDocument::save_cloud(std::filesystem::path target, SaveColumns columns, bool anyway,
-                              bool keeps_original) {
-    put(*shared_, task::SaveCloud{std::move(target), columns, anyway, keeps_original});
+void LiveDocument::save_cloud(std::filesystem::path target, ExportOptions options, bool anyway,
+                              bool keeps_original, std::vector<std::uint8_t> hidden) {
+    put(*shared_, task::SaveCloud{std::move(target), options, anyway, keeps_original, std::move(hidden)});
 }
 
 void LiveDocument::save_session(std::filesystem::path target, bool anyway) {

@@ -121,17 +121,18 @@ struct PivotPlace {
     std::optional<Vec3d> place;
 };
 
-// What is saved with a cloud beside its own attributes.
-struct SaveColumns {
-    bool displacement = false; // "displacement", of each point from where it was opened
-    bool stretch = false;      // "stretch", see edit/measures.h
+// What is saved with a cloud beside its own attributes, and what without.
+struct ExportOptions {
+    bool displacement = false;   // "displacement", of each point from where it was opened
+    bool stretch = false;        // "stretch", see edit/measures.h
+    bool without_hidden = false; // leaves out the points that are hidden when it is asked for
 };
 
 // A save that was not carried out, since somebody else has changed the file after this editor read or wrote
 // it.
 struct HeldSave {
     std::filesystem::path target;
-    std::optional<SaveColumns> columns; // of a cloud; none: a session
+    std::optional<ExportOptions> options; // of a cloud; none: a session
 };
 
 struct OpenRequest {
@@ -257,8 +258,9 @@ public:
     // that somebody else has changed since this editor read or wrote it, only `anyway`: else
     // take_held_saves() has it. `keeps_original`: where the target is the very file that the cloud was read
     // from, that is copied first (edit/kept_original.h), and the document is about the copy from then on.
-    void save_cloud(std::filesystem::path target, SaveColumns columns = {}, bool anyway = false,
-                    bool keeps_original = false);
+    // `hidden`: one a point in the order of the edit, 1 where the options may leave it out; empty: none is.
+    void save_cloud(std::filesystem::path target, ExportOptions options = {}, bool anyway = false,
+                    bool keeps_original = false, std::vector<std::uint8_t> hidden = {});
     void save_session(std::filesystem::path target, bool anyway = false);
 
     // --- What is newest ---

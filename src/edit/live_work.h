@@ -63,7 +63,8 @@ private:
     void carry_out(task::Undo& task);
     void carry_out(task::Redo& task);
     void carry_out(task::SaveCloud& task);
-    std::vector<std::string> write(const task::SaveCloud& task);
+    std::vector<std::uint8_t> left_out_of(const task::SaveCloud& task) const;
+    std::vector<std::string> write(const task::SaveCloud& task, std::span<const std::uint8_t> left_out);
     std::filesystem::path copy_original();
     void go_by_copy(const std::filesystem::path& copy);
     void carry_out(task::SaveSession& task);

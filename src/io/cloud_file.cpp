@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/whole_file.h"
+#include "cloud/cloud_part.h"
 #include "cloud/splats.h"
 #include "io/format.h"
 
@@ -108,6 +109,28 @@ std::vector<std::string> write_cloud(const std::filesystem::path& path, const Po
     std::vector<std::string> left_out = write_cloud(file, cloud, shape, progress);
     file.commit();
     return left_out;
+}
+
+std::vector<std::string> write_part(const std::filesystem::path& path, const PointCloud& cloud,
+                                    const PosedShape& shape, std::span<const std::uint8_t> left_out,
+                                    Progress& progress) {
+    if (std::ranges::find(left_out, std::uint8_t{0}) == left_out.end())
+        throw Error(Trouble::output, path.string(),
+                    "would hold no points, since all of them are left out; leave out fewer");
+    const PointCloud part = part_of(cloud, left_out);
+    const std::vector<float> positions = part_of(shape.positions, 3, left_out);
+    const std::vector<float> normals = part_of(shape.normals, 3, left_out);
+    const std::vector<float> rotations = part_of(shape.rotations, 4, left_out);
+    std::vector<std::vector<float>> added;
+    for (const AddedColumn& column : shape.added) added.push_back(part_of(column.values, 1, left_out));
+    PosedShape of_part{positions, normals, {}, rotations};
+    for (std::size_t k = 0; k < added.size(); ++k) of_part.added.push_back({shape.added[k].name, added[k]});
+    std::vector<std::string> words = write_cloud(path, part, of_part, progress);
+    if (!cloud.image) return words;
+    for (const std::string& what : cloud.image->besides_points())
+        words.push_back(path.filename().string() +
+                        ": what is there besides the points of the whole file is left out: " + what);
+    return words;
 }
 
 std::vector<std::string> write_cloud(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,

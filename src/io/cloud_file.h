@@ -7,6 +7,7 @@
 #include "base/whole_file.h"
 #include "cloud/point_cloud.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -53,6 +54,13 @@ std::vector<std::string> write_cloud(const std::filesystem::path& path, const Po
 // The same into a file that the caller commits, in the format of that target's extension.
 std::vector<std::string> write_cloud(FileInTheMaking& file, const PointCloud& cloud, const PosedShape& shape,
                                      Progress& progress);
+
+// The same without some of the points: always a new file of the target's format, with nothing of what the
+// cloud's own file held besides its points (faces, say), which is told. `left_out`: one a point, 0 where it
+// is written; at least one is, or Error (output) says so.
+std::vector<std::string> write_part(const std::filesystem::path& path, const PointCloud& cloud,
+                                    const PosedShape& shape, std::span<const std::uint8_t> left_out,
+                                    Progress& progress);
 
 // Whether knead reads and writes files with this extension.
 bool has_cloud_extension(const std::filesystem::path& path);

@@ -266,6 +266,34 @@ TEST_F(LiveBar, SavesDisplacementAndStretchOnWish) {
     EXPECT_LT(mean, 1.3);
 }
 
+TEST_F(LiveBar, LeavesHiddenPointsOutOnWish) {
+    const OpenedCloud opened = live_->opened();
+    std::vector<std::uint8_t> hidden(opened.order->file_index.size());
+    std::vector<Vec3d> stay; // in the order of the file
+    for (std::size_t i = 0; i < hidden.size(); ++i)
+        hidden[i] = opened.cloud->position(opened.order->file_index[i]).z() > 0 ? 1 : 0;
+    for (std::size_t i = 0; i < opened.cloud->size(); ++i)
+        if (!(opened.cloud->position(i).z() > 0)) stay.push_back(opened.cloud->file_position(i));
+    live_->save_cloud(folder_ / "all.ply", {}, false, false, hidden); // hidden, but nobody wishes it
+    live_->save_cloud(folder_ / "part.ply", {.displacement = true, .without_hidden = true}, false, false,
+                      hidden);
+    settle_down();
+    SilentProgress silent;
+    EXPECT_EQ(read_cloud(folder_ / "all.ply", silent).size(), opened.cloud->size());
+    const PointCloud part = read_cloud(folder_ / "part.ply", silent);
+    ASSERT_EQ(part.size(), stay.size());
+    for (std::size_t i = 0; i < stay.size(); ++i) ASSERT_EQ(part.file_position(i), stay[i]) << i;
+    EXPECT_TRUE(find_attribute(part, "displacement"));
+    bool told = false;
+    for (const Notice& notice : live_->take_notices())
+        told |= notice.words.find("without its") != std::string::npos;
+    EXPECT_TRUE(told);
+    live_->save_cloud(folder_ / "none.ply", {.without_hidden = true}, false, false,
+                      std::vector<std::uint8_t>(hidden.size(), 1));
+    settle_down();
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "none.ply"));
+}
+
 TEST(LiveDocument, SaysWhyAFileCannotBeOpened) {
     LiveDocument live(request_for("/nowhere/at/all.ply"));
     wait_until_open(live);

@@ -38,7 +38,7 @@ TEST_F(SavingOver, ASessionThatSomebodyElseChangedIsAskedAbout) {
     live_->save_session(session);
     EXPECT_TRUE(held());
     EXPECT_EQ(last_held_.target, session);
-    EXPECT_FALSE(last_held_.columns);
+    EXPECT_FALSE(last_held_.options);
     EXPECT_EQ(read_text(session), "theirs");
     EXPECT_EQ(live_->saved().session_state, saved_state) << "it is still unsaved";
     live_->save_session(folder_ / "b.knead");
@@ -93,7 +93,7 @@ TEST_F(SavingOver, ACloudThatSomebodyElseReplacedIsAskedAbout) {
         live_->save_cloud(name, {.stretch = true});
         EXPECT_TRUE(held());
         EXPECT_EQ(last_held_.target, name);
-        EXPECT_TRUE(last_held_.columns && last_held_.columns->stretch);
+        EXPECT_TRUE(last_held_.options && last_held_.options->stretch);
         EXPECT_EQ(stamp_of(cloud), theirs);
     }
     live_->save_cloud(cloud, {}, true);

@@ -15,18 +15,11 @@ namespace knead {
 
 namespace {
 
-std::string extension_of(const std::filesystem::path& file) {
-    return lower_case(file.extension().string());
-}
-
 bool is_cloud(const std::filesystem::path& file) {
     return has_cloud_extension(file);
 }
-bool is_session(const std::filesystem::path& file) {
-    return extension_of(file) == ".knead";
-}
 bool is_picture(const std::filesystem::path& file) {
-    return extension_of(file) == ".png";
+    return lower_case(file.extension().string()) == ".png";
 }
 
 // Whether a file is of the kind that is looked for, or that is saved.
@@ -34,14 +27,14 @@ bool is_meant(BrowseFor purpose, const std::filesystem::path& file) {
     switch (purpose) {
     case BrowseFor::save_session:
     case BrowseFor::take_handles:
-        return is_session(file);
+        return has_session_extension(file);
     case BrowseFor::save_cloud:
     case BrowseFor::cloud_of_session:
         return is_cloud(file);
     case BrowseFor::save_picture:
         return is_picture(file);
     default:
-        return is_session(file) || is_cloud(file);
+        return has_session_extension(file) || is_cloud(file);
     }
 }
 
@@ -84,7 +77,7 @@ void read_folder(FileBrowser& browser) {
         found.name = entry->path().filename().string();
         if (found.name.starts_with('.')) continue;
         found.is_folder = entry->is_directory(ignored);
-        found.is_session = is_session(entry->path());
+        found.is_session = has_session_extension(entry->path());
         found.is_picture = is_picture(entry->path());
         if (!found.is_folder) {
             const bool shown = is_meant(browser.purpose, entry->path());
@@ -169,7 +162,7 @@ std::filesystem::path typed_path(const FileBrowser& browser) {
     if (typed.is_relative()) typed = browser.folder / typed;
     std::error_code ignored;
     if (!std::filesystem::is_directory(typed, ignored)) {
-        if (browser.purpose == BrowseFor::save_session && typed.extension() != ".knead") typed += ".knead";
+        if (browser.purpose == BrowseFor::save_session && !has_session_extension(typed)) typed += ".knead";
         if (browser.purpose == BrowseFor::save_picture && !is_picture(typed)) typed += ".png";
         if (browser.purpose == BrowseFor::save_cloud && lacks_extension(typed))
             typed += browser.usual_extension;

@@ -1,6 +1,7 @@
 #include "app/handle_list.h"
 
 #include "app/handle_colors.h"
+#include "app/handle_menu.h"
 #include "app/icons.h"
 #include "app/widgets.h"
 #include "base/counts.h"
@@ -31,8 +32,7 @@ void name_field(const Ui& ui, const Handle& handle) {
     if (!entered && !left) return;
     const bool is_other = !escaped && !state.name_text.empty() && state.name_text != handle.name;
     if (is_other) ui.tell(RenameHandle{handle.name, state.name_text});
-    const bool is_taken = is_other && std::ranges::find(ui.editor.document->handles, state.name_text,
-                                                        &Handle::name) != ui.editor.document->handles.end();
+    const bool is_taken = is_other && handle_named(ui.editor.document->handles, state.name_text);
     if (entered && is_taken)
         state.renaming_begins = true; // what was typed is there to be changed
     else

@@ -1,6 +1,5 @@
-// What can be done to a handle, from its row in the list.
+#include "app/handle_menu.h"
 
-#include "app/handle_list.h"
 #include "app/number_fields.h"
 #include "app/widgets.h"
 

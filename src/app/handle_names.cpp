@@ -1,5 +1,4 @@
-// The names of the handles in the view, each with its sign and colour, and a line to its handle where there
-// was no room beside it.
+#include "app/handle_names.h"
 
 #include "app/axes_corner.h"
 #include "app/icons.h"

@@ -2,6 +2,7 @@
 
 #include "app/extents.h"
 #include "app/handle_list.h"
+#include "app/handle_menu.h"
 #include "app/ui.h"
 #include "app/widgets.h"
 #include "base/counts.h"

@@ -4,6 +4,7 @@
 #include "app/overlay.h"
 
 #include "app/axes_corner.h"
+#include "app/handle_names.h"
 #include "app/icons.h"
 #include "app/widgets.h"
 #include "edit/selecting.h"

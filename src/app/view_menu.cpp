@@ -2,7 +2,7 @@
 // of the view.
 
 #include "app/actions.h"
-#include "app/handle_list.h"
+#include "app/handle_menu.h"
 #include "app/widgets.h"
 
 #include <algorithm>
@@ -47,9 +47,7 @@ void draw_view_menu(const Ui& ui) {
     ImGui::PopStyleVar();
     if (!open) return;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.scaled(10), ui.scaled(9)});
-    const auto& handles = ui.editor.document->handles;
-    const auto handle = std::ranges::find(handles, menu.handle, &Handle::name);
-    if (handle != handles.end()) {
+    if (const Handle* handle = handle_named(ui.editor.document->handles, menu.handle)) {
         ImGui::TextDisabled("%s", handle->name.c_str());
         ImGui::Separator();
         handle_menu(ui, *handle);

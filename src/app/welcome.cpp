@@ -43,7 +43,7 @@ void recent_rows(const Ui& ui) {
         if (ImGui::Selectable("##recent", false, 0, {0, height})) ui.wish(WishOpen{recent[i]});
         ImGui::PopStyleVar();
         explain(recent[i].string());
-        const bool session = recent[i].extension() == ".knead";
+        const bool session = has_session_extension(recent[i]);
         draw_icon(*ImGui::GetWindowDrawList(), session ? Icon::session : Icon::cloud,
                   {at.x + ui.scaled(10), at.y + height / 2}, ui.scaled(14), palette::accent);
         const std::string folder = recent[i].parent_path().filename().string();

@@ -44,7 +44,7 @@ double deviation_from(const HandleMotion& motion, const Pipeline& pipeline, std:
     double largest = 0;
     for (std::size_t i = 0; i < held.size(); ++i) {
         if (!held[i]) continue;
-        const Vec3d target = motion.linear * point_at(pipeline.opened().positions, i) + motion.offset;
+        const Vec3d target = moved_point(motion, point_at(pipeline.opened().positions, i));
         largest = std::max(largest, (point_at(posed, i) - target).norm());
     }
     return diagonal > 0 ? largest / diagonal : largest;

@@ -109,7 +109,7 @@ void tell(const ReplayReport& report, const Arguments& arguments, Terminal& term
         {"finding neighbours", stages.neighbors},
         {"choosing samples", stages.sampling},
         {"measuring along the surface", stages.geodesic},
-        {"factorising both systems", stages.factorize},
+        {"weighing links, factorising", stages.factorize},
         {"preparing the device", stages.device},
         {"an iteration (median)", report.solve},
         {"moving all points (median)", report.upsample},

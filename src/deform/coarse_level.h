@@ -38,12 +38,14 @@ struct CoarseLevel {
 // the outcome is bad there is no coarse level; but for want of memory, which the caller has to refuse.
 FactorOutcome build_coarse_level(const SampleSystem& fine, CoarseLevel& coarse, Workers& workers);
 
-// One iteration as iterate() does it, and what the coarse samples make of it. An iteration that goes farther
-// than the one before shows that they do not know better here (a bar that is about to buckle, a very elastic
-// one): then what they made of the one before is taken back, and until `memory` forgets, iterations are
-// accelerated without them. So they are when four went more than .8 as far as those before them. `memory`
-// goes with a sequence of iterations at unchanging poses. Allocates in the first two iterations, and the
-// first two without the coarse samples. Returns the longest way that a sample went in the plain iteration.
+// One iteration as iterate() does it, corrected by what the coarse samples make of it. The coarse samples are
+// given up, and iterations accelerated without them until `memory` forgets, in two cases:
+//   - an iteration goes farther than the one before: they do not know better here (a bar that is about to
+//     buckle, a very elastic one). What they made of the one before is taken back.
+//   - four iterations in all have gone more than .8 times as far as the one before them: they do not pay.
+// `memory` goes with a sequence of iterations at unchanging poses. Allocates in the first two iterations, and
+// in the first two without the coarse samples. Returns the longest way that a sample went in the plain
+// iteration.
 double iterate(SampleSystem& fine, CoarseLevel& coarse, std::span<const HandleMotion> handles,
                SampleState& state, Acceleration& memory, Workers& workers);
 

@@ -322,7 +322,7 @@ void find_bodies(SampleSystem& system, std::span<const HandleMotion> handles, co
             const auto handle = static_cast<Index>(s - samples);
             set_four(handles[handle].offset, body.way);
             set_columns(handles[handle].linear - Mat3d::Identity(), body.map);
-            const bool free = says(system.rest.turns_freely, handle);
+            const bool free = is_set(system.rest.turns_freely, handle);
             set_columns(turn_of(free ? system.free_turn[handle] : handles[handle].rotation), body.turn);
         } else {
             set_columns(growth_of(handles[s - samples - system.rest.energy.handles()]), body.turn);

@@ -61,7 +61,7 @@ RowWeights weights_at(const PointsBetween& between, Index vertex, const Vec3d& p
     std::array<bool, influences_per_row> left_out{};
     for (std::size_t k = 0; k < count; ++k)
         left_out[k] =
-            row.sample[k] >= first_handle && says(between.turns_by_samples, row.sample[k] - first_handle);
+            row.sample[k] >= first_handle && is_set(between.turns_by_samples, row.sample[k] - first_handle);
     const auto is_in = [](bool out) { return !out; };
     const std::span told(left_out.data(), count);
     // One that has handles alone around it turns with them.
@@ -99,7 +99,7 @@ public:
         p_ = short_of_ = position_of(between_, vertex);
         const Index handle = between_.label[vertex];
         const bool is_held = handle != no_index;
-        const bool turns_freely = says(between_.turns_freely, handle);
+        const bool turns_freely = is_set(between_.turns_freely, handle);
         if (is_held) add(handle_body(handle), 1, turns_freely ? 0 : 1);
         if (!is_held || turns_freely) add_row(vertex, is_held);
         if (between_.weights == InfluenceWeights::smooth) bow();
@@ -255,7 +255,7 @@ Mat3d ContributionFinder::add_gradients(Index vertex, const Vec3d& position, con
 // Adds how much of the links around a vertex lies within handles. `squares`: Σ |e|².
 void ContributionFinder::add_growths(Index vertex, const Vec3d& position, double squares) {
     const auto grows = [&](Index handle) {
-        return handle != no_index && !says(between_.turns_freely, handle);
+        return handle != no_index && !is_set(between_.turns_freely, handle);
     };
     const auto add = [&](Index handle, double square) {
         if (grows(handle))

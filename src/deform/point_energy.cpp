@@ -40,7 +40,7 @@ double ramp(double at, double from, double to) {
 bool is_between(const PointsBetween& between, Index vertex) {
     if (hangs(between.hanging, vertex)) return false; // an outlier says nothing of the surface
     const Index handle = between.label[vertex];
-    if (handle == no_index || says(between.turns_freely, handle)) return true;
+    if (handle == no_index || is_set(between.turns_freely, handle)) return true;
     return std::ranges::any_of(between.graph.row(vertex),
                                [&](Index other) { return between.label[other] != handle; });
 }

@@ -40,6 +40,7 @@
 #include "graph/csr.h"
 #include "graph/influences.h"
 #include "graph/point_order.h"
+#include "graph/vertex_labels.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -47,11 +48,6 @@
 #include <vector>
 
 namespace knead {
-
-// What a list that may end early says of a handle; no_index: nothing.
-inline bool says(const std::vector<bool>& of_handles, Index handle) {
-    return handle < of_handles.size() && of_handles[handle];
-}
 
 // What two bodies t and s have to do with each other; t is a sample. In the matrices, and for the positions:
 struct BodyPair {

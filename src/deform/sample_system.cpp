@@ -50,7 +50,7 @@ void number_unknowns(SampleSystem& system) {
         if (handle[s] == no_index && !system.left_out[s]) number(s);
     system.moving_rows = system.free_sample.size();
     for (Index s = 0; s < handle.size(); ++s)
-        if (says(system.rest.turns_freely, handle[s]) &&
+        if (is_set(system.rest.turns_freely, handle[s]) &&
             !system.rest.graph.row(s).empty()) // one without links has nothing to turn it
             number(s);
 }
@@ -275,8 +275,7 @@ void number_bodies(SampleSystem& system) {
         system.body[s].placed = !(system.unknown[s] < system.moving_rows);
         system.body[s].turned = system.unknown[s] == no_index;
         const Index handle = system.rest.handle[s];
-        if (handle != no_index && handle < energy.handles())
-            system.body[energy.samples + handle].from = s;
+        if (handle != no_index && handle < energy.handles()) system.body[energy.samples + handle].from = s;
     }
 }
 

@@ -88,20 +88,21 @@ struct HandleMotion {
                        // (edit/handle_motion.h); for whoever tells of it, nothing computes with it
 };
 
-// A free sample that a handle with a falloff pulls: to where it sends the place, and, where it says how it
-// turns, to its own rotation. (One that is held at a single place is as good as nowhere held, the more so the
-// denser the samples are: its turn would count by chance.) In step 3, L + μ stands in the place of L, and
-// μ u in b, with u the way; and likewise in step 2.
+// A free sample that a handle with a falloff pulls: its position to where the handle sends it and, unless the
+// handle leaves rotation free, its rotation to the handle's. In step 3, L + μ stands in the place of L, and
+// μ u in b, with u how far the handle sends it; and likewise in step 2.
 struct SoftHold {
     Index sample = 0;
     Index handle = 0;
     double weight = 0;            // μ, of the size of the weights of the links; > 0
     Vec3d anchor = Vec3d::Zero(); // it is to go as far as the handle sends this: its own rest position, or,
                                   // for a handle that leaves rotation free, what is held next to it
-    // About which it then turns with its bed, which is numbered; or to so much, 0 … 1, as this sample of the
-    // handle does. no_index for other handles.
-    Index bed = no_index, turner = no_index;
-    double as_turner = 0;
+    // How it turns where the handle leaves rotation free; no_index for other handles. (A handle that holds a
+    // single place says nothing of turns: the denser the samples, the more those around would turn by
+    // chance.)
+    Index bed = no_index;    // the number of its bed, with all of which it turns about the anchor; or
+    Index turner = no_index; // this sample of the handle, whose turn it takes over
+    double as_turner = 0;    // to so much, 0 … 1
 };
 
 // All that is pulled round a place that leaves rotation free turns as it was moved: by the least-squares

@@ -2,6 +2,7 @@
 // Everything that the editor can be told to do. Tools, menus, keys and panels only make commands; apply() in
 // edit/editor.h carries them out. A Command is plain data.
 
+#include "edit/select_mode.h"
 #include "edit/session.h"
 #include "view/screen_region.h"
 #include "view/transform_drag.h"
@@ -12,8 +13,6 @@
 #include <vector>
 
 namespace knead {
-
-enum class SelectMode { replace, add, remove };
 
 // --- Choosing points ---
 

@@ -39,7 +39,7 @@ bool Document::needs_commit(const SessionAction& act) const {
         return set->change.neighbors || set->change.samples || set->change.strays;
     if (const auto* line = std::get_if<HandleLine>(&act)) return !retouched_by(*line, "");
     const auto* gone = std::get_if<DeleteLine>(&act);
-    return gone && std::ranges::find(handles_, gone->handle, &Handle::name) != handles_.end();
+    return gone && handle_named(handles_, gone->handle);
 }
 
 void Document::declare(const HandleLine& line, const std::string& place) {
@@ -52,8 +52,8 @@ void Document::declare(const HandleLine& line, const std::string& place) {
     refuse_while_posed("handles", place);
     auto points = std::make_shared<const std::vector<Index>>(resolve(line, place));
     HandleChange change;
-    const auto old = std::ranges::find(handles_, line.name, &Handle::name);
-    if (old != handles_.end()) change.gone = {static_cast<Index>(old - handles_.begin()), *old};
+    if (const auto old = number_of(handles_, line.name))
+        change.gone = {static_cast<Index>(*old), handles_[*old]};
     Index came = 0;
     for (const Handle& handle : handles_) came = std::max(came, handle.came + 1);
     change.come = {static_cast<Index>(handles_.size() - (change.gone ? 1 : 0)),
@@ -154,7 +154,7 @@ double Document::handle_error(Progress& progress) {
         if (label == no_index) continue;
         const Index handle = pipeline_.handle_of(label);
         const HandleMotion motion = handle < motions_.size() ? motions_[handle] : HandleMotion{};
-        const Vec3d target = motion.linear * point_at(rest.positions, i) + motion.offset;
+        const Vec3d target = moved_point(motion, point_at(rest.positions, i));
         largest = std::max(largest, (point_at(posed.positions, i) - target).norm());
     }
     return bounds_.diagonal() > 0 ? largest / bounds_.diagonal() : largest;
@@ -167,8 +167,7 @@ HandleDemand Document::demand(Progress& progress) {
 }
 
 Index Document::find_handle(const std::string& name, const std::string& place, const char* key) const {
-    for (Index h = 0; h < handles_.size(); ++h)
-        if (handles_[h].name == name) return h;
+    if (const auto handle = number_of(handles_, name)) return static_cast<Index>(*handle);
     std::string words = quoted(key) + ": there is no handle " + quoted(name) + " here";
     if (handles_.empty()) throw Error(Trouble::input, place, words + "; declare one first");
     words += "; there are";
@@ -178,14 +177,15 @@ Index Document::find_handle(const std::string& name, const std::string& place, c
 
 // Only points that are named: those of a region depend on the shape.
 std::optional<Index> Document::held_as_in(const HandleLine& line, const std::string& place) const {
-    const auto old = std::ranges::find(handles_, line.name, &Handle::name);
-    if (old == handles_.end() || std::holds_alternative<Region>(line.points)) return std::nullopt;
+    const auto number = number_of(handles_, line.name);
+    if (!number || std::holds_alternative<Region>(line.points)) return std::nullopt;
+    const Handle* const old = &handles_[*number];
     const bool holds_alike =
         old->role == line.role && old->free_rotation == line.free_rotation && old->falloff == line.falloff;
     if (!holds_alike) return std::nullopt;
     const std::vector<Index> points = resolve_points(line, cloud_, nullptr, place);
     if (*old->points != points && !is_unknown(*old->points)) return std::nullopt; // those may be these
-    return static_cast<Index>(old - handles_.begin());
+    return static_cast<Index>(*number);
 }
 
 bool Document::has(const HandleLine& line) const {
@@ -194,8 +194,8 @@ bool Document::has(const HandleLine& line) const {
 }
 
 std::optional<Index> Document::retouched_by(const HandleLine& line, const std::string& place) const {
-    const auto old = std::ranges::find(handles_, line.name, &Handle::name);
-    if (old != handles_.end() && old->color == line.color && old->pivot == line.pivot) return std::nullopt;
+    const Handle* const old = handle_named(handles_, line.name);
+    if (old && old->color == line.color && old->pivot == line.pivot) return std::nullopt;
     return held_as_in(line, place);
 }
 
@@ -299,22 +299,16 @@ std::vector<Index> Document::resolve(const HandleLine& line, const std::string& 
 }
 
 std::string words_about_swallowed(const Document& document, const std::string& handle) {
-    const std::vector<Handle>& handles = document.handles();
-    const auto found = std::ranges::find(handles, handle, &Handle::name);
-    if (found == handles.end() ||
-        document.pipeline().moves_points(static_cast<Index>(found - handles.begin())))
-        return {};
+    const auto number = number_of(document.handles(), handle);
+    if (!number || document.pipeline().moves_points(static_cast<Index>(*number))) return {};
     return "handle " + quoted(handle) +
            " moves nothing: handles that were made later hold all of its points; make it again to "
            "give them back to it";
 }
 
 std::string words_about_loose(const Document& document, const std::string& handle) {
-    const std::vector<Handle>& handles = document.handles();
-    const auto found = std::ranges::find(handles, handle, &Handle::name);
-    if (found == handles.end() ||
-        !document.pipeline().is_on_loose_part(static_cast<Index>(found - handles.begin())))
-        return {};
+    const auto number = number_of(document.handles(), handle);
+    if (!number || !document.pipeline().is_on_loose_part(static_cast<Index>(*number))) return {};
     return "the part of the cloud that " + quoted(handle) +
            " is on has nothing that stays: what is fixed lies on other parts, and they do not hang "
            "together";

@@ -233,6 +233,7 @@ private:
     State next_state() const; // for an act to change
     void take(State next);    // makes it the present one, and the present one the last in history
     void arrive_at(const State& next);
+    static void take_motions_of(const State& state, std::size_t handles, std::vector<HandleMotion>& motions);
     void change_handles(HandleChange change, std::shared_ptr<const Pivots> pivots);
     void show_pivots(const State& before, const State& now) noexcept;
     void move_pivots(const Posed& posed, std::vector<HandleMotion>& motions, Pivots& pivots) const;

@@ -62,14 +62,17 @@ void Document::take(State next) {
     std::erase_if(kept_samples_, forgotten);
 }
 
+// Takes the handles from where they were in the state before to where they are in this one.
+void Document::take_motions_of(const State& state, std::size_t handles, std::vector<HandleMotion>& motions) {
+    if (!state.posed) return motions.assign(handles, HandleMotion{});
+    for (const Moved& moved : state.posed->moved) motions[moved.handle] = moved.motion;
+}
+
 // From the present one. Where memory runs out nothing has changed.
 void Document::arrive_at(const State& next) {
     motions_.reserve(handles_.size() + 1); // what can fail comes first
     if (next.change) apply(*next.change, handles_);
-    if (!next.posed)
-        motions_.assign(handles_.size(), HandleMotion{});
-    else
-        for (const Moved& moved : next.posed->moved) motions_[moved.handle] = moved.motion;
+    take_motions_of(next, handles_.size(), motions_);
     show_pivots(now(), next);
     ++at_;
     posed_is_now_ = false;

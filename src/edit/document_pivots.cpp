@@ -20,18 +20,13 @@ std::shared_ptr<const Pivots> with_pivot(const std::shared_ptr<const Pivots>& pi
 
 namespace {
 
-// Where a handle's place goes when the handle leaves one motion for another.
-Vec3d moved_on(const Vec3d& place, const HandleMotion& before, const HandleMotion& after) {
-    return after.linear * point_at_rest(before, place) + after.offset;
-}
-
 // Calls take(name, place) with where they are now, relative to the cloud's origin.
 template<typename Take>
 void for_places(const Pivots& pivots, std::span<const Handle> handles, std::span<const HandleMotion> motions,
                 const Vec3d& origin, Take&& take) {
     for (std::size_t h = 0; h < handles.size(); ++h)
         if (const auto found = pivots.find(handles[h].name); found != pivots.end())
-            take(found->first, motions[h].linear * (found->second - origin) + motions[h].offset);
+            take(found->first, moved_point(motions[h], found->second - origin));
 }
 
 } // namespace
@@ -65,10 +60,7 @@ std::vector<std::vector<Document::PivotMove>> Document::pivot_moves() const {
     for (std::size_t at = 1; at < history_.size(); ++at) {
         const State& state = history_[at];
         if (state.change) apply(*state.change, handles);
-        if (!state.posed)
-            motions.assign(handles.size(), HandleMotion{});
-        else
-            for (const Moved& moved : state.posed->moved) motions[moved.handle] = moved.motion;
+        take_motions_of(state, handles.size(), motions);
         Pivots after;
         if (state.pivots)
             for_places(*state.pivots, handles, motions, cloud_.origin,

@@ -102,8 +102,9 @@ void carry_out(Editor& editor, const SetPivotUnder& command) {
     if (hit == no_index) return;
     const float* p = editor.frame.positions().data() + 3 * std::size_t{hit};
     set_pivot(editor.camera, {p[0], p[1], p[2]});
-    if (std::exchange(editor.just_clicked, false))
-        forget_last_selection(editor); // by the first of two clicks
+    const auto first_click = std::exchange(editor.just_clicked, std::nullopt);
+    if (first_click && glm::distance(*first_click, command.pixel) <= click_radius)
+        forget_last_selection(editor);
 }
 
 // --- Looking back ----------------------------------------------------------------------------------------
@@ -172,7 +173,7 @@ void apply(Editor& editor, const Command& command) {
         if (goes_on_from_pose(command) && !may_go_on_from_pose(editor)) return;
         if (!only_looks(command)) {
             editor.just_done.clear();
-            if (!is_one_of<SetPivotUnder>(command)) editor.just_clicked = false;
+            if (!is_one_of<SetPivotUnder>(command)) editor.just_clicked.reset();
         }
         std::visit([&](const auto& c) { carry_out(editor, c); }, command);
     } catch (const std::exception&) {

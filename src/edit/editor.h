@@ -88,7 +88,41 @@ struct Symmetry {
     std::vector<Pair> pairs; // of what is chosen, what has a counterpart: that goes along, mirrored
 };
 
-struct Editor {
+// What goes with the document that is open, and is as it is here when another takes its place.
+struct EditorOfDocument {
+    // --- Choosing ---
+    std::vector<std::uint8_t> marks; // of each point
+    std::size_t selected = 0;        // points
+    std::size_t hidden = 0;
+    std::vector<std::size_t>
+        followers;      // of each handle: the points that it moves, or holds; not what others took
+    std::string chosen; // the handle with the gizmo, once the document has it; empty: none
+    std::vector<std::string> also_chosen;     // moving ones that go along when that is moved
+    std::optional<Symmetry> symmetry;         // nothing: what is moved moves alone
+    std::map<std::string, glm::dvec3> pivots; // of the gizmo, by handle, where the user moved them
+    std::optional<PivotMove> moved_pivot;     // that the hand is moving
+
+    // --- Dragging ---
+    std::optional<EditorDrag> drag;        // the newest; nothing: it has been answered, or there was none
+    std::vector<EditorDrag> earlier_drags; // that ended before it and are not answered either
+    glm::dvec3 handle_middle{0.0};         // of the chosen handle's points as they are now
+
+    // --- Going back ---
+    std::vector<EditorStep> past, future;
+    // How many steps were done where looking at others (UndoStep::to_look) began; nothing: nobody looks.
+    std::optional<std::size_t> looks_from;
+    // Names of handles that were posted and that the document has not shown yet.
+    std::vector<std::pair<StepNumber, std::string>> posted_names;
+    // And names that it will not have any more: of handles that were renamed or deleted.
+    std::vector<std::pair<StepNumber, std::string>> names_to_go;
+    std::string just_made; // a handle, after which nothing was done or chosen; empty: none
+    // What was just taken back, done again or deleted, in a sentence, until something else is told; or empty.
+    std::string just_done;
+    // Where a click made the newest step, and nothing was told since; nothing: it was something else.
+    std::optional<glm::dvec2> just_clicked;
+};
+
+struct Editor : EditorOfDocument {
     explicit Editor(unsigned threads = 0) : workers(threads) {}
 
     Workers workers; // of the window's thread; the live document has its own
@@ -110,45 +144,17 @@ struct Editor {
     bool saving = false; // a file of `live` is being written; what comes of it is among the notices then
     bool chooses_samples = false; // by itself, as the document was told last
     std::vector<Index> ordered;   // of each point of the file: its place in the order; no_index: left out
-
-    // --- Choosing ---
-    std::vector<std::uint8_t> marks; // of each point
-    std::uint64_t marks_version = 0; // counts their changes
-    std::size_t selected = 0;        // points
-    std::size_t hidden = 0;
-    std::vector<std::size_t>
-        followers;      // of each handle: the points that it moves, or holds; not what others took
-    std::string chosen; // the handle with the gizmo, once the document has it; empty: none
-    std::vector<std::string> also_chosen;     // moving ones that go along when that is moved
-    std::optional<Symmetry> symmetry;         // nothing: what is moved moves alone
-    std::map<std::string, glm::dvec3> pivots; // of the gizmo, by handle, where the user moved them
-    std::optional<PivotMove> moved_pivot;     // that the hand is moving
-    bool local_axes = false;                  // the gizmo's
+    StepNumber last_step = step_of_opened_session;
 
     // --- Looking ---
     Camera camera;
     Viewport viewport;
     Tools tools;
+    bool local_axes = false; // the gizmo's
 
-    std::optional<EditorDrag> drag;        // the newest; nothing: it has been answered, or there was none
-    std::vector<EditorDrag> earlier_drags; // that ended before it and are not answered either
-    glm::dvec3 handle_middle{0.0};         // of the chosen handle's points as they are now
-
-    // --- Going back ---
-    std::vector<EditorStep> past, future;
-    // How many steps were done where looking at others (UndoStep::to_look) began; nothing: nobody looks.
-    std::optional<std::size_t> looks_from;
-    StepNumber last_step = step_of_opened_session;
-    // Names of handles that were posted and that the document has not shown yet.
-    std::vector<std::pair<StepNumber, std::string>> posted_names;
-    // And names that it will not have any more: of handles that were renamed or deleted.
-    std::vector<std::pair<StepNumber, std::string>> names_to_go;
-    std::string just_made; // a handle, after which nothing was done or chosen; empty: none
-    // What was just taken back, done again or deleted, in a sentence, until something else is told; or empty.
-    std::string just_done;
-    bool just_clicked = false; // a click made the newest step, and nothing was told since
-
-    std::vector<Notice> notices; // for the user, oldest first; the window takes them
+    // --- Telling ---
+    std::uint64_t marks_version = 0; // counts the changes of `marks`, of one document after the other
+    std::vector<Notice> notices;     // for the user, oldest first; the window takes them
     std::vector<HeldSave>
         held_saves; // that the user is to be asked about, one after the other; the window takes them
     EditorChanges changes;
@@ -209,8 +215,9 @@ bool is_or_will_be_posed(const Editor& editor);
 // Whether poses may be others by the time that the document has done what it was told: it takes something
 // back, resets or commits; or a step is being played.
 bool poses_may_change(const Editor& editor);
-// Whether handles are yet to be where the document has them, or will have them once it has taken back, made,
-// reset or committed what it was told: what is moved then begins elsewhere, and about another pivot.
+// Whether handles may not stay where the window shows them: the document was told to take something back, to
+// make, reset or commit something, and has not answered, or the window has yet to show what it answered. What
+// is moved then begins elsewhere than where the hand sees it, and about another pivot.
 bool handles_may_be_elsewhere(const Editor& editor);
 // What is small or thin of a handle of the document. Empty until it is prepared.
 std::vector<const SmallPatch*> small_patches(const Editor& editor, const Handle& handle);

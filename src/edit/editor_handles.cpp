@@ -85,11 +85,7 @@ void tell_who_is_robbed(Editor& editor, HandleRole role, const std::string& name
 } // namespace
 
 std::optional<std::size_t> number_of(const Editor& editor, const std::string& name) {
-    if (!editor.document) return std::nullopt;
-    const auto& handles = editor.document->handles;
-    const auto found = std::ranges::find(handles, name, &Handle::name);
-    if (found == handles.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - handles.begin());
+    return editor.document ? number_of(editor.document->handles, name) : std::nullopt;
 }
 
 bool is_free(const Editor& editor, const std::string& name) {

@@ -1,6 +1,7 @@
 // The editor's steps: how they get on the history, and how they are taken back, done again and played.
 
 #include "base/quoted.h"
+#include "base/require.h"
 #include "edit/editor_steps.h"
 #include "edit/selecting.h"
 
@@ -32,6 +33,7 @@ void add_step(Editor& editor, EditorStep step) noexcept {
     editor.future.clear();
     editor.looks_from.reset(); // whoever acts goes on from here
     editor.just_made.clear();
+    editor.just_clicked.reset();
     editor.past.push_back(std::move(step));
 }
 
@@ -76,6 +78,7 @@ void restore_selection(Editor& editor, const KeptMarks& from) {
 }
 
 void forget_last_selection(Editor& editor) {
+    require(!editor.past.empty() && editor.past.back().before, "the newest step is one of selection");
     restore_selection(editor, *editor.past.back().before);
     editor.past.pop_back();
 }

@@ -74,7 +74,7 @@ std::optional<Vec3d> pivot_after(const Editor& editor, const std::string& handle
                                  const HandleMotion& after) {
     const auto pivot = pivot_of(editor, handle);
     if (!pivot) return std::nullopt;
-    return after.linear * point_at_rest(before, to_eigen(*pivot)) + after.offset;
+    return moved_on(to_eigen(*pivot), before, after);
 }
 
 } // namespace
@@ -143,7 +143,8 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     const Handle& handle = editor.document->handles[*number];
     const std::span<const float> positions = rest_positions(editor);
     const MirrorPlane plane = mirror_plane(positions, command.axis, editor.opened.spacing);
-    const PartAcross across = part_across(editor, positions, handle, plane, 3 * editor.opened.spacing);
+    const PartAcross across =
+        part_across({positions, editor.ordered}, *handle.points, plane, 3 * editor.opened.spacing);
     const std::vector<Index>& points = across.points;
     const double place = plane.at + editor.opened.cloud->origin[command.axis];
     if (points.empty())

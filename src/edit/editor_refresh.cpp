@@ -71,16 +71,7 @@ void take_over(Editor& editor) {
     editor.chooses_samples = editor.document->chooses_samples;
     editor.frame = {};
     editor.live->take_frame(editor.frame);
-    editor.drag.reset();
-    editor.earlier_drags.clear();
-    editor.chosen.clear();
-    editor.also_chosen.clear();
-    editor.symmetry.reset();
-    editor.posted_names.clear();
-    editor.names_to_go.clear();
-    editor.just_made.clear();
-    editor.pivots.clear();
-    editor.moved_pivot.reset();
+    static_cast<EditorOfDocument&>(editor) = {};
     std::vector<Command> of_before;
     drop_everything(editor.tools, of_before);
 
@@ -90,8 +81,6 @@ void take_over(Editor& editor) {
     editor.marks.assign(file_index.size(), 0);
     editor.past.assign(editor.document->undoable_steps, EditorStep{step_of_opened_session});
     editor.future.assign(editor.document->redoable_steps, EditorStep{step_of_opened_session});
-    editor.looks_from.reset();
-    editor.just_done.clear();
     mark_handles(editor);
     take_told_pivots(editor);
     take_last_pivots(editor);
@@ -168,9 +157,8 @@ void keep_also_chosen(Editor& editor) {
     const Handle* chosen = chosen_handle(editor);
     if (chosen && chosen->role != HandleRole::moving) editor.also_chosen.clear();
     std::erase_if(editor.also_chosen, [&](const std::string& name) {
-        const auto& handles = editor.document->handles;
-        const auto found = std::ranges::find(handles, name, &Handle::name);
-        if (found != handles.end()) return found->role != HandleRole::moving;
+        if (const Handle* handle = handle_named(editor.document->handles, name))
+            return handle->role != HandleRole::moving;
         return std::ranges::none_of(editor.posted_names,
                                     [&](const auto& posted) { return posted.second == name; });
     });

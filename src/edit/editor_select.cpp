@@ -32,8 +32,6 @@ const Handle* handle_that_holds(const Editor& editor, Index ordered) {
     return handle_of(editor, editor.opened.order->file_index[ordered]);
 }
 
-constexpr double click_radius = 8; // pixels
-
 // Of what lies in a region: where less is seen, it is told.
 constexpr double much_seen = 0.9;
 
@@ -97,7 +95,7 @@ void carry_out(Editor& editor, const SelectPointUnder& command) {
     if (hit != no_index) inside[hit] = 1;
     const std::size_t steps = editor.past.size();
     change_marks(editor, [&] { select(editor.marks, inside, command.mode, editor.workers); });
-    editor.just_clicked = editor.past.size() > steps;
+    if (editor.past.size() > steps) editor.just_clicked = command.pixel;
 }
 
 void carry_out(Editor& editor, const ChangeSelection& command) {

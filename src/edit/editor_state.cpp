@@ -27,10 +27,7 @@ void extend(Box3& box, const float* p) {
 }
 
 const Handle* handle_named(const Editor& editor, const std::string& name) {
-    if (!editor.document || name.empty()) return nullptr;
-    const auto& handles = editor.document->handles;
-    const auto found = std::ranges::find(handles, name, &Handle::name);
-    return found == handles.end() ? nullptr : &*found;
+    return editor.document ? handle_named(editor.document->handles, name) : nullptr;
 }
 
 } // namespace
@@ -69,10 +66,8 @@ void mark_handles(Editor& editor) {
 }
 
 std::size_t followers_of(const Editor& editor, const Handle& handle) {
-    const auto& handles = editor.document->handles;
-    const auto found = std::ranges::find(handles, handle.name, &Handle::name);
-    const auto number = static_cast<std::size_t>(found - handles.begin());
-    return number < editor.followers.size() ? editor.followers[number] : handle.points->size();
+    const auto number = number_of(editor, handle.name);
+    return number && *number < editor.followers.size() ? editor.followers[*number] : handle.points->size();
 }
 
 std::optional<Vec3d> middle_in(std::span<const float> positions, const Editor& editor, const Handle& handle) {

@@ -72,6 +72,9 @@ void mark_handles(Editor& editor);
 // The hidden bits as bytes of their own; empty where nothing is hidden.
 std::vector<std::uint8_t> hidden_points(const Editor& editor);
 
+// A click means what is so near to it, in pixels.
+inline constexpr double click_radius = 8;
+
 // The point that a click on the picture means, in the order of the edit, as it is now; no_index: none.
 Index point_clicked(Editor& editor, glm::dvec2 pixel);
 // Takes the newest step back, which is one of selection alone, as if it had never been.

@@ -114,7 +114,7 @@ Vec3d place_across(const Editor& editor, const Pair& pair, const Vec3d& place) {
         reflection(Vec3d::Unit(editor.symmetry->axis), at_rest(pair.handle), at_rest(pair.counterpart));
     const HandleMotion one = motion_now(editor, *number_of(editor, pair.handle));
     const HandleMotion other = motion_now(editor, *number_of(editor, pair.counterpart));
-    return other.linear * seen_in(mirror, point_at_rest(one, place)) + other.offset;
+    return moved_point(other, seen_in(mirror, point_at_rest(one, place)));
 }
 
 // What shows turns of the one about `pivot` as turns of the other: about that one's own joint where the user

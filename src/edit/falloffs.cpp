@@ -24,11 +24,11 @@ std::vector<std::vector<Index>> held_vertices(const std::vector<bool>& wanted,
                                               std::span<const HeldBlock> blocks,
                                               std::span<const Index> label) {
     std::vector<std::vector<Index>> vertices(wanted.size());
-    const auto is_wanted = [&](Index handle) { return handle < wanted.size() && wanted[handle]; };
+    const auto is_wanted = [&](Index handle) { return is_set(wanted, handle); };
     for (std::size_t block = 0; block < blocks.size(); ++block) {
         if (std::ranges::none_of(blocks[block].extents, is_wanted, &HeldExtent::label)) continue;
-        const std::size_t end = std::min(label.size(), (block + 1) * rows_in_block);
-        for (std::size_t v = block * rows_in_block; v < end; ++v)
+        const auto [begin, end] = rows_of_block(block, label.size());
+        for (std::size_t v = begin; v < end; ++v)
             if (is_wanted(label[v])) vertices[label[v]].push_back(static_cast<Index>(v));
     }
     return vertices;

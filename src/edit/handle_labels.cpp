@@ -45,8 +45,7 @@ void label_by(const std::vector<Handle>& handles, const PointOrder& order, std::
     labels.held.resize(blocks_of_rows(order.vertices()), 0);
     labels.changed.resize(labels.held.size(), 0);
     workers.for_each(labels.held.size(), grain / rows_in_block, [&](std::size_t block) {
-        const std::size_t begin = block * rows_in_block;
-        const std::size_t end = std::min(begin + rows_in_block, order.vertices());
+        const auto [begin, end] = rows_of_block(block, order.vertices());
         const auto is_held = [&](Index file_index) { return of_file_point[file_index] != free; };
         const bool held = std::any_of(order.file_index.begin() + order.first_point[begin],
                                       order.file_index.begin() + order.first_point[end], is_held);

@@ -99,29 +99,31 @@ HandleLine line_of(const Handle& handle) {
 }
 
 bool changes(std::span<const Handle> handles, const HandleEdit& edit) {
-    const auto found = std::ranges::find(handles, edit.handle, &Handle::name);
-    if (found == handles.end()) return false;
-    const Handle after = edited(*found, {found + 1, handles.end()}, edit);
-    return !holds_the_same(*found, after) || after.color != found->color || after.pivot != found->pivot;
+    const auto number = number_of(handles, edit.handle);
+    if (!number) return false;
+    const Handle& before = handles[*number];
+    const Handle after = edited(before, handles.subspan(*number + 1), edit);
+    return !holds_the_same(before, after) || after.color != before.color || after.pivot != before.pivot;
 }
 
 std::vector<SessionAction> lines_for(std::span<const Handle> handles, const HandleEdit& edit) {
     if (!changes(handles, edit)) return {};
-    const auto found = std::ranges::find(handles, edit.handle, &Handle::name);
-    const std::span<const Handle> later(found + 1, handles.end());
-    const Handle after = edited(*found, later, edit);
+    const std::size_t number = *number_of(handles, edit.handle);
+    const Handle& before = handles[number];
+    const std::span<const Handle> later = handles.subspan(number + 1);
+    const Handle after = edited(before, later, edit);
     std::vector<SessionAction> lines{line_of(after)};
     const bool takes = edit.points && edit.points->mode != SelectMode::remove;
-    const auto shares = [&](const Handle& one) { return share_points(*found, one); };
-    if (!takes && !holds_the_same(*found, after) && std::ranges::any_of(later, shares))
+    const auto shares = [&](const Handle& one) { return share_points(before, one); };
+    if (!takes && !holds_the_same(before, after) && std::ranges::any_of(later, shares))
         for (const Handle& handle : later) lines.emplace_back(line_of(handle));
     return lines;
 }
 
 std::string words_about(const HandleLine& line, std::span<const Handle> handles) {
     const std::string name = quoted(line.name);
-    const auto found = std::ranges::find(handles, line.name, &Handle::name);
-    if (found == handles.end())
+    const Handle* const found = handle_named(handles, line.name);
+    if (!found)
         return (line.role == HandleRole::moving  ? "moving handle "
                 : line.role == HandleRole::fixed ? "fixed handle "
                                                  : "region of interest ") +

@@ -1,8 +1,8 @@
 #pragma once
 // Handles as lines of a session, and the lines that change one.
 
-#include "edit/command.h"
 #include "edit/handles.h"
+#include "edit/select_mode.h"
 
 #include <optional>
 #include <span>
@@ -43,11 +43,13 @@ HandleLine line_of(const Handle& handle);
 // Whether it is among these handles and is not so already.
 bool changes(std::span<const Handle> handles, const HandleEdit& edit);
 
-// The lines that change it; none where there is nothing to change. A handle that is
-// declared anew is the last one, and the last one has what several hold: so those that came later and share
-// points with it come again after it, and with them all that came later. But points that a handle is given it
-// takes from any: then it stays the last one, without what it had declared and others hold. Another colour
-// or pivot alone leaves a handle the one that it is.
+// The lines that change it; none where there is nothing to change.
+//
+// A handle is changed by declaring it anew, which makes it the last one; and what several hold follows the
+// last of them. So that it robs nobody, all handles that came after it are declared again behind it, if one
+// of them shares points with it. Where the edit gives it points it is meant to rob: then it alone is declared
+// again, and of what it had declared before, it leaves out what others have. Another colour or pivot alone
+// makes no handle another one: it keeps its place.
 std::vector<SessionAction> lines_for(std::span<const Handle> handles, const HandleEdit& edit);
 
 // What a line does to these handles, in a few words: makes one, or gives one that is there another pivot or

@@ -83,8 +83,16 @@ Vec3d angles_along(const Quatd& from, const Vec3d& angles, const Quatd& to) {
     return angles_along(middle, angles_along(from, angles, middle), to);
 }
 
+Vec3d moved_point(const HandleMotion& motion, const Vec3d& point) {
+    return motion.linear * point + motion.offset;
+}
+
 Vec3d point_at_rest(const HandleMotion& motion, const Vec3d& point) {
     return motion.linear.inverse() * (point - motion.offset);
+}
+
+Vec3d moved_on(const Vec3d& place, const HandleMotion& before, const HandleMotion& after) {
+    return moved_point(after, point_at_rest(before, place));
 }
 
 bool leaves_rest(const HandleMotion& motion) {

@@ -12,11 +12,16 @@ namespace knead {
 // Whether it takes a handle's points away from where they were at rest. One that was reset does not, though
 // its drags are recorded.
 bool leaves_rest(const HandleMotion& motion);
-// It does not, and its quaternion is not that of one whole turn (of two it is).
+// Whether it takes nothing away and is wound up by nothing either: after one turn of 360° every point is
+// where it was, but the quaternion is the negative one, and what is between two handles is twisted. (After
+// 720° it is the positive one again, and nobody can tell.)
 bool is_at_rest(const HandleMotion& motion);
 
-// Where a point was at rest that the motion has taken to `point`.
+// Where a motion takes a point, and where a point was at rest that the motion has taken to `point`.
+Vec3d moved_point(const HandleMotion& motion, const Vec3d& point);
 Vec3d point_at_rest(const HandleMotion& motion, const Vec3d& point);
+// Where a place on a handle goes when the handle leaves one motion for another.
+Vec3d moved_on(const Vec3d& place, const HandleMotion& before, const HandleMotion& after);
 
 // The angles x, y and z, in radians, of a rotation that turns about the axis x, then y, then z of the world:
 // R = R_z(z) R_y(y) R_x(x). Of all that there are, those nearest to `before`. With y at a right angle, where

@@ -80,6 +80,17 @@ void exchange(const std::optional<HandleChange::Place>& gone, const std::optiona
 
 } // namespace
 
+std::optional<std::size_t> number_of(std::span<const Handle> handles, std::string_view name) {
+    const auto found = std::ranges::find(handles, name, &Handle::name);
+    if (found == handles.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - handles.begin());
+}
+
+const Handle* handle_named(std::span<const Handle> handles, std::string_view name) {
+    const auto number = number_of(handles, name);
+    return number ? &handles[*number] : nullptr;
+}
+
 bool holds_the_same(const Handle& a, const Handle& b) {
     return a.role == b.role && a.points == b.points && a.free_rotation == b.free_rotation &&
            a.falloff == b.falloff;

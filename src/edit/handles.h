@@ -7,7 +7,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace knead {
@@ -23,6 +25,11 @@ struct Handle {
                     // keep their order
     std::optional<Vec3d> pivot = {}; // HandleLine::pivot, as it is on the rest shape of this edit
 };
+
+// Where the handle of this name stands in a list; nothing: there is none.
+std::optional<std::size_t> number_of(std::span<const Handle> handles, std::string_view name);
+// It, in the list; null: there is none.
+const Handle* handle_named(std::span<const Handle> handles, std::string_view name);
 
 // Whether two handles, or lists of them, hold the same points in the same way, whatever their names. (The
 // same points are the same array: handles share theirs when they are copied.)

@@ -176,7 +176,7 @@ std::vector<LostWork> find_lost_work(const std::filesystem::path& folder) {
     // Not by a loop over the range, which throws where the folder goes away meanwhile.
     std::filesystem::directory_iterator entry(folder, trouble);
     for (; !trouble && entry != std::filesystem::directory_iterator(); entry.increment(trouble)) {
-        if (entry->path().extension() != ".knead") continue;
+        if (!has_session_extension(entry->path())) continue;
         if (auto lost = look_at(entry->path())) found.push_back(std::move(*lost));
     }
     std::ranges::sort(found, std::greater{}, &LostWork::when);

@@ -9,6 +9,7 @@
 #include "edit/kept_original.h"
 #include "edit/live_opening.h"
 #include "edit/measures.h"
+#include "edit/session_acts.h"
 #include "edit/way_back.h"
 #include "io/cloud_file.h"
 #include "io/digest.h"
@@ -84,21 +85,35 @@ void LiveWork::carry_out(task::Lines& lines) {
     show_document();
 }
 
-void LiveWork::carry_out(task::EditHandle& task) {
-    task::Lines lines{task.step, lines_for(document_->handles(), task.edit), false};
-    if (lines.lines.empty()) return refuse(task.step);
-    if (document_->needs_commit(lines.lines.front())) // which takes the pivots along
-        lines.lines = lines_for(document_->handles_committed(), task.edit);
+// A step whose lines are made when its turn comes, of what there is by then. It is refused where there are
+// none, or where making them fails.
+void LiveWork::carry_out_made(StepNumber step, const std::function<std::vector<SessionAction>()>& make) {
+    task::Lines lines{step, {}, false};
+    try {
+        lines.lines = make();
+    } catch (...) {
+        refuse(step);
+        throw;
+    }
+    if (lines.lines.empty()) return refuse(step);
     carry_out(lines);
+}
+
+void LiveWork::carry_out(task::EditHandle& task) {
+    carry_out_made(task.step, [&] {
+        std::vector<SessionAction> lines = lines_for(document_->handles(), task.edit);
+        if (!lines.empty() && document_->needs_commit(lines.front())) // which takes the pivots along
+            lines = lines_for(document_->handles_committed(), task.edit);
+        return lines;
+    });
 }
 
 HandleEdit LiveWork::edit_for(const PivotPlace& pivot) const {
     HandleEdit edit{.handle = pivot.handle};
     std::optional<Vec3d>& at_rest = edit.pivot.emplace().at_rest;
-    const std::vector<Handle>& handles = document_->handles();
-    const auto handle = std::ranges::find(handles, pivot.handle, &Handle::name);
-    if (pivot.place && handle != handles.end()) {
-        const HandleMotion& motion = document_->motions()[static_cast<std::size_t>(handle - handles.begin())];
+    const auto handle = number_of(document_->handles(), pivot.handle);
+    if (pivot.place && handle) {
+        const HandleMotion& motion = document_->motions()[*handle];
         const Vec3d& origin = document_->cloud().origin;
         at_rest = point_at_rest(motion, *pivot.place - origin) + origin;
     }
@@ -106,31 +121,28 @@ HandleEdit LiveWork::edit_for(const PivotPlace& pivot) const {
 }
 
 void LiveWork::carry_out(task::PutPivots& task) {
-    task::Lines lines{task.step, {}, false};
-    for (const PivotPlace& pivot : task.places)
-        std::ranges::move(lines_for(document_->handles(), edit_for(pivot)), std::back_inserter(lines.lines));
-    if (lines.lines.empty()) return refuse(task.step);
-    carry_out(lines);
+    carry_out_made(task.step, [&] {
+        std::vector<SessionAction> lines;
+        for (const PivotPlace& pivot : task.places)
+            std::ranges::move(lines_for(document_->handles(), edit_for(pivot)), std::back_inserter(lines));
+        return lines;
+    });
 }
 
 void LiveWork::carry_out(task::MakePosed& task) {
-    task::Lines lines{task.step, {}, false};
-    try {
+    carry_out_made(task.step, [&] {
         finish_settling();
+        std::vector<SessionAction> lines;
         // Declared again it would take a commit, and the other one's pose with it.
-        if (!document_->has(task.line)) lines.lines.emplace_back(task.line);
+        if (!document_->has(task.line)) lines.emplace_back(task.line);
         std::vector<HandleMotion> way = document_->way_of(task.pose.handle);
         std::ranges::transform(way, way.begin(), task.pose.seen);
         const auto& points = std::get<std::vector<IndexRange>>(task.line.points);
         if (!way.empty())
-            lines.lines.emplace_back(way_there(task.line.name, way, middle_at_rest(*document_, points),
-                                               document_->cloud().origin));
-    } catch (...) {
-        refuse(task.step);
-        throw;
-    }
-    if (lines.lines.empty()) return refuse(task.step);
-    carry_out(lines);
+            lines.emplace_back(way_there(task.line.name, way, middle_at_rest(*document_, points),
+                                         document_->cloud().origin));
+        return lines;
+    });
 }
 
 // Of each that is not at rest a drag back there.
@@ -140,7 +152,7 @@ std::vector<SessionAction> LiveWork::ways_back(const std::vector<std::string>& h
         if (!moves(name)) continue; // it may have gone meanwhile
         const std::vector<HandleMotion> way = document_->way_of(name);
         if (is_back(way)) continue;
-        const auto handle = std::ranges::find(document_->handles(), name, &Handle::name);
+        const Handle* const handle = handle_named(document_->handles(), name);
         lines.emplace_back(way_back(name, way, middle_at_rest(*document_, ranges_of(*handle->points)),
                                     document_->cloud().origin));
     }
@@ -148,24 +160,16 @@ std::vector<SessionAction> LiveWork::ways_back(const std::vector<std::string>& h
 }
 
 void LiveWork::carry_out(task::ResetPoses& task) {
-    task::Lines lines{task.step, {}, false};
-    try {
+    const struct FramesAreSeen {
+        Document& document;
+        ~FramesAreSeen() { document.on_frame = nullptr; }
+    } until_the_end{*document_};
+    carry_out_made(task.step, [&] {
         finish_settling();
-        lines.lines = ways_back(task.handles);
-        if (lines.lines.empty()) return refuse(task.step);
-    } catch (...) {
-        refuse(task.step);
-        throw;
-    }
-    // What was wound up is seen to unwind.
-    document_->on_frame = [this] { publish_shape(false); };
-    try {
-        carry_out(lines);
-    } catch (...) {
-        document_->on_frame = nullptr;
-        throw;
-    }
-    document_->on_frame = nullptr;
+        std::vector<SessionAction> lines = ways_back(task.handles);
+        document_->on_frame = [this] { publish_shape(false); }; // what was wound up is seen to unwind
+        return lines;
+    });
 }
 
 void LiveWork::carry_out(task::Undo& task) {

@@ -34,9 +34,8 @@ constexpr double usual_iteration = 0.4e-6;
 
 // What the hand saw when it began may have gone meanwhile, or be fixed.
 bool LiveWork::moves(const std::string& handle) const {
-    const auto& handles = document_->handles();
-    const auto found = std::ranges::find(handles, handle, &Handle::name);
-    return found != handles.end() && found->role == HandleRole::moving;
+    const Handle* const found = handle_named(document_->handles(), handle);
+    return found && found->role == HandleRole::moving;
 }
 
 void LiveWork::carry_out(task::BeginDrag& task) {
@@ -45,10 +44,8 @@ void LiveWork::carry_out(task::BeginDrag& task) {
         std::erase_if(task.with, [&](const Companion& companion) { return !moves(companion.handle); });
         document_->begin_drag(task.handle, task.pivot, "", progress_, task.with);
         document_->make_spare_shapes();
-        const auto& handles = document_->handles();
-        const auto handle = std::ranges::find(handles, task.handle, &Handle::name) - handles.begin();
-        drag_.emplace(LiveDrag{task.step, task.handle, task.pivot,
-                               document_->motions()[static_cast<std::size_t>(handle)],
+        const std::size_t handle = *number_of(document_->handles(), task.handle);
+        drag_.emplace(LiveDrag{task.step, task.handle, task.pivot, document_->motions()[handle],
                                document_->cloud().origin, task.with});
     } catch (...) {
         document_->abandon(); // or it would refuse whatever comes after

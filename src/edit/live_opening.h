@@ -20,10 +20,6 @@ PointCloud cloud_to_open(const OpenRequest& request, Session& session, Progress&
 // known of what that journal recorded.
 void refuse_changed_cloud(const std::filesystem::path& cloud, const std::filesystem::path& journal);
 
-// A check is no act. Throws what the document throws.
-void carry_out_act(Document& document, const SessionAction& action, const std::string& place,
-                   Progress& progress);
-
 // Carries out and records all lines of the session. A settling is undone together with the act before it.
 void replay_session(const Session& session, Document& document, LiveRecording& recording, Progress& progress);
 

@@ -13,6 +13,7 @@
 #include "edit/live_shared.h"
 #include "edit/open_files.h"
 
+#include <functional>
 #include <new>
 #include <set>
 #include <span>
@@ -54,6 +55,7 @@ private:
         bool told_of_commit = false;
     };
     void carry_out_line(const SessionAction& line, bool joins, bool pose_is_seen, StepSoFar& step);
+    void carry_out_made(StepNumber step, const std::function<std::vector<SessionAction>()>& make);
     void carry_out(task::EditHandle& task);
     HandleEdit edit_for(const PivotPlace& pivot) const;
     void carry_out(task::PutPivots& task);

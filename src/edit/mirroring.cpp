@@ -151,25 +151,23 @@ namespace {
 
 // A handle on a shape.
 struct Part {
-    const Editor& editor;
-    std::span<const float> positions;
+    ShapeInOrder shape;
     std::vector<bool> held; // of the file's points: whether it holds them
     Eigen::AlignedBox3d box;
 
-    Part(const Editor& of, std::span<const float> shape, const Handle& handle)
-        : editor(of), positions(shape), held(of.ordered.size(), false) {
-        for (const Index i : *handle.points) {
-            if (editor.ordered[i] == no_index) continue;
+    Part(const ShapeInOrder& of, std::span<const Index> points) : shape(of), held(of.ordered.size(), false) {
+        for (const Index i : points) {
+            if (shape.ordered[i] == no_index) continue;
             held[i] = true;
             box.extend(place(i));
         }
     }
-    Vec3d place(Index i) const { return point_at(positions, editor.ordered[i]); }
+    Vec3d place(Index i) const { return point_at(shape.positions, shape.ordered[i]); }
     // Calls visit(i) for every point of the file that is finite.
     template<typename Visit>
     void for_points(Visit&& visit) const {
-        for (std::size_t i = 0; i < editor.ordered.size(); ++i)
-            if (editor.ordered[i] != no_index) visit(static_cast<Index>(i));
+        for (std::size_t i = 0; i < shape.ordered.size(); ++i)
+            if (shape.ordered[i] != no_index) visit(static_cast<Index>(i));
     }
 };
 
@@ -194,8 +192,8 @@ std::vector<Index> points_across(const Part& part, const MirrorPlane& plane, con
 
 // What takes the part's mirror image onto the rest of the cloud: every round by how far its points are, on
 // average, from those nearest to them.
-Vec3d shift_onto_cloud(const Part& part, const MirrorPlane& plane) {
-    const double reach = std::max(part.box.sizes().maxCoeff(), 3 * part.editor.opened.spacing);
+Vec3d shift_onto_cloud(const Part& part, const MirrorPlane& plane, double least_reach) {
+    const double reach = std::max(part.box.sizes().maxCoeff(), least_reach);
     if (!(reach > 0)) return Vec3d::Zero();
     Eigen::AlignedBox3d around(reflected(part.box.min(), plane));
     around.extend(reflected(part.box.max(), plane));
@@ -232,12 +230,12 @@ Vec3d shift_onto_cloud(const Part& part, const MirrorPlane& plane) {
 
 } // namespace
 
-PartAcross part_across(const Editor& editor, std::span<const float> positions, const Handle& handle,
-                       const MirrorPlane& plane, double reach) {
-    const Part part(editor, positions, handle);
+PartAcross part_across(const ShapeInOrder& shape, std::span<const Index> held, const MirrorPlane& plane,
+                       double reach) {
+    const Part part(shape, held);
     PartAcross across{points_across(part, plane, Vec3d::Zero(), reach)};
-    if (2 * across.points.size() >= handle.points->size() || part.box.isEmpty()) return across;
-    const Vec3d shift = shift_onto_cloud(part, plane);
+    if (2 * across.points.size() >= held.size() || part.box.isEmpty()) return across;
+    const Vec3d shift = shift_onto_cloud(part, plane, reach);
     std::vector<Index> shifted = points_across(part, plane, shift, reach);
     if (shifted.size() > across.points.size()) across = {std::move(shifted), shift};
     return across;

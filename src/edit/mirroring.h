@@ -2,7 +2,7 @@
 // The other side of a cloud: where the plane lies across which it is most like its own mirror image, and
 // which points are a handle's there.
 
-#include "edit/editor.h"
+#include "base/types.h"
 #include "edit/reflection.h"
 
 #include <span>
@@ -28,14 +28,20 @@ struct PartAcross {
     Vec3d shift = Vec3d::Zero(); // how far off its mirror image it stands
 };
 
-// The points whose mirror image lies nearest to a point of the handle, in the shape of these `positions` (3n,
-// in the order of computation); nothing farther off than `reach` counts. Where that finds less than half of
-// the handle's points, as a leg that is set forward has nothing across it, the image is shifted onto what is
-// nearest to it.
-PartAcross part_across(const Editor& editor, std::span<const float> positions, const Handle& handle,
-                       const MirrorPlane& plane, double reach);
+// A shape, as it lies in the order of computation.
+struct ShapeInOrder {
+    std::span<const float> positions; // 3n
+    std::span<const Index> ordered;   // of each point of the file: its place there; no_index: it has none
+};
 
-// What shows what stands so far off there: p → F p + shift, with F the reflection across the plane.
+// The points whose mirror image lies nearest to one of the points of a handle (`held`, of the file); nothing
+// farther off than `reach` counts. Where that finds less than half as many as the handle has, as a leg that
+// is set forward has nothing across it, the image is shifted onto what is nearest to it.
+PartAcross part_across(const ShapeInOrder& shape, std::span<const Index> held, const MirrorPlane& plane,
+                       double reach);
+
+// The mirror across the plane, and then a shift: p → F p + shift, with F the reflection. It shows where the
+// counterpart of a point lies that stands so far off its mirror image.
 Reflection reflection(const MirrorPlane& plane, const Vec3d& shift);
 
 } // namespace knead

@@ -63,10 +63,11 @@ struct PipelineInput {
 struct StageSeconds {
     double order = 0;     // Morton order, duplicates
     double neighbors = 0; // graph, outliers, components, bridges if `strays` asks for them
-    double sampling = 0;  // base samples, labels, handle samples
-    double geodesic = 0;  // floods, sample graph, influences, coarse samples
-    double factorize = 0; // ordering and factorisation of both systems
-    double device = 0;    // the kernel's build and first touch
+    double sampling = 0;  // base samples, areas, labels, handle samples
+    double geodesic = 0;  // floods, falloffs, sample graph, influences, coarse samples
+    double factorize = 0; // weights of the links, energy of the points between few samples, and the
+                          // ordering and factorisation of both systems
+    double device = 0;    // the kernel's build, what it reads, and the first touch
 };
 
 class Pipeline {
@@ -260,10 +261,10 @@ private:
     bool every_point_ = false;
     std::vector<Index> samples_;
     std::size_t base_samples_ = 0;
-    // Of each vertex 1 where handles that hold much hold it with all its neighbours, if these leave less than
-    // a fourth of the cloud; empty else.
+    // Handles that hold much, by label, and of each vertex 1 where one of them holds it and all its
+    // neighbours: no base sample is worth having there. Empty where they leave a fourth of the cloud or more.
     std::vector<std::uint8_t> held_inside_;
-    std::vector<bool> hold_much_;                  // these handles, by label
+    std::vector<bool> hold_much_;
     std::size_t candidates_ = 0;                   // vertices among which base samples are chosen
     InfluenceRows nearest_;                        // of each vertex; empty if every point is a sample
     AddedStarts<influences_per_row> from_handles_; // that are in these

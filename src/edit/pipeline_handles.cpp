@@ -89,7 +89,7 @@ std::vector<bool> Pipeline::labels_that_leave_little() const {
 // at what is beside it, as long as the same handles hold much.
 void Pipeline::find_held_inside() {
     std::vector<bool> hold_much = labels_that_leave_little();
-    const auto is_held = [&](Index v) { return says(hold_much, labels_.vertex[v]); };
+    const auto is_held = [&](Index v) { return is_set(hold_much, labels_.vertex[v]); };
     const auto is_inside = [&](Index v) -> std::uint8_t {
         return is_held(v) && std::ranges::all_of(graph_->row(v), is_held) ? 1 : 0;
     };
@@ -100,13 +100,14 @@ void Pipeline::find_held_inside() {
             changed |= now != held_inside_[v];
             held_inside_[v] = now;
         };
-        for (std::size_t block = 0; block < labels_.changed.size(); ++block)
-            for (std::size_t v = block * rows_in_block;
-                 labels_.changed[block] && v < std::min((block + 1) * rows_in_block, order_.vertices());
-                 ++v) {
+        for (std::size_t block = 0; block < labels_.changed.size(); ++block) {
+            if (!labels_.changed[block]) continue;
+            const auto [begin, end] = rows_of_block(block, order_.vertices());
+            for (std::size_t v = begin; v < end; ++v) {
                 look_at(static_cast<Index>(v));
                 std::ranges::for_each(graph_->row(v), look_at);
             }
+        }
     } else {
         std::vector<std::uint8_t> inside(hold_much.empty() ? 0 : order_.vertices());
         workers_.for_each(inside.size(), grain,
@@ -279,10 +280,11 @@ void Pipeline::find_standing_points() {
         point[v] = own;
     };
     if (vertices < order_.points())
-        for (std::size_t block = 0; block < labels_.held.size(); ++block)
-            for (std::size_t v = block * rows_in_block;
-                 labels_.held[block] && v < std::min((block + 1) * rows_in_block, vertices); ++v)
-                choose(static_cast<Index>(v));
+        for (std::size_t block = 0; block < labels_.held.size(); ++block) {
+            if (!labels_.held[block]) continue;
+            const auto [begin, end] = rows_of_block(block, vertices);
+            for (std::size_t v = begin; v < end; ++v) choose(static_cast<Index>(v));
+        }
     std::optional<Numbering> standing;
     if (!point.empty()) standing.emplace(std::move(point));
     if (standing == standing_) return;
@@ -359,8 +361,8 @@ Pipeline::MoverNumbers Pipeline::find_mover_numbers(std::size_t first_handle) co
 
 // What moves the points of a block of vertices is another.
 void Pipeline::note_changed_points(std::size_t block) {
-    const std::size_t end = std::min((block + 1) * rows_in_block, order_.vertices());
-    const Index first = order_.first_point[block * rows_in_block], last = order_.first_point[end] - 1;
+    const auto [begin, end] = rows_of_block(block, order_.vertices());
+    const Index first = order_.first_point[begin], last = order_.first_point[end] - 1;
     for (std::size_t of_points = first / points_in_block; of_points <= last / points_in_block; ++of_points)
         changed_points_[of_points] = 1;
 }
@@ -394,9 +396,9 @@ void Pipeline::prepare_influences() {
     workers_.for_each(labels_.changed.size(), grain / rows_in_block, [&](std::size_t block) {
         if (only_changed && !labels_.changed[block]) return;
         labels_.changed[block] = 0;
-        const std::size_t end = std::min((block + 1) * rows_in_block, order_.vertices());
+        const auto [begin, end] = rows_of_block(block, order_.vertices());
         std::size_t& mover_end = mover_ends_[block] = 0;
-        for (Index i = order_.first_point[block * rows_in_block]; i < order_.first_point[end]; ++i) {
+        for (Index i = order_.first_point[begin]; i < order_.first_point[end]; ++i) {
             mover_of_point_[i] = mover_of(i);
             mover_end = std::max(mover_end, std::size_t{mover_of_point_[i]} + 1);
         }

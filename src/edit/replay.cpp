@@ -4,13 +4,14 @@
 #include "base/memory.h"
 #include "base/stopwatch.h"
 #include "edit/median.h"
+#include "edit/recorded_checks.h"
+#include "edit/session_acts.h"
 #include "edit/session_cloud.h"
 #include "io/cloud_file.h"
 #include "io/compare.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 
 namespace knead {
 
@@ -45,14 +46,6 @@ SettingsChange overridden(SettingsChange line, const SettingsChange& overrides) 
     });
     return line;
 }
-
-// A check that --record-checks puts in.
-struct RecordedCheck {
-    std::size_t after_line = 0; // of the session; 0: behind the header
-    std::filesystem::path file; // beside the session
-    std::vector<float> positions;
-    std::vector<float> normals;
-};
 
 class Replay {
 public:
@@ -93,10 +86,8 @@ public:
     }
 
 private:
-    bool is_cloud(const std::filesystem::path& path) const {
-        std::error_code ignored;
-        return std::filesystem::equivalent(
-            path, options_.cloud ? *options_.cloud : session_.resolve(session_.cloud), ignored);
+    std::filesystem::path cloud_path() const {
+        return options_.cloud ? *options_.cloud : session_.resolve(session_.cloud);
     }
 
     // What cannot be written, or should not be, is told before the work, not after it.
@@ -106,60 +97,15 @@ private:
         if (options_.out && std::filesystem::equivalent(*options_.out, session_.file, ignored))
             throw Error(Trouble::output, options_.out->string(),
                         "is the session itself; give the shape another name");
-        if (!options_.record_checks || options_.rehearse) return;
-        refuse_link_from_elsewhere();
-        const TemporaryFolder checks(folder_of_session());
-        const FileInTheMaking session(session_.file);
-        refuse_other_uses_of_checks();
-    }
-
-    // The session would be written where the link leads, and its checks could be found from one of them only.
-    void refuse_link_from_elsewhere() const {
-        std::error_code trouble, ignored;
-        const std::filesystem::path file = std::filesystem::canonical(session_.file, trouble);
-        if (!trouble && !std::filesystem::equivalent(file.parent_path(), folder_of_session(), ignored))
-            throw Error(Trouble::output, session_.file.string(),
-                        "is a link into another folder; record the checks of " + file.string() + " itself");
-    }
-
-    // A check is written beside the session, over what has its name.
-    void refuse_other_uses_of_checks() const {
-        std::error_code trouble, ignored;
-        std::filesystem::directory_iterator entry(folder_of_session(), trouble), end;
-        for (; !trouble && entry != end; entry.increment(trouble))
-            if (is_name_of_check(entry->path().filename()) && is_cloud(entry->path()))
-                throw Error(Trouble::output, entry->path().string(),
-                            "is the cloud that the session begins with, and has a name that recorded checks "
-                            "take; give the cloud another one");
-        if (!options_.out || !is_name_of_check(options_.out->filename())) return;
-        const std::filesystem::path folder = options_.out->parent_path();
-        if (std::filesystem::equivalent(folder.empty() ? "." : folder, folder_of_session(), ignored))
-            throw Error(Trouble::output, options_.out->string(),
-                        "has a name that recorded checks take; give the shape another one");
-    }
-
-    // Nor may it be written over a file that is none of this session's: another session of the same name may
-    // have recorded it. Only at the end is it known how many there are.
-    void refuse_to_replace_others() const {
-        for (const RecordedCheck& recorded : recorded_) {
-            const bool is_own = std::ranges::any_of(session_.lines, [&](const SessionLine& line) {
-                const auto* check = std::get_if<CheckLine>(&line.action);
-                return check && check->positions == recorded.file;
-            });
-            const std::filesystem::path target = session_.resolve(recorded.file);
-            std::error_code ignored;
-            if (!is_own && std::filesystem::exists(target, ignored))
-                throw Error(Trouble::output, target.string(),
-                            "is there already and no check of this session has it; to record one there, "
-                            "move the file away first");
-        }
+        if (options_.record_checks && !options_.rehearse)
+            refuse_to_record(session_, cloud_path(), options_.out);
     }
 
     // So is a missing file.
     void find_check_files() const {
         for (const SessionLine& line : session_.lines) {
             const auto* check = std::get_if<CheckLine>(&line.action);
-            if (!check || is_recorded_name(check->positions)) continue;
+            if (!check || is_recorded_anew(*check)) continue;
             const std::filesystem::path path = session_.resolve(check->positions);
             std::error_code ignored;
             if (!std::filesystem::exists(path, ignored))
@@ -169,19 +115,24 @@ private:
     }
 
     void carry_out(Document& document, const SessionLine& line) {
-        const std::string place = session_.place(line.number);
         progress_.stop_if_cancelled();
-        std::visit([&](const auto& action) { act(document, action, line.number, place); }, line.action);
+        const std::string place = session_.place(line.number);
+        if (std::holds_alternative<CommitLine>(line.action)) finish_edit(document, line.number - 1);
+        if (const auto* set = std::get_if<SetLine>(&line.action))
+            document.change_settings(overridden(set->change, options_.overrides), place);
+        else
+            carry_out_act(document, line.action, place, progress_);
+        std::visit([&](const auto& done) { look_at(document, done, line.number); }, line.action);
         take_device_warning();
     }
 
     void take_device_warning() { add_warning(upsampler_->take_warning()); }
 
-    void act(Document& document, const HandleLine& line, std::size_t /*number*/, const std::string& place) {
-        document.declare(line, place);
-    }
-    void act(Document& document, const DragLine& line, std::size_t number, const std::string& place) {
-        document.drag(line, place, progress_);
+    // After a line is carried out; of most there is nothing to look at.
+    template<typename Line>
+    void look_at(Document& /*document*/, const Line& /*line*/, std::size_t /*number*/) {}
+
+    void look_at(Document& document, const DragLine& line, std::size_t number) {
         checked_ = is_undone_ = false;
         if (options_.rehearse) return;
         add_warning(words_about(document.pipeline().strays()));
@@ -192,37 +143,23 @@ private:
                  {words_about_swallowed(document, handle), words_about_loose(document, handle)})
                 if (!words.empty()) add_warning(session_.place(number) + ": " + words);
     }
-    void act(Document& document, const SettleLine& line, std::size_t /*number*/,
-             const std::string& /*place*/) {
-        document.settle(line, progress_);
+    void look_at(Document& document, const SettleLine& /*line*/, std::size_t /*number*/) {
         if (document.is_posed()) checked_ = false;
         if (options_.after_frame && !options_.rehearse)
             options_.after_frame(document, document.shape(progress_)); // nothing need be posed
     }
-    void act(Document& document, const CheckLine& line, std::size_t number, const std::string& /*place*/) {
-        if (!is_recorded_name(line.positions)) check(document, line, number);
+    void look_at(Document& document, const CheckLine& line, std::size_t number) {
+        if (!is_recorded_anew(line)) check(document, line, number);
     }
-    void act(Document& document, const CommitLine& /*line*/, std::size_t number,
-             const std::string& /*place*/) {
-        finish_edit(document, number - 1);
-        document.commit(progress_);
+    void look_at(Document& document, const UndoLine& /*line*/, std::size_t /*number*/) {
+        went_back(document);
     }
-    void act(Document& document, const SetLine& line, std::size_t /*number*/, const std::string& place) {
-        document.change_settings(overridden(line.change, options_.overrides), place);
+    void look_at(Document& document, const RedoLine& /*line*/, std::size_t /*number*/) {
+        went_back(document);
     }
-    void act(Document& document, const DeleteLine& line, std::size_t /*number*/, const std::string& place) {
-        document.remove(line, place);
-    }
-    void act(Document& document, const RenameLine& line, std::size_t /*number*/, const std::string& place) {
-        document.rename(line, place);
-    }
-    void act(Document& document, const UndoLine& /*line*/, std::size_t /*number*/, const std::string& place) {
-        document.undo(place);
-        is_undone_ = true;
-        if (document.is_posed()) checked_ = false;
-    }
-    void act(Document& document, const RedoLine& /*line*/, std::size_t /*number*/, const std::string& place) {
-        document.redo(place);
+
+    // Or forth.
+    void went_back(const Document& document) {
         is_undone_ = true;
         if (document.is_posed()) checked_ = false;
     }
@@ -271,38 +208,20 @@ private:
         add_warning(words_about_demand(document.demand(progress_)));
         if (!options_.record_checks || checked_) return;
         checked_ = true;
-        recorded_.push_back({after_line, recorded_name(recorded_.size() + 1), document.positions(progress_),
-                             document.normals(progress_)});
+        recorded_.push_back({after_line, name_of_check(session_, recorded_.size() + 1),
+                             document.positions(progress_), document.normals(progress_)});
     }
 
-    std::filesystem::path recorded_name(std::size_t number) const {
-        return session_.file.stem().string() + "-check-" + std::to_string(number) + ".ply";
-    }
-
-    // Whether a check's cloud is one that this run records anew.
-    bool is_recorded_name(const std::filesystem::path& name) const {
-        return options_.record_checks && name.parent_path().empty() && is_name_of_check(name);
-    }
-
-    // Whether recorded_name() makes such names.
-    bool is_name_of_check(const std::filesystem::path& name) const {
-        const std::string stem = name.stem().string(), begin = session_.file.stem().string() + "-check-";
-        return name.extension() == ".ply" && stem.starts_with(begin) && stem.size() > begin.size() &&
-               std::ranges::all_of(stem.substr(begin.size()), [](char c) { return c >= '0' && c <= '9'; });
-    }
-
-    // That of the check which is recorded anew, or a usual one.
-    double recorded_tolerance(const std::filesystem::path& file) const {
-        for (const SessionLine& line : session_.lines)
-            if (const auto* check = std::get_if<CheckLine>(&line.action); check && check->positions == file)
-                return check->tolerance;
-        return 1e-4;
+    bool is_recorded_anew(const CheckLine& check) const {
+        return options_.record_checks && is_recorded(session_, check);
     }
 
     // Everything is put in its place when all of it is written.
     void write_results(Document& document) {
-        const bool replaces_cloud = options_.out && is_cloud(*options_.out);
-        refuse_to_replace_others();
+        std::error_code ignored;
+        const bool replaces_cloud =
+            options_.out && std::filesystem::equivalent(*options_.out, cloud_path(), ignored);
+        refuse_to_replace_others(session_, recorded_);
         Outputs outputs;
         if (options_.add_outputs) options_.add_outputs(outputs);
         if (options_.out) {
@@ -319,43 +238,15 @@ private:
                                                      "on it begins with the shape that is there now");
         }
         if (options_.record_checks) {
-            write_checks(document.cloud(), outputs.add(TemporaryFolder(folder_of_session())));
-            write_session(outputs.add(FileInTheMaking(session_.file)));
+            write_checks(recorded_, document.cloud(),
+                         outputs.add(TemporaryFolder(folder_of(session_))).path(), progress_);
+            write_session(session_, recorded_, outputs.add(FileInTheMaking(session_.file)));
         }
         outputs.hand_over();
         if (!options_.record_checks) return;
         for (const RecordedCheck& recorded : recorded_)
             report_.written.push_back(session_.resolve(recorded.file));
         report_.written.push_back(session_.file);
-    }
-
-    std::filesystem::path folder_of_session() const {
-        const std::filesystem::path folder = session_.file.parent_path();
-        return folder.empty() ? "." : folder;
-    }
-
-    void write_checks(const PointCloud& cloud, const TemporaryFolder& folder) {
-        // Only positions are ever read from them, which every format holds.
-        for (const RecordedCheck& recorded : recorded_)
-            (void)write_cloud(folder.path() / recorded.file, cloud, {recorded.positions, recorded.normals},
-                              progress_);
-    }
-
-    // The session as it was, line for line, with the recorded checks in place of earlier recorded ones.
-    void write_session(FileInTheMaking& file) const {
-        file.write(session_.header_text + "\n");
-        auto next = recorded_.begin();
-        const auto put_checks_up_to = [&](std::size_t line) {
-            for (; next != recorded_.end() && next->after_line <= line; ++next)
-                file.write(to_text(CheckLine{next->file, recorded_tolerance(next->file)}) + "\n");
-        };
-        put_checks_up_to(1);
-        for (const SessionLine& line : session_.lines) {
-            put_checks_up_to(line.number - 1);
-            const auto* check = std::get_if<CheckLine>(&line.action);
-            if (!check || !is_recorded_name(check->positions)) file.write(line.text + "\n");
-        }
-        put_checks_up_to(std::numeric_limits<std::size_t>::max());
     }
 
     void measure_extent(Document& document) {

@@ -3,7 +3,8 @@
 
 #include "base/types.h"
 #include "base/workers.h"
-#include "edit/command.h"
+#include "edit/select_mode.h"
+#include "edit/session.h"
 #include "graph/csr.h"
 #include "graph/neighbors.h"
 #include "graph/point_order.h"

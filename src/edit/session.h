@@ -184,6 +184,9 @@ struct Session {
 // name: an object whose first kilobyte has the key "knead". It may still be refused when read.
 bool looks_like_session(std::string_view first_bytes);
 
+// Whether a file is a session by its name, which then ends in .knead, letter case aside.
+bool has_session_extension(const std::filesystem::path& file);
+
 // Reads a session file. Throws Error (input) with file, line and key. Lines end in LF or CRLF; blank ones and
 // a byte order mark are skipped. A last line without an end of line counts if it parses, and is refused if
 // not. Names that no line declared, points that the cloud does not have, and empty edits are left to the

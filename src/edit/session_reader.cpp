@@ -1,5 +1,6 @@
 // The lines of a session file, from text to values.
 
+#include "base/lower_case.h"
 #include "base/whole_file.h"
 #include "edit/session.h"
 #include "edit/session_settings.h"
@@ -298,6 +299,10 @@ std::string Session::place(std::size_t line_number) const {
 
 std::filesystem::path Session::resolve(const std::filesystem::path& written) const {
     return file.parent_path() / written; // which is `written` where that is absolute
+}
+
+bool has_session_extension(const std::filesystem::path& file) {
+    return lower_case(file.extension().string()) == ".knead";
 }
 
 bool looks_like_session(std::string_view first_bytes) {

@@ -54,9 +54,10 @@ struct NearPatch {
     bool is_sample = false;
 };
 
-// Of each handle what is nearer to small patches of it than to all others, ascending by distance: what lies
-// beside a large one goes by that. Of all vertices there are those of `samples`, and of the others some that
-// lie as evenly, the same around all handles: of large clouds and many handles few.
+// One list a handle: the free vertices within the falloffs of its small patches that are nearer to these than
+// to any other handle, ascending by distance. (What is nearer to a large handle follows that one.) Not every
+// vertex is asked: all of `samples` are, and of the others one in so many, spread evenly and alike around all
+// handles; one in more where the cloud is large or the handles are many.
 using Vicinities = std::vector<std::vector<NearPatch>>;
 Vicinities vicinities(std::size_t handles, std::span<const SmallPatch> patches,
                       std::span<const Index> samples, std::span<const Index> label,

@@ -62,8 +62,8 @@ DragLine way_back(const std::string& handle, std::span<const HandleMotion> way, 
     DragLine line{handle, middle + origin, {}};
     for (std::size_t k = 1; k < stops.size(); ++k) {
         const HandleMotion &from = from_rest[stops[k - 1]], &to = from_rest[stops[k]];
-        const Vec3d start = from.linear * middle + from.offset - middle;
-        const Vec3d end = to.linear * middle + to.offset - middle;
+        const Vec3d start = moved_point(from, middle) - middle;
+        const Vec3d end = moved_point(to, middle) - middle;
         const double turn = turn_between(from, to);
         const int frames = std::max(1, static_cast<int>(std::ceil(turn / widest_turn - 1e-9)));
         for (int f = 1; f <= frames; ++f) {

@@ -22,8 +22,8 @@ std::vector<std::uint8_t> near_changed(std::span<const std::uint8_t> changed, co
     workers.for_each(changed.size(), blocks_at_once, [&](std::size_t block) {
         if (!changed[block]) return;
         mark(marks[block]);
-        const std::size_t end = std::min(graph.size(), (block + 1) * rows_in_block);
-        for (std::size_t v = block * rows_in_block; v < end; ++v)
+        const auto [begin, end] = rows_of_block(block, graph.size());
+        for (std::size_t v = begin; v < end; ++v)
             for (const Index neighbor : graph.row(v)) mark(marks[neighbor / rows_in_block]);
     });
     return marks;
@@ -45,7 +45,7 @@ void look_at(std::size_t block, const VertexLabels& labels, const Graph& graph,
     found.parts.clear();
     found.borders.clear();
     found.extents.clear();
-    const std::size_t begin = block * rows_in_block, end = std::min(graph.size(), begin + rows_in_block);
+    const auto [begin, end] = rows_of_block(block, graph.size());
     for_each_held(labels, begin, end, [&](Index v) {
         const HeldPart part{labels.label[v], components.component[v]};
         if (found.parts.empty() || found.parts.back() != part) found.parts.push_back(part);

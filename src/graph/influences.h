@@ -23,6 +23,13 @@ inline constexpr std::size_t rows_in_block = 256;
 constexpr std::size_t blocks_of_rows(std::size_t rows) {
     return (rows + rows_in_block - 1) / rows_in_block;
 }
+struct RowRange {
+    std::size_t begin = 0, end = 0;
+};
+// Which rows a block has, of so many in all.
+constexpr RowRange rows_of_block(std::size_t block, std::size_t rows) {
+    return {block * rows_in_block, std::min((block + 1) * rows_in_block, rows)};
+}
 
 // The K nearest samples and handles of a vertex, by (distance, number), or fewer `places` of them. A vertex
 // whose component has fewer keeps the last places empty: `none` for sample and distance.

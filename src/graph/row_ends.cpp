@@ -43,9 +43,8 @@ void find_row_ends(const InfluenceRows& nearest, std::span<const std::uint8_t> c
         [&]<typename Number>(const std::vector<SampleRow<Number>>& rows) {
             workers.for_each(blocks, grain, [&](std::size_t block) {
                 if (changed[block] == 0) return;
-                const std::size_t first = block * rows_in_block;
-                ends[block] = one_past_largest(
-                    std::span(rows).subspan(first, std::min(rows_in_block, rows.size() - first)));
+                const auto [begin, end] = rows_of_block(block, rows.size());
+                ends[block] = one_past_largest(std::span(rows).subspan(begin, end - begin));
             });
         },
         nearest.rows);

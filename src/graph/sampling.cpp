@@ -35,10 +35,9 @@ Held all_of(std::span<const HeldBlock> blocks, const ComponentNumbers& component
         has_one.insert(part.label);
     };
     for (const BorderVertex& border : all.borders) add({border.label, component[border.vertex]});
-    const auto is_everywhere = [&](Index label) { return label < everywhere.size() && everywhere[label]; };
     for (const HeldBlock& block : blocks)
         for (const HeldPart& part : block.parts)
-            if (is_everywhere(part.label) || !has_one.contains(part.label)) add(part);
+            if (is_set(everywhere, part.label) || !has_one.contains(part.label)) add(part);
     return all;
 }
 

@@ -23,10 +23,12 @@ constexpr Asking asking_for(std::size_t samples, std::size_t all) {
     return {wanted, samples <= few_samples ? 1U : 2U};
 }
 
-// Where not all vertices were asked, makes the area of each what its star says, times what areas are of stars
-// over the territory of its base sample and those beside it: cells differ too much for some to tell what
-// others are. Areas are known of all then. Samples that were added change nothing of it. Returns the same
-// ratio of areas to what links say, one entry a base sample; 1 where nothing was asked.
+// Gives an area to those of the vertices that were not asked for their cell. Their star, which all have,
+// tells an area as well, but one that is wrong by a factor which depends on how the points lie around. So
+// that factor, area of cells over area of stars, is measured over the territory of each base sample and those
+// beside it, since single cells differ too much, and multiplies the star; unless all were asked, it gives the
+// area of those that were, too. Samples that were added change nothing of it. Returns of the same territories
+// the area of the cells over what the links there tell, one entry a base sample; 1 where nothing was asked.
 std::vector<float> level_areas(AskedVertices& asked, const ChangingTerritories& territories,
                                std::size_t base_samples);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace knead {
 
@@ -14,6 +15,11 @@ struct VertexLabels {
     std::span<const Index> label;       // of each vertex a number that tells handles apart; no_index: free
     std::span<const std::uint8_t> held; // of each block of rows_in_block vertices: 0 where all are free
 };
+
+// Whether a flag is set of a handle, by its label, in a list that may end early; of no_index none is.
+inline bool is_set(const std::vector<bool>& of_handles, Index label) {
+    return label < of_handles.size() && of_handles[label];
+}
 
 // Calls visit(v) for the vertices of begin … end that are held, ascending.
 template<typename Visit>

@@ -72,6 +72,24 @@ TEST_F(BarEditor, ADoubleClickLeavesTheSelectionAlone) {
     EXPECT_EQ(editor_.marks, grown);
 }
 
+TEST_F(BarEditor, ADoubleClickTakesBackNothingThatItDidNotSelect) {
+    const glm::dvec2 low = pixel_of({0, 0, -2});
+    apply(editor_, SelectPointUnder{low});
+    const std::vector<std::uint8_t> marks = editor_.marks;
+    apply(editor_, SetPivotUnder{pixel_of({0, 0, 2})}); // elsewhere
+    EXPECT_EQ(editor_.marks, marks);
+
+    apply(editor_, ChangeSelection{SelectionStep::none});
+    apply(editor_, SelectPointUnder{low});
+    OpenRequest request;
+    request.file = folder_ / "bar.ply";
+    request.device = "reference";
+    open(editor_, request);
+    ASSERT_TRUE(wait_until([&] { return refresh(editor_) && !editor_.opening; }));
+    apply(editor_, SetPivotUnder{pixel_of({0, 0, -2})}); // in another document, where nothing was done
+    EXPECT_TRUE(editor_.past.empty());
+}
+
 TEST_F(BarEditor, TellsWhichHandleIsUnderTheCursor) {
     make_handles();
     EXPECT_EQ(handle_under(editor_, pixel_of({0, 0, 2.4})), "high");

@@ -1,8 +1,11 @@
 #include "edit/mirroring.h"
 
-#include "edit/editor_bar.h"
 #include "graph/clouds.h"
-#include "io/cloud_file.h"
+#include "view/transform.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
 
 namespace knead::test {
 
@@ -71,21 +74,13 @@ TEST(PartAcross, IsFoundWhereItStandsOtherwise) {
             positions.push_back(0.2F * leg[i + 1] + (side > 0 ? 0.4F : 0.0F));
             positions.push_back(-3.4F + 0.3F * leg[i + 2] + (side > 0 ? 0.1F : 0.0F));
         }
-    ScratchFolder folder;
-    SilentProgress silent;
-    write_cloud(folder / "legs.ply", make_cloud(positions), {}, silent);
-    Editor editor{1};
-    OpenRequest request;
-    request.file = folder / "legs.ply";
-    request.device = "reference";
-    open(editor, request);
-    ASSERT_TRUE(wait_until([&] { return refresh(editor) && editor.document; }));
     std::vector<Index> points;
     const auto half = static_cast<Index>((positions.size() / 3 - trunk) / 2);
     for (Index i = 0; i < half; ++i)
         if (positions[3 * (trunk + i) + 2] < -3.4F) points.push_back(static_cast<Index>(trunk) + i);
-    const Handle foot{"foot", HandleRole::moving, std::make_shared<const std::vector<Index>>(points)};
-    const PartAcross across = part_across(editor, editor.opened.opened->positions, foot, {0, 0, true}, 0.06);
+    std::vector<Index> ordered(positions.size() / 3);
+    std::iota(ordered.begin(), ordered.end(), 0U);
+    const PartAcross across = part_across({positions, ordered}, points, {0, 0, true}, 0.06);
     EXPECT_NEAR(across.shift.y(), 0.4, 0.05);
     EXPECT_NEAR(across.shift.z(), 0.1, 0.1);
     EXPECT_GT(across.points.size(), points.size() / 2);

@@ -202,6 +202,11 @@ constexpr Modifiers ctrl{false, true, false};
 constexpr Modifiers alt{false, false, true};
 constexpr Modifiers ctrl_shift{true, true, false};
 constexpr Modifiers ctrl_alt{false, true, true};
+constexpr Modifiers alt_shift{true, false, true};
+
+// The shortcut of what the tools do at a key of theirs (edit/tools_keys.cpp), which they take before anybody
+// asks here.
+constexpr std::nullopt_t of_tools = std::nullopt;
 
 constexpr Shortcut on(char letter, Modifiers held = plain) {
     return {key(letter), held};
@@ -236,67 +241,71 @@ const Action file_actions[] = {
 };
 
 const Action edit_actions[] = {
-    {"Edit", "Undo", "Ctrl+Z", "Takes the last step back", repeating(on('Z', ctrl)),
+    {"Edit", "Undo", "Ctrl+Z", "Takes the last step back", of_tools,
      [](const Ui& ui) { ui.tell(UndoStep{}); }, undo_is_possible, nullptr, false,
      [](const Ui& ui) { return words_of_undo(ui.editor); }},
-    {"Edit", "Redo", "Ctrl+Shift+Z", "Does the step taken back again (also Ctrl+Y)",
-     repeating(on('Z', ctrl_shift)), [](const Ui& ui) { ui.tell(RedoStep{}); }, redo_is_possible, nullptr,
-     false, [](const Ui& ui) { return words_of_redo(ui.editor); }},
-    {"Edit", "Commit the pose", "Enter", "Makes the shape as it is now the new rest shape", on(Key::enter),
+    {"Edit", "Redo", "Ctrl+Shift+Z", "Does the step taken back again (also Ctrl+Y)", of_tools,
+     [](const Ui& ui) { ui.tell(RedoStep{}); }, redo_is_possible, nullptr, false,
+     [](const Ui& ui) { return words_of_redo(ui.editor); }},
+    {"Edit", "Commit the pose", "Enter", "Makes the shape as it is now the new rest shape", of_tools,
      [](const Ui& ui) { ui.tell(CommitPose{}); }, something_is_posed, nullptr, true},
 };
 
 const Action select_actions[] = {
-    {"Select", "All", "A", "Selects every point that is shown", on('A'), select<SelectionStep::all>,
+    {"Select", "All", "A", "Selects every point that is shown", of_tools, select<SelectionStep::all>,
      cloud_is_open},
-    {"Select", "None", "Alt+A", "Selects nothing", on('A', alt), select<SelectionStep::none>,
+    {"Select", "None", "Alt+A", "Selects nothing", of_tools, select<SelectionStep::none>,
      something_is_selected},
-    {"Select", "Invert", "Ctrl+I", "Selects what is not selected", on('I', ctrl),
-     select<SelectionStep::invert>, cloud_is_open},
-    {"Select", "Grow", "Ctrl++", "Adds the neighbours of the selected points", repeating(on('=', ctrl)),
+    {"Select", "Invert", "Ctrl+I", "Selects what is not selected", of_tools, select<SelectionStep::invert>,
+     cloud_is_open},
+    {"Select", "Grow", "Ctrl++", "Adds the neighbours of the selected points", of_tools,
      select<SelectionStep::grow>, something_is_selected, nullptr, true},
-    {"Select", "Shrink", "Ctrl+-", "Takes away points at the border of the selection",
-     repeating(on('-', ctrl)), select<SelectionStep::shrink>, something_is_selected},
-    {"Select", "Connected part", "L", "Adds all that hangs together with the selected points", on('L'),
+    {"Select", "Shrink", "Ctrl+-", "Takes away points at the border of the selection", of_tools,
+     select<SelectionStep::shrink>, something_is_selected},
+    {"Select", "Connected part", "L", "Adds all that hangs together with the selected points", of_tools,
      select<SelectionStep::connected>, something_is_selected},
+    {"Select", "Outliers", "",
+     "Selects the points that lie off the surface by themselves, as scanners leave them: what follows their "
+     "surface without pulling at it",
+     std::nullopt, select<SelectionStep::outliers>, cloud_is_open},
     {"Select", "Hide the selection", "V", "Hides the selected points; hidden points cannot be selected",
-     on('V'), hide<HideStep::hide_selected>, something_is_selected, nullptr, true},
-    {"Select", "Hide the rest", "Shift+V", "Hides what is not selected", on('V', shift),
+     of_tools, hide<HideStep::hide_selected>, something_is_selected, nullptr, true},
+    {"Select", "Hide the rest", "Shift+V", "Hides what is not selected", of_tools,
      hide<HideStep::hide_unselected>, something_is_selected},
-    {"Select", "Show all", "Alt+V", "Shows hidden points again", on('V', alt), hide<HideStep::show_all>,
+    {"Select", "Show all", "Alt+V", "Shows hidden points again", of_tools, hide<HideStep::show_all>,
      something_is_hidden},
-    {"Select/Tool", "Click", "C", "Selects the point under the cursor", on('C'),
+    {"Select/Tool", "Click", "C", "Selects the point under the cursor", of_tools,
      choose_tool<SelectTool::click>, always, tool_is_chosen<SelectTool::click>, true},
-    {"Select/Tool", "Box", "B", "Selects what lies in a rectangle", on('B'), choose_tool<SelectTool::box>,
+    {"Select/Tool", "Box", "B", "Selects what lies in a rectangle", of_tools, choose_tool<SelectTool::box>,
      always, tool_is_chosen<SelectTool::box>},
-    {"Select/Tool", "Lasso", "Q", "Selects what you draw a line around", on('Q'),
+    {"Select/Tool", "Lasso", "Q", "Selects what you draw a line around", of_tools,
      choose_tool<SelectTool::lasso>, always, tool_is_chosen<SelectTool::lasso>},
     {"Select/Tool", "Polygon", "P",
-     "Selects what lies between corners that you click; Enter or a double click closes", on('P'),
+     "Selects what lies between corners that you click; Enter or a double click closes", of_tools,
      choose_tool<SelectTool::polygon>, always, tool_is_chosen<SelectTool::polygon>},
-    {"Select/Tool", "Brush", "K", "Paints the selection; [ and ] change its size", on('K'),
+    {"Select/Tool", "Brush", "K", "Paints the selection; [ and ] change its size", of_tools,
      choose_tool<SelectTool::brush>, always, tool_is_chosen<SelectTool::brush>},
-    {"Select", "Through", "T", "Also selects what lies behind the visible surface", on('T'),
+    {"Select", "Through", "T", "Also selects what lies behind the visible surface", of_tools,
      [](const Ui& ui) { ui.wish(WishThrough{!ui.editor.tools.through}); }, always,
      [](const Ui& ui) { return ui.editor.tools.through; }},
 };
 
 const Action handle_actions[] = {
     {"Handles", "Moving handle", "H", "Makes the selection a handle that you can move, turn and scale",
-     on('H'), make_handle<HandleRole::moving>, something_is_selected},
-    {"Handles", "Fixed handle", "Shift+H", "Makes the selection a handle that stays where it is",
-     on('H', shift), make_handle<HandleRole::fixed>, something_is_selected},
+     of_tools, make_handle<HandleRole::moving>, something_is_selected},
+    {"Handles", "Fixed handle", "Shift+H", "Makes the selection a handle that stays where it is", of_tools,
+     make_handle<HandleRole::fixed>, something_is_selected},
     {"Handles", "Region of interest", "Ctrl+H", "Only the selection may deform; everything else stays",
-     on('H', ctrl), make_handle<HandleRole::region_of_interest>, something_is_selected},
+     of_tools, make_handle<HandleRole::region_of_interest>, something_is_selected},
     {"Handles", "From an attribute…", "", "Makes handles of an attribute that labels the points of the file",
      std::nullopt, [](const Ui& ui) { ui.wish(WishBrowseLabels{}); }, cloud_is_open, nullptr, true},
     {"Handles", "From a session…", "", "Makes the handles that another session has, on this cloud",
      std::nullopt, browse<BrowseFor::take_handles>, cloud_is_open},
-    {"Handles", "Move", "G", "Moves the chosen handle with the cursor; X, Y or Z keeps to an axis",
-     std::nullopt, press<'G'>, moving_handle_is_chosen, nullptr, true},
+    {"Handles", "Move", "G", "Moves the chosen handle with the cursor; X, Y or Z keeps to an axis", of_tools,
+     press<'G'>, moving_handle_is_chosen, nullptr, true},
     {"Handles", "Rotate", "R", "Turns the chosen handle with the cursor; type degrees for an exact turn",
-     std::nullopt, press<'R'>, moving_handle_is_chosen},
-    {"Handles", "Scale", "S", "Scales the chosen handle with the cursor", std::nullopt, press<'S'>,
+     of_tools, press<'R'>, moving_handle_is_chosen},
+    {"Handles", "Scale", "S", "Scales the chosen handle with the cursor", of_tools, press<'S'>,
      moving_handle_is_chosen},
     {"Handles", "Local axes", ",", "The gizmo's axes turn with the handle", on(','),
      [](const Ui& ui) { ui.wish(WishLocalAxes{!ui.editor.local_axes}); }, cloud_is_open,
@@ -332,12 +341,15 @@ const Action handle_actions[] = {
      assign_points<SelectMode::replace>, handle_and_selection_are_there},
     {"Handles", "Rename", "F2", "Gives the handle that was just made, or else the chosen one, another name",
      on(Key::f2), name_handle, handle_can_be_named},
-    {"Handles", "Reset its pose", "Alt+R",
-     "Puts what is chosen back where it was at rest, with what goes along", on('R', alt),
+    {"Handles", "Reset its pose", "Alt+Shift+R",
+     "Puts what is chosen back where it was at rest, with what goes along", on('R', alt_shift),
      [](const Ui& ui) { ui.tell(ResetPoses{moved_with(ui.editor, ui.editor.chosen)}); }, chosen_is_posed},
     {"Handles", "Take its move back", "Alt+G",
      "Puts the chosen handle's pivot back where it was at rest, and what goes along; turn and size stay",
      on('G', alt), take_back<PosePart::move>, chosen_is_posed},
+    {"Handles", "Take its turn back", "Alt+R",
+     "Unwinds the chosen handle about its pivot, and what goes along; place and size stay", on('R', alt),
+     take_back<PosePart::turn>, chosen_is_posed},
     {"Handles", "Take its scaling back", "Alt+S",
      "Makes the chosen handle as large as it was at rest, and what goes along; place and turn stay",
      on('S', alt), take_back<PosePart::scaling>, chosen_is_posed},
@@ -361,19 +373,17 @@ const Action handle_actions[] = {
 };
 
 const Action view_actions[] = {
-    {"View", "Frame the selection", "F", "Brings the selection, or the chosen handle, into view", on('F'),
+    {"View", "Frame the selection", "F", "Brings the selection, or the chosen handle, into view", of_tools,
      [](const Ui& ui) { ui.tell(FrameView{FrameWhat::selection}); }, cloud_is_open},
-    {"View", "Frame everything", "Home", "Brings the whole cloud into view", on(Key::home),
+    {"View", "Frame everything", "Home", "Brings the whole cloud into view", of_tools,
      [](const Ui& ui) { ui.tell(FrameView{FrameWhat::everything}); }, cloud_is_open},
-    {"View/Look from", "Front", "1", "Looks at the front", on('1'), look_from<Side::front>, cloud_is_open},
-    {"View/Look from", "Back", "Ctrl+1", "Looks at the back", on('1', ctrl), look_from<Side::back>,
-     cloud_is_open},
-    {"View/Look from", "Right", "3", "Looks against x", on('3'), look_from<Side::right>, cloud_is_open},
-    {"View/Look from", "Left", "Ctrl+3", "Looks along x", on('3', ctrl), look_from<Side::left>,
-     cloud_is_open},
-    {"View/Look from", "Top", "7", "Looks down", on('7'), look_from<Side::top>, cloud_is_open},
-    {"View/Look from", "Bottom", "Ctrl+7", "Looks up", on('7', ctrl), look_from<Side::bottom>, cloud_is_open},
-    {"View", "Orthographic", "5", "No perspective: parallel lines stay parallel", on('5'),
+    {"View/Look from", "Front", "1", "Looks at the front", of_tools, look_from<Side::front>, cloud_is_open},
+    {"View/Look from", "Back", "Ctrl+1", "Looks at the back", of_tools, look_from<Side::back>, cloud_is_open},
+    {"View/Look from", "Right", "3", "Looks against x", of_tools, look_from<Side::right>, cloud_is_open},
+    {"View/Look from", "Left", "Ctrl+3", "Looks along x", of_tools, look_from<Side::left>, cloud_is_open},
+    {"View/Look from", "Top", "7", "Looks down", of_tools, look_from<Side::top>, cloud_is_open},
+    {"View/Look from", "Bottom", "Ctrl+7", "Looks up", of_tools, look_from<Side::bottom>, cloud_is_open},
+    {"View", "Orthographic", "5", "No perspective: parallel lines stay parallel", of_tools,
      toggle_orthographic, cloud_is_open, [](const Ui& ui) { return ui.editor.camera.orthographic; }},
     {"View/Orbit as", "Turntable", "", "Orbiting keeps the horizon level", std::nullopt,
      orbit_by<Orbiting::turntable>, always, orbits_by<Orbiting::turntable>},
@@ -462,7 +472,6 @@ std::vector<Action> all_actions() {
 
 // Second keys of actions: the same as another one.
 KeyPress usual_key(KeyPress press) {
-    if (press.key == key('Y') && press.held == ctrl) return {key('Z'), ctrl_shift, press.repeated};
     if (press.key == key('S') && press.held == ctrl_alt) return {key('S'), ctrl_shift, press.repeated};
     if (press.key == key('+') || press.key == key('=')) {
         press.key = key('=');

@@ -1,6 +1,6 @@
 #pragma once
-// Everything that the window can do, once: the menus, the keys and the help page are all made from this
-// table.
+// Everything that the window can do, once: the menus and the help page are made from this table, and so are
+// the keys of the window; those that the tools take themselves stand in edit/tools_keys.cpp.
 
 #include "app/ui.h"
 

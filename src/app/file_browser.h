@@ -51,6 +51,7 @@ struct FileBrowser {
     std::string typed;                    // the name, or a path
     std::string filter;                   // what was typed of a name that is looked for; empty: all is shown
     ExportOptions options;                // of an exported cloud
+    bool bare_picture = false;            // of the cloud alone, without handles and ground
     std::string usual_extension = ".ply"; // of an exported cloud whose name has none
     bool every_file = false;              // also those of another kind than is looked for
     int chosen = -1;                      // among the entries

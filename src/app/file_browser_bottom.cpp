@@ -217,6 +217,12 @@ void bottom_row(const Ui& ui, bool hears_keys) {
                                                        : "Also shows files that are neither clouds (" +
                                                              known_extensions() + ") nor sessions (.knead)");
     if (browser.purpose == BrowseFor::save_cloud) column_choice(browser);
+    if (browser.purpose == BrowseFor::save_picture) {
+        ImGui::SameLine();
+        ImGui::Checkbox("Only the cloud", &browser.bare_picture);
+        explain("Without the colours of handles and selection, the ground and what the solver works on. "
+                "Otherwise as the view shows it, without panels and gizmo");
+    }
     const float width = ui.scaled(110), gap = ImGui::GetStyle().ItemSpacing.x;
     const float left = ImGui::GetWindowWidth() - 2 * width - gap - ImGui::GetStyle().WindowPadding.x;
     if (has_line_of_columns(ui))

@@ -113,7 +113,7 @@ void handle_menu(const Ui& ui, const Handle& handle) {
     }
     const std::vector<std::string> together = chosen_with(ui.editor, handle.name);
     const std::vector<std::string> moved = moved_with(ui.editor, handle.name);
-    if (ImGui::MenuItem(moved.size() == 1 ? "Reset its pose" : "Reset their poses", "Alt+R", false,
+    if (ImGui::MenuItem(moved.size() == 1 ? "Reset its pose" : "Reset their poses", "Alt+Shift+R", false,
                         handle.role == HandleRole::moving && ui.editor.document->posed))
         ui.tell(ResetPoses{moved});
     if (ImGui::BeginMenu("Mirror")) {

@@ -55,12 +55,19 @@ void chosen_buttons(const Ui& ui) {
     ImGui::SameLine(0, gap);
     ImGui::BeginDisabled(!handle || handle->role != HandleRole::moving || !ui.editor.document->posed);
     if (ImGui::Button("Reset", {quarter, 0})) ui.tell(ResetPoses{moved_with(ui.editor, name)});
-    explain(
-        "Puts what is chosen back where it was at rest, with what goes along, and unwinds its turns (Alt+R)");
+    explain("Puts what is chosen back where it was at rest, with what goes along, and unwinds its turns "
+            "(Alt+Shift+R; Alt+G, Alt+R and Alt+S take back the move, the turn or the scaling alone)");
     ImGui::EndDisabled();
     ImGui::SameLine(0, gap);
-    if (ImGui::Button("Mirror", {quarter, 0})) ImGui::OpenPopup("mirror");
-    explain("Makes the same handle on the other side of the cloud, its pose mirrored");
+    const auto& symmetry = ui.editor.symmetry;
+    if (ImGui::Button("Mirror", {quarter, 0})) {
+        if (symmetry)
+            ui.tell(MirrorHandle{name, symmetry->axis});
+        else
+            ImGui::OpenPopup("mirror");
+    }
+    explain("Makes the same handle on the other side of the cloud, its pose mirrored. While moves go on both "
+            "sides that is across their plane, and the handle that is chosen stays chosen.");
     ImGui::SameLine(0, gap);
     if (ImGui::Button("Delete", {quarter, 0})) ui.tell(DeleteHandles{chosen_with(ui.editor, name)});
     explain("Deletes what is chosen; the points stay (Del)");

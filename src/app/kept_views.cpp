@@ -21,7 +21,8 @@ constexpr std::size_t most_views = 200;
 constexpr std::string_view axes = "xyz";
 
 // "pivot distance orientation offset orthographic up path", numbers as they are read again; with the letter
-// of the axis across which moves are mirrored right behind `up`.
+// of the axis across which moves are mirrored right behind `up`, and behind the path a tab and the handle
+// that was chosen.
 std::string line_of(const std::string& session, const KeptView& view) {
     const Camera& camera = view.camera;
     const glm::dvec3& p = camera.pivot;
@@ -33,7 +34,8 @@ std::string line_of(const std::string& session, const KeptView& view) {
                   camera.orthographic ? 1 : 0, static_cast<int>(camera.up));
     std::string text = numbers;
     if (view.mirror_axis) text += axes.at(static_cast<std::size_t>(*view.mirror_axis));
-    return text + ' ' + session;
+    const bool fits = view.chosen.find_first_of("\t\n") == std::string::npos;
+    return text + ' ' + session + '\t' + (fits ? view.chosen : "");
 }
 
 struct Line {
@@ -56,6 +58,10 @@ std::optional<Line> read_line(const std::string& text) {
     in.get(); // the space before the path
     if (!std::getline(in, line.session) || up < 0 || up > static_cast<int>(UpAxis::minus_y))
         return std::nullopt;
+    if (const std::size_t tab = line.session.rfind('\t'); tab != std::string::npos) {
+        line.view.chosen = line.session.substr(tab + 1);
+        line.session.resize(tab);
+    }
     camera.orthographic = orthographic != 0;
     camera.up = static_cast<UpAxis>(up);
     const bool looks =

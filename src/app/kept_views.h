@@ -1,17 +1,19 @@
 #pragma once
-// From where sessions were looked at when they were left, and whether moves were mirrored, beside the files
-// that were opened last: a text file in the user's state folder, newest first.
+// From where sessions were looked at when they were left, which handle was chosen, and whether moves were
+// mirrored, beside the files that were opened last: a text file in the user's state folder, newest first.
 
 #include "view/camera.h"
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace knead {
 
 struct KeptView {
     Camera camera;
     std::optional<int> mirror_axis = {}; // across which moves are mirrored: 0 x, 1 y, 2 z
+    std::string chosen = {};             // the handle; empty: none
 
     bool operator==(const KeptView&) const = default;
 };

@@ -157,7 +157,8 @@ void save_picture(Loop& loop) {
     const auto file = std::exchange(loop.work.picture, std::nullopt);
     if (!file || !loop.editor.document) return;
     try {
-        const Picture picture = loop.scene.picture(loop.editor, look_of(loop.state));
+        const Picture picture =
+            loop.scene.picture(loop.editor, look_of(loop.state), loop.state.browser.bare_picture);
         write_png(*file, picture);
         add_toast(loop.state, {Notice::Kind::information, "Saved picture " + file->string() + " (" +
                                                               std::to_string(picture.width) + " × " +

@@ -171,8 +171,9 @@ void take(Loop& loop, const KeyPress& event) {
     loop.tabbed |= event.key == Key::tab && is_typing();
     if (is_typing() || popup_is_open()) return;
     if (hand_is_full(loop) && is_for_file(event))
-        return add_toast(loop.state, {Notice::Kind::information,
-                                      "First end the move: Enter or a click keeps it, Esc takes it back."});
+        return add_toast(loop.state,
+                         {Notice::Kind::information,
+                          "First end what the hand does: Enter or a click keeps it, Esc takes it back."});
     if (event.key == Key::escape && loop.state.show_help) return; // closes that
     if (event.key == Key::escape && loop.state.playback.shown && !loop.editor.tools.drag)
         return close_timeline(loop.ui);

@@ -40,7 +40,8 @@ void face_creature(Editor& editor) {
 
 // How a session that is left is looked at when it is opened again, and posed.
 KeptView view_of(const Editor& editor) {
-    return {editor.camera, editor.symmetry ? std::optional(editor.symmetry->axis) : std::nullopt};
+    return {editor.camera, editor.symmetry ? std::optional(editor.symmetry->axis) : std::nullopt,
+            editor.chosen};
 }
 
 void leave_session(const std::filesystem::path& session, const KeptView& view) {
@@ -59,6 +60,7 @@ void look_at_opened(Loop& loop) {
     const auto view = kept_view(editor.document->session);
     if (!view) return;
     editor.camera = view->camera;
+    if (handle_named(editor.document->handles, view->chosen)) apply(editor, ChooseHandle{view->chosen});
     apply(editor, MirrorMoves{view->mirror_axis});
 }
 

@@ -280,7 +280,7 @@ DrawResult Scene::draw(const Editor& editor, PointLook look, std::size_t budget,
     return state_->renderer.draw(editor.camera, viewport, look, budget, target);
 }
 
-Picture Scene::picture(const Editor& editor, PointLook look) {
+Picture Scene::picture(const Editor& editor, PointLook look, bool bare) {
     // Four of them are averaged for each of the picture, where that is not too much to hold at once.
     constexpr std::size_t most_drawn = 32'000'000; // pixels
     Viewport size = editor.viewport;
@@ -289,11 +289,22 @@ Picture Scene::picture(const Editor& editor, PointLook look) {
         look.pixel_scale *= 2;
     }
     const std::size_t pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-    if (SceneLinesOf& lines = state_->lines; lines.mirror_axis) {
-        lines.mirror_axis.reset(); // a tool, as the gizmo is: the next picture of the window has it again
-        state_->renderer.set_overlay(scene_lines(editor, lines));
+    PointRenderer& renderer = state_->renderer;
+    SceneLinesOf lines = bare ? SceneLinesOf{} : state_->lines;
+    lines.mirror_axis.reset(); // a tool, as the gizmo is
+    renderer.set_overlay(scene_lines(editor, lines));
+    if (bare) {
+        std::vector<std::uint8_t> marks(editor.marks.size());
+        std::ranges::transform(editor.marks, marks.begin(), [](std::uint8_t mark) {
+            return static_cast<std::uint8_t>(mark & mark_hidden);
+        });
+        renderer.set_marks(marks);
     }
-    return draw_picture(state_->renderer, editor.camera, size, look, 4 * pixels <= most_drawn ? 2 : 1);
+    Picture picture = draw_picture(renderer, editor.camera, size, look, 4 * pixels <= most_drawn ? 2 : 1);
+    // As the window has them.
+    renderer.set_overlay(scene_lines(editor, state_->lines));
+    if (bare) renderer.set_marks(editor.marks);
+    return picture;
 }
 
 bool Scene::is_drawn_in_software() const {

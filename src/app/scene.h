@@ -33,8 +33,9 @@ public:
                     int bottom);
 
     // The same as a picture of its own, as finely as a picture may be: with twice as many pixels each way, or
-    // as many as the view has. All points are drawn. The next draw() begins anew.
-    Picture picture(const Editor& editor, PointLook look);
+    // as many as the view has. All points are drawn. `bare`: of the cloud alone, without what stands for
+    // handles, selection and the solver, and without the ground. The next draw() begins anew.
+    Picture picture(const Editor& editor, PointLook look, bool bare);
 
 private:
     struct State;

@@ -27,7 +27,9 @@ struct RowLook {
     const char* words;
 };
 constexpr RowLook row_looks[] = {
-    {PoseRow::place, "Place", "", "Where its pivot is now, in the file's coordinates"},
+    {PoseRow::place, "Place", "",
+     "Where its pivot is now, in the file's coordinates. Another number moves the handle "
+     "there; in pivot mode (.) the pivot alone"},
     {PoseRow::moved, "Moved", "", "How far its pivot went in this edit, in the file's units"},
     {PoseRow::turned, "Turned", "°",
      "How far it turned in this edit, about the world's X, then Y, then Z; whole turns count"},

@@ -27,7 +27,7 @@ struct SelectPointUnder { // a click
     double radius = 0;    // in pixels, of the brush: all in that circle instead of the point
     bool through = false; // as of a region, then
 };
-enum class SelectionStep { all, none, invert, grow, shrink, connected };
+enum class SelectionStep { all, none, invert, grow, shrink, connected, outliers };
 struct ChangeSelection {
     SelectionStep step = SelectionStep::none;
 };
@@ -82,7 +82,7 @@ struct DeleteHandles {
 struct ResetPoses { // of those that move
     std::vector<std::string> handles;
 };
-enum class PosePart { move, scaling };
+enum class PosePart { move, turn, scaling };
 struct TakeBackPart { // of the poses of those that move; the rest of each stays
     std::vector<std::string> handles;
     PosePart part = PosePart::move;

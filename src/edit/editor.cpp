@@ -68,6 +68,9 @@ void carry_out(Editor& editor, const CommitPose& /*command*/) {
     if (!is_or_will_be_posed(editor))
         return say(editor, Notice::Kind::information, "Nothing is posed, so there is nothing to commit.");
     post_step(editor, {CommitLine{}});
+    editor.just_done =
+        "The pose is the new rest shape now, and the numbers of its handles begin anew; Ctrl+Z "
+        "takes it back";
 }
 
 // --- The camera ------------------------------------------------------------------------------------------

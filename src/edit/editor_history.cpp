@@ -96,7 +96,7 @@ namespace {
 std::string words_of(const EditorStep& step, const std::string& of_document) {
     if (step.document != 0) return of_document;
     if (!step.pivots.empty()) return "the pivot of " + quoted(step.pivots.front().handle) + " moved";
-    return step.before ? "other points selected or hidden" : std::string();
+    return step.before ? "a selection, or what is hidden" : std::string();
 }
 
 } // namespace

@@ -104,15 +104,19 @@ namespace {
 // By less of the diagonal, a handle was not moved: its middle is known as closely as floats tell.
 constexpr double rounding = 1e-6;
 
-Transform that_takes_back(PosePart part, const HandleMotion& motion, const Vec3d& pivot, double diagonal) {
-    if (part == PosePart::scaling) return unscaled(motion, pivot);
-    const Transform back = unmoved(motion, pivot);
-    return glm::length(back.shift) > rounding * diagonal ? back : Transform{};
+// The frames of a drag that takes a part of a pose back; none where there is nothing to take back.
+std::vector<HandleMotion> frames_back(PosePart part, const HandleMotion& motion, const Vec3d& pivot,
+                                      double diagonal) {
+    if (part == PosePart::turn) return unturned(motion, pivot);
+    const Transform back = part == PosePart::scaling ? unscaled(motion, pivot) : unmoved(motion, pivot);
+    const bool is_less = part == PosePart::move && glm::length(back.shift) <= rounding * diagonal;
+    if (is_less || does_nothing(back)) return {};
+    return {followed_by(motion, back)};
 }
 
 } // namespace
 
-// Each goes back by itself, about its own pivot, in a drag of one frame.
+// Each goes back by itself, about its own pivot.
 void carry_out(Editor& editor, const TakeBackPart& command) {
     if (!needs_document(editor) || poses_may_change(editor)) return;
     const Vec3d& origin = editor.opened.cloud->origin;
@@ -125,17 +129,61 @@ void carry_out(Editor& editor, const TakeBackPart& command) {
         if (handle.role != HandleRole::moving) continue;
         const glm::dvec3 pivot = place_of_gizmo(editor, handle);
         const HandleMotion motion = motion_now(editor, *number);
-        const Transform back =
-            that_takes_back(command.part, motion, to_eigen(pivot), editor.opened.bounds.diagonal());
-        if (does_nothing(back)) continue;
-        const Vec3d in_file = to_eigen(pivot) + origin;
-        lines.emplace_back(DragLine{name, in_file, {pose_of(followed_by(motion, back), in_file, origin)}});
-        if (pivot_of(editor, name)) pivots.push_back({name, pivot, transformed(back, pivot)});
+        const std::vector<HandleMotion> frames =
+            frames_back(command.part, motion, to_eigen(pivot), editor.opened.bounds.diagonal());
+        if (frames.empty()) continue;
+        DragLine line{name, to_eigen(pivot) + origin, {}};
+        for (const HandleMotion& frame : frames) line.frames.push_back(pose_of(frame, line.pivot, origin));
+        lines.emplace_back(std::move(line));
+        if (pivot_of(editor, name))
+            pivots.push_back({name, pivot, to_glm(moved_on(to_eigen(pivot), motion, frames.back()))});
     }
     if (lines.empty()) return;
     post_step(editor, std::move(lines));
     for (const PivotMove& move : pivots) put_pivot_with(editor.past.back(), editor, move.handle, move.after);
 }
+
+namespace {
+
+// What a handle becomes on the other side.
+struct MirroredHandle {
+    HandleLine line;
+    std::optional<Vec3d> pivot; // where it is when all is done; nothing: in the middle
+};
+
+// `twin`: the handle that is there already; null: none.
+MirroredHandle mirrored_handle(const Editor& editor, const Handle& handle, const HandleMotion& motion,
+                               const Handle* twin, const std::vector<Index>& points,
+                               const Reflection& mirror) {
+    MirroredHandle there{twin ? line_of(*twin) : line_of_mirrored(editor, handle, points), {}};
+    if (twin && twin->pivot) {
+        const HandleMotion before = motion_now(editor, *number_of(editor, twin->name));
+        there.pivot = pivot_after(editor, twin->name, before, seen_in(mirror, motion));
+        return there;
+    }
+    there.line.pivot.reset();
+    if (const auto own = pivot_of(editor, handle.name)) {
+        const Vec3d at_rest = point_at_rest(motion, to_eigen(*own));
+        there.pivot = seen_in(mirror, to_eigen(*own));
+        there.line.pivot = seen_in(mirror, at_rest) + editor.opened.cloud->origin;
+    }
+    return there;
+}
+
+// The words about a handle without a pose.
+void tell_of_no_pose(Editor& editor, const Handle& handle, bool has_twin) {
+    say(editor, Notice::Kind::information,
+        (has_twin ? "There is no pose to mirror: " : "Only the handle was mirrored: ") + quoted(handle.name) +
+            " is where it was at rest" + (has_twin ? "." : ", so there is no pose to mirror."));
+}
+
+void post_posed(Editor& editor, HandleLine line, PoseOfAnother pose) {
+    EditorStep step = coming_step(editor, ++editor.last_step);
+    editor.live->make_posed(step.document, std::move(line), std::move(pose));
+    add_step(editor, std::move(step));
+}
+
+} // namespace
 
 void carry_out(Editor& editor, const MirrorHandle& command) {
     const auto number = number_of(editor, command.handle);
@@ -145,9 +193,8 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     const MirrorPlane plane = mirror_plane(positions, command.axis, editor.opened.spacing);
     const PartAcross across =
         part_across({positions, editor.ordered}, *handle.points, plane, 3 * editor.opened.spacing);
-    const std::vector<Index>& points = across.points;
     const double place = plane.at + editor.opened.cloud->origin[command.axis];
-    if (points.empty())
+    if (across.points.empty())
         return say(editor, Notice::Kind::error,
                    "There is nothing across " + words_about(plane, place) + ", where " + quoted(handle.name) +
                        " would be mirrored to.");
@@ -156,38 +203,27 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     const bool moves = handle.role == HandleRole::moving;
     const HandleMotion motion = motion_now(editor, *number);
     const bool is_posed = moves && leaves_rest(motion);
-    const Handle* const twin = moves ? moving_handle_at(editor, handle, points) : nullptr;
-    if (moves && !is_posed)
-        say(editor, Notice::Kind::information,
-            (twin ? "There is no pose to mirror: " : "Only the handle was mirrored: ") + quoted(handle.name) +
-                " is where it was at rest" + (twin ? "." : ", so there is no pose to mirror."));
-    if (twin && !is_posed) return choose(editor, twin->name);
+    const Handle* const twin = moves ? moving_handle_at(editor, handle, across.points) : nullptr;
+    // Moves on both sides go on from the handle that was chosen, posed or not.
+    const bool stays =
+        editor.symmetry && editor.symmetry->axis == command.axis && editor.chosen == handle.name;
+    if (moves && !is_posed && (twin || !stays)) tell_of_no_pose(editor, handle, twin != nullptr);
+    if (twin && !is_posed) return stays ? void() : choose(editor, twin->name);
 
-    HandleLine line = twin ? line_of(*twin) : line_of_mirrored(editor, handle, points);
-    const std::string name = line.name;
     const Reflection mirror = reflection(plane, across.shift);
-    std::optional<Vec3d> pivot; // where it is when all is done
-    if (twin && twin->pivot) {
-        pivot =
-            pivot_after(editor, name, motion_now(editor, *number_of(editor, name)), seen_in(mirror, motion));
-    } else {
-        line.pivot.reset();
-        if (const auto own = pivot_of(editor, command.handle)) {
-            pivot = seen_in(mirror, to_eigen(*own));
-            line.pivot = seen_in(mirror, point_at_rest(motion, to_eigen(*own))) + editor.opened.cloud->origin;
-        }
-    }
-    if (is_posed) {
-        PoseOfAnother pose{handle.name, [=](const HandleMotion& seen) { return seen_in(mirror, seen); }};
-        EditorStep step = coming_step(editor, ++editor.last_step);
-        editor.live->make_posed(step.document, std::move(line), std::move(pose));
-        add_step(editor, std::move(step));
-    } else {
+    auto [line, pivot] = mirrored_handle(editor, handle, motion, twin, across.points, mirror);
+    const std::string name = line.name;
+    if (is_posed)
+        post_posed(editor, std::move(line),
+                   {handle.name, [=](const HandleMotion& seen) { return seen_in(mirror, seen); }});
+    else
         post_step(editor, {std::move(line)});
-    }
     put_pivot_with(editor.past.back(), editor, name, pivot ? std::optional(to_glm(*pivot)) : std::nullopt);
     editor.posted_names.emplace_back(editor.last_step, name);
-    choose_with_step(editor, name);
+    if (stays)
+        find_counterparts(editor);
+    else
+        choose_with_step(editor, name);
 }
 
 // --- Dragging ---

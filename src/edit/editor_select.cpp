@@ -32,6 +32,14 @@ const Handle* handle_that_holds(const Editor& editor, Index ordered) {
     return handle_of(editor, editor.opened.order->file_index[ordered]);
 }
 
+// Whether Shift and a click on a handle's points let it go along with the chosen one, as in the list. While
+// points are selected that adds one to them.
+bool could_go_along(const Editor& editor, const Handle& handle) {
+    const Handle* const chosen = chosen_handle(editor);
+    return editor.selected == 0 && chosen && chosen->role == HandleRole::moving &&
+           handle.role == HandleRole::moving && handle.name != chosen->name;
+}
+
 // Of what lies in a region: where less is seen, it is told.
 constexpr double much_seen = 0.9;
 
@@ -83,9 +91,10 @@ void carry_out(Editor& editor, const SelectRegion& command) {
 void carry_out(Editor& editor, const SelectPointUnder& command) {
     if (!editor.document) return;
     const Index hit = point_clicked(editor, command.pixel);
-    if (command.mode == SelectMode::replace)
-        if (const Handle* const handle = handle_that_holds(editor, hit))
-            return carry_out(editor, ChooseHandle{handle->name});
+    const Handle* const handle = handle_that_holds(editor, hit);
+    if (handle && command.mode == SelectMode::replace) return carry_out(editor, ChooseHandle{handle->name});
+    if (handle && command.mode == SelectMode::add && command.radius == 0 && could_go_along(editor, *handle))
+        return carry_out(editor, ChooseAlso{handle->name});
     if (command.radius > 0)
         return carry_out(editor,
                          SelectRegion{ScreenStroke{{command.pixel}, command.radius},
@@ -101,10 +110,14 @@ void carry_out(Editor& editor, const SelectPointUnder& command) {
 void carry_out(Editor& editor, const ChangeSelection& command) {
     if (!needs_document(editor)) return;
     const bool needs_graph = command.step == SelectionStep::grow || command.step == SelectionStep::shrink ||
-                             command.step == SelectionStep::connected;
+                             command.step == SelectionStep::connected ||
+                             command.step == SelectionStep::outliers;
     if (needs_graph && !editor.document->graph)
         return say(editor, Notice::Kind::information,
                    "The neighbours of the points are still being found; try again in a moment.");
+    if (command.step == SelectionStep::outliers && !editor.document->outliers)
+        return say(editor, Notice::Kind::information,
+                   "No point of this cloud lies off the surface by itself.");
     const PointOrder& order = *editor.opened.order;
     change_marks(editor, [&] {
         switch (command.step) {
@@ -120,6 +133,8 @@ void carry_out(Editor& editor, const ChangeSelection& command) {
             return shrink_selection(editor.marks, order, *editor.document->graph, editor.workers);
         case SelectionStep::connected:
             return select_connected(editor.marks, order, *editor.document->components, editor.workers);
+        case SelectionStep::outliers:
+            return select_vertices(editor.marks, order, *editor.document->outliers, editor.workers);
         }
     });
 }

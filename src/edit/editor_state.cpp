@@ -326,7 +326,9 @@ std::string next_step(const Editor& editor) {
     if (!moving) return (held ? "Now " : "") + select + " the part that should move.";
     if (!held) return "Nothing holds the rest yet: " + select + " what should stay, and press Shift+H.";
     if (editor.selected > 0)
-        return "H makes the selection a handle that moves, Shift+H one that stays; Esc selects nothing.";
+        return std::string("H makes the selection a handle that moves, Shift+H one that stays") +
+               (editor.document->posed ? ", and first the pose the new rest shape" : "") +
+               "; Esc selects nothing.";
     if (!chosen_handle(editor) || chosen_handle(editor)->role != HandleRole::moving)
         return "Click a moving handle to choose it.";
     if (followers_of(editor, *chosen_handle(editor)) == 0)

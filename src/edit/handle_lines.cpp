@@ -124,9 +124,9 @@ std::string words_about(const HandleLine& line, std::span<const Handle> handles)
     const std::string name = quoted(line.name);
     const Handle* const found = handle_named(handles, line.name);
     if (!found)
-        return (line.role == HandleRole::moving  ? "moving handle "
-                : line.role == HandleRole::fixed ? "fixed handle "
-                                                 : "region of interest ") +
+        return (line.role == HandleRole::moving  ? "new moving handle "
+                : line.role == HandleRole::fixed ? "new fixed handle "
+                                                 : "new region of interest ") +
                name;
     const auto are_equal = [](const IndexRange& a, const IndexRange& b) {
         return a.first == b.first && a.last == b.last;

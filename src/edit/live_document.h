@@ -57,7 +57,9 @@ struct DocumentView {
     std::shared_ptr<const RestShape> rest;        // of this edit; null: as opened, or it was let go of
     std::shared_ptr<const Graph> graph;           // of the vertices; null until it was built
     std::shared_ptr<const Components> components; // and what hangs together in it; null as long
-    double cloud_size = 0;                        // Pipeline::cloud_size(); 0 as long
+    // Of the vertices 1 for an outlier, which lies off the surface by itself; null as long, and without any.
+    std::shared_ptr<const std::vector<std::uint8_t>> outliers;
+    double cloud_size = 0;                                 // Pipeline::cloud_size(); 0 as long
     std::shared_ptr<const PatchesOfHandles> small_patches; // of handles, once those are prepared
     std::shared_ptr<const std::vector<float>>
         spacings; // of the points as opened; null until the graph was built

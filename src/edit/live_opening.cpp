@@ -1,7 +1,7 @@
 #include "edit/live_opening.h"
 
 #include "base/error.h"
-#include "edit/session_acts.h"
+#include "edit/document_acts.h"
 #include "edit/session_cloud.h"
 
 namespace knead {

@@ -86,8 +86,9 @@ void LivePublisher::view(const Document& document, const LiveRecording& recordin
     view->components = pipeline.shared_components();
     view->cloud_size = pipeline.cloud_size();
     view->small_patches = pipeline.small_patches();
-    note_spacings(pipeline);
+    note_graph(pipeline);
     view->spacings = spacings_;
+    view->outliers = outliers_;
     note_samples(pipeline);
     view->sample_vertices = sample_vertices_;
     view->sample_graph = sample_graph_;
@@ -148,10 +149,15 @@ void LivePublisher::loose(const Document& document, const DragLine& drag) {
     tell(Notice::Kind::warning, Notice::About::loose, std::move(words), told_of_loose_);
 }
 
-void LivePublisher::note_spacings(const Pipeline& pipeline) {
+// What the window knows of the points by their neighbours.
+void LivePublisher::note_graph(const Pipeline& pipeline) {
     if (!pipeline.shared_graph() || pipeline.shared_graph() == graph_seen_) return;
     spacings_ = std::make_shared<const std::vector<float>>(
         spacing_of_points(pipeline.order(), *pipeline.shared_graph(), pipeline.opened().positions, workers_));
+    const std::span<const std::uint8_t> hanging = pipeline.hanging();
+    outliers_ = hanging.empty()
+                    ? nullptr
+                    : std::make_shared<const std::vector<std::uint8_t>>(hanging.begin(), hanging.end());
     graph_seen_ = pipeline.shared_graph(); // last: where memory runs out, this is done again
 }
 

@@ -49,7 +49,7 @@ private:
     void note_changes(const RestShape& shape, const Pipeline& pipeline);
     static void note_facts(PosedFrame& frame, const FrameFacts& facts);
     void note_samples(const Pipeline& pipeline);
-    void note_spacings(const Pipeline& pipeline);
+    void note_graph(const Pipeline& pipeline);
     void tell(Notice::Kind kind, Notice::About about, std::string words, std::string& told);
 
     Locked<LiveShared>& shared_;
@@ -67,6 +67,7 @@ private:
     std::shared_ptr<const Graph> sample_graph_;
     std::shared_ptr<const Graph> graph_seen_;
     std::shared_ptr<const std::vector<float>> spacings_;
+    std::shared_ptr<const std::vector<std::uint8_t>> outliers_;
 };
 
 } // namespace knead

@@ -21,6 +21,10 @@ constexpr double trial_step = 1e-9;
 // A drag of fewer frames than this says nothing about the machine.
 constexpr std::size_t telling_frames = 3;
 
+// So many drags in a row may be slower than what was measured before them: a machine is as fast as it was,
+// and what else it has to do comes and goes. After them it is believed.
+constexpr unsigned most_slower_drags = 4;
+
 // From so many samples on, how far apart the handles are is not asked.
 constexpr std::size_t most_looked_at = 100'000;
 
@@ -41,6 +45,15 @@ SampleNeeds LiveWork::sample_needs() const {
     return needs;
 }
 
+// What would be chosen now. As long as no frame was measured the number stays as it is: what a machine of any
+// speed would be given is not told.
+SampleChoice LiveWork::suited_samples() const {
+    const std::optional<std::uint64_t> now = document_->settings().samples;
+    SampleChoice suited = choose_samples_again(sample_needs(), now);
+    if (choice_.by_itself && !choice_.cost) suited.samples = now;
+    return suited;
+}
+
 // After the stages are prepared. What is chosen is part of the act that led to it, and undone with it.
 void LiveWork::choose_samples() {
     look_at_handles();
@@ -48,7 +61,7 @@ void LiveWork::choose_samples() {
     if (!now) return;
     if (!choice_.cost) measure_frame();
     choice_.is_due = false;
-    const auto samples = choose_samples_again(sample_needs(), document_->settings().samples).samples;
+    const std::optional<std::uint64_t> samples = suited_samples().samples;
     if (samples == document_->settings().samples) return;
     SettingsChange change;
     change.samples = samples;
@@ -103,8 +116,19 @@ void LiveWork::learn_cost(std::vector<double> solving, std::vector<double> upsam
     const double moving = !upsampling.empty() ? median(std::move(upsampling))
                           : choice_.cost      ? choice_.cost->upsampling
                                               : 0;
-    choice_.cost = FrameCost{samples, median(std::move(solving)), moving};
-    choice_.cost_iterations = document_->settings().iterations;
+    const FrameCost learned{samples, median(std::move(solving)), moving};
+    const unsigned iterations = document_->settings().iterations;
+    if (choice_.cost && choice_.slower_drags < most_slower_drags) {
+        FrameCost known = *choice_.cost;
+        known.solving *= (1.0 + iterations) / (1.0 + choice_.cost_iterations);
+        if (is_faster(known, learned)) {
+            ++choice_.slower_drags;
+            return;
+        }
+    }
+    choice_.cost = learned;
+    choice_.cost_iterations = iterations;
+    choice_.slower_drags = 0;
 }
 
 } // namespace knead

@@ -63,10 +63,10 @@ struct Play {
 };
 struct SaveCloud {
     std::filesystem::path target;
-    ExportOptions options;
+    ExportOptions options = {};
     bool anyway = false;
     bool keeps_original = false;
-    std::vector<std::uint8_t> hidden; // as LiveDocument::save_cloud() has it
+    std::vector<std::uint8_t> hidden = {}; // as LiveDocument::save_cloud() has it
 };
 struct SaveSession {
     std::filesystem::path target;

@@ -307,8 +307,7 @@ void LiveWork::publish_drag() {
 void LiveWork::publish_view() {
     publisher_.view(*document_, *recording_,
                     {drag_.has_value() || settling_.wanted, last_step_, upsampler_->device(), files_.session,
-                     files_.saved, choice_.by_itself,
-                     choose_samples_again(sample_needs(), document_->settings().samples)});
+                     files_.saved, choice_.by_itself, suited_samples()});
 }
 
 void LiveWork::refuse(StepNumber step, bool ends_redo) {

@@ -110,6 +110,7 @@ private:
     void choose_samples();
     void look_at_handles();
     void measure_frame();
+    SampleChoice suited_samples() const;
     void learn_cost(std::vector<double> solving, std::vector<double> upsampling);
 
     // --- Playing (live_playing.cpp) ---
@@ -167,6 +168,7 @@ private:
         HandleSpread spread; // of the handles as they were prepared last
         std::optional<FrameCost> cost;
         unsigned cost_iterations = 0; // that the frames had
+        unsigned slower_drags = 0;    // since then
     } choice_;
 
     struct {

@@ -143,6 +143,8 @@ public:
     std::shared_ptr<const Components> shared_components() const { return components_; }
     const std::vector<Index>& samples() const { return samples_; } // the vertex of each
     const SampleGraph& sample_graph() const { return sample_graph_; }
+    // Of each vertex 1 for an outlier that hangs on the surface (graph/bridges.h); empty without any.
+    std::span<const std::uint8_t> hanging() const { return hanging_; }
     // Counts how often samples() and sample_graph() changed together; 0: never yet.
     std::uint64_t samples_version() const { return samples_version_; }
     // Who holds each point, by numbers that handle_of() knows.

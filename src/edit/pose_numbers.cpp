@@ -15,6 +15,9 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
+// What turned by less, in radians, has not turned.
+constexpr double least_turn = 1e-9;
+
 // A stretch whose axes are off by less is along the handle's own.
 constexpr double aligned = 1e-9;
 
@@ -24,6 +27,13 @@ Vec3d axis_of_angle(const Vec3d& angles, int axis) {
     if (axis == 2) return Vec3d::UnitZ();
     if (axis == 1) return about_z * Vec3d::UnitY();
     return about_z * (about_y * Vec3d::UnitX());
+}
+
+// That of these angles, as HandleMotion::turned has them: the quaternion goes on with them through whole
+// turns.
+Quatd rotation_by(const Vec3d& angles) {
+    return Eigen::AngleAxisd(angles.z(), Vec3d::UnitZ()) * Eigen::AngleAxisd(angles.y(), Vec3d::UnitY()) *
+           Eigen::AngleAxisd(angles.x(), Vec3d::UnitX());
 }
 
 void turn_by(double angle, const Vec3d& axis, Transform& transform) {
@@ -130,6 +140,24 @@ Transform unscaled(const HandleMotion& motion, const Vec3d& pivot) {
         transform.axes = to_glm(motion.rotation);
     }
     return transform;
+}
+
+std::vector<HandleMotion> unturned(const HandleMotion& motion, const Vec3d& pivot) {
+    std::vector<HandleMotion> frames;
+    const double whole = motion.turned.cwiseAbs().sum(); // no turn between two of the rotations is longer
+    if (!(whole > least_turn)) return frames;
+    const auto count = static_cast<int>(std::ceil(whole / widest_turn));
+    Quatd before = rotation_by(motion.turned);
+    for (int k = 1; k <= count; ++k) {
+        const Quatd now = rotation_by(motion.turned * (1 - static_cast<double>(k) / count));
+        const Eigen::AngleAxisd step(now * before.conjugate());
+        Transform transform;
+        transform.pivot = to_glm(pivot);
+        turn_by(step.angle(), step.axis(), transform);
+        frames.push_back(followed_by(frames.empty() ? motion : frames.back(), transform));
+        before = now;
+    }
+    return frames;
 }
 
 } // namespace knead

@@ -4,6 +4,8 @@
 #include "deform/sample_system.h"
 #include "view/transform.h"
 
+#include <vector>
+
 namespace knead {
 
 // Of a handle, in this edit; along, or about, the axes x, y and z.
@@ -32,5 +34,9 @@ Transform transform_to(const HandleMotion& motion, const Vec3d& pivot, PoseRow r
 // The ones that take all of a move or of a scaling back, sheared or not, and leave the rest as it is.
 Transform unmoved(const HandleMotion& motion, const Vec3d& pivot);
 Transform unscaled(const HandleMotion& motion, const Vec3d& pivot);
+
+// The same of a turn, about `pivot`, which stays where it is: every frame of unwinding it, whole turns too,
+// by no more than `widest_turn` each, the last one without any turn. None where it has not turned.
+std::vector<HandleMotion> unturned(const HandleMotion& motion, const Vec3d& pivot);
 
 } // namespace knead

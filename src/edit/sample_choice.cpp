@@ -82,6 +82,10 @@ SampleChoice choice_of(double samples, double points, double of_handles) {
 
 } // namespace
 
+bool is_faster(const FrameCost& one, const FrameCost& other) {
+    return affordable(one) > affordable(other);
+}
+
 SampleChoice choose_samples(const SampleNeeds& needs) {
     const auto points = static_cast<double>(needs.points);
     const double of_handles = wanted_by(needs.handles);

@@ -26,6 +26,9 @@ struct FrameCost {
     double upsampling = 0;
 };
 
+// Whether one tells of a faster machine than the other, where both had as many iterations.
+bool is_faster(const FrameCost& one, const FrameCost& other);
+
 struct SampleNeeds {
     std::size_t points = 0;        // of different positions
     HandleSpread handles;          // what is known of them

@@ -18,16 +18,6 @@ std::vector<std::uint8_t> selected_vertices(std::span<const std::uint8_t> marks,
     return selected;
 }
 
-// Selects exactly the seen points of the vertices with a 1.
-void select_vertices(std::span<std::uint8_t> marks, const PointOrder& order,
-                     std::span<const std::uint8_t> selected, Workers& workers) {
-    workers.for_each(marks.size(), grain, [&](std::size_t i) {
-        if (marks[i] & mark_hidden) return;
-        marks[i] = static_cast<std::uint8_t>((marks[i] & ~mark_selected) |
-                                             (selected[order.vertex[i]] ? mark_selected : 0));
-    });
-}
-
 // A vertex and its neighbours: those with any (or all) of them selected.
 std::vector<std::uint8_t> spread(std::span<const std::uint8_t> selected, const Graph& graph, bool outwards,
                                  Workers& workers) {
@@ -68,6 +58,15 @@ void select_none(std::span<std::uint8_t> marks, Workers& workers) {
 void invert_selection(std::span<std::uint8_t> marks, Workers& workers) {
     workers.for_each(marks.size(), grain, [&](std::size_t i) {
         if (!(marks[i] & mark_hidden)) marks[i] ^= mark_selected;
+    });
+}
+
+void select_vertices(std::span<std::uint8_t> marks, const PointOrder& order,
+                     std::span<const std::uint8_t> selected, Workers& workers) {
+    workers.for_each(marks.size(), grain, [&](std::size_t i) {
+        if (marks[i] & mark_hidden) return;
+        marks[i] = static_cast<std::uint8_t>((marks[i] & ~mark_selected) |
+                                             (selected[order.vertex[i]] ? mark_selected : 0));
     });
 }
 

@@ -36,6 +36,10 @@ void shrink_selection(std::span<std::uint8_t> marks, const PointOrder& order, co
 void select_connected(std::span<std::uint8_t> marks, const PointOrder& order, const Components& components,
                       Workers& workers);
 
+// The points of the vertices with a 1, and no others.
+void select_vertices(std::span<std::uint8_t> marks, const PointOrder& order,
+                     std::span<const std::uint8_t> selected, Workers& workers);
+
 // Hiding takes points out of the selection.
 void hide(std::span<std::uint8_t> marks, bool selected_ones, Workers& workers);
 void show_all(std::span<std::uint8_t> marks, Workers& workers);

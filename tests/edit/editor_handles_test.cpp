@@ -143,7 +143,7 @@ TEST_F(BarEditor, AnotherColorLeavesThePoseAndIsAStepToUndo) {
 
 TEST_F(BarEditor, UndoSaysWhatOfAHandleChanged) {
     make_handles();
-    EXPECT_EQ(words_of_undo(editor_), "moving handle \"high\"");
+    EXPECT_EQ(words_of_undo(editor_), "new moving handle \"high\"");
     apply(editor_, ColorHandle{"high", 0x123456});
     calm();
     EXPECT_EQ(words_of_undo(editor_), "another colour for \"high\"");

@@ -39,7 +39,7 @@ TEST_F(BarEditor, UndoAndRedoBringTheChosenHandleBack) {
 
 TEST_F(BarEditor, SaysWhatIsTakenBackAndDoneAgain) {
     make_handles();
-    const std::string high = R"(moving handle "high")";
+    const std::string high = R"(new moving handle "high")";
     EXPECT_EQ(words_of_undo(editor_), high);
     EXPECT_EQ(words_of_redo(editor_), "");
     apply(editor_, UndoStep{});
@@ -53,7 +53,7 @@ TEST_F(BarEditor, SaysWhatIsTakenBackAndDoneAgain) {
     calm();
     select_heights(-1, 1);
     EXPECT_EQ(editor_.just_done, "");
-    EXPECT_EQ(words_of_undo(editor_), "other points selected or hidden");
+    EXPECT_EQ(words_of_undo(editor_), "a selection, or what is hidden");
     apply(editor_, DeleteHandles{{"high"}});
     EXPECT_EQ(editor_.just_done, R"("high" is deleted, and its points stay; Ctrl+Z takes it back)");
     calm();

@@ -220,6 +220,11 @@ TEST_F(BothEnds, TakeAMoveAndAScalingBack) {
         EXPECT_LT((motion.linear - motion.rotation.toRotationMatrix()).norm(), 1e-9) << name;
         EXPECT_NEAR(std::abs(motion.turned.x()), 30 * degree, 1e-6) << name;
     }
+    apply(editor_, TakeBackPart{moved_with(editor_, "high"), PosePart::turn});
+    calm();
+    EXPECT_EQ(editor_.past.size(), steps + 3);
+    for (const char* name : {"high", "low"})
+        EXPECT_LT((motion_of_handle(name).linear - Mat3d::Identity()).norm(), 1e-9) << name;
 }
 
 // Both of two that lie across from each other go as the mirror says, and another that is chosen takes its own
@@ -259,6 +264,39 @@ TEST_F(BothEnds, OfWhatIsChosenTogether) {
     apply(editor_, UndoStep{});
     calm();
     EXPECT_EQ(editor_.document->handles.size(), 5U);
+}
+
+TEST_F(BothEnds, MirrorGoesAcrossTheirPlaneAndLeavesTheHandleChosen) {
+    apply(editor_, DeleteHandles{{"low"}});
+    calm();
+    EXPECT_EQ(counterpart(), "");
+    apply(editor_, MirrorHandle{"high", 2});
+    calm();
+    EXPECT_EQ(editor_.chosen, "high");
+    EXPECT_EQ(counterpart(), "high mirrored");
+    apply(editor_, MirrorHandle{"high", 2}); // it is there already
+    EXPECT_EQ(editor_.chosen, "high");
+    apply(editor_, MirrorMoves{});
+    apply(editor_, MirrorHandle{"high", 2});
+    EXPECT_EQ(editor_.chosen, "high mirrored");
+}
+
+TEST_F(BothEnds, AClickWithShiftLetsAHandleGoAlong) {
+    apply(editor_, MirrorMoves{});
+    glm::dvec2 pixel = pixel_of({0, 0, -2.9});
+    const double below = pixel.y;
+    while (handle_under(editor_, pixel) != "low" && pixel.y > below - 100) --pixel.y; // between two points
+    const SelectPointUnder click{pixel, SelectMode::add};
+    apply(editor_, click);
+    EXPECT_EQ(editor_.also_chosen, std::vector<std::string>{"low"});
+    EXPECT_EQ(editor_.selected, 0U);
+    apply(editor_, click);
+    EXPECT_TRUE(editor_.also_chosen.empty());
+    select_heights(1, 2);
+    const std::size_t before = editor_.selected;
+    apply(editor_, click);
+    EXPECT_EQ(editor_.selected, before + 1) << "where points are selected it is one more";
+    EXPECT_TRUE(editor_.also_chosen.empty());
 }
 
 } // namespace knead::test

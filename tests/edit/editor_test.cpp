@@ -174,6 +174,7 @@ TEST_F(BarEditor, EnterCommitsAndSaysSoWhenThereIsNothing) {
     press(Key::enter);
     calm();
     press(Key::enter);
+    EXPECT_NE(editor_.just_done.find("new rest shape"), std::string::npos) << "it is told what became of it";
     calm();
     EXPECT_FALSE(editor_.document->posed);
     editor_.notices.clear();
@@ -190,6 +191,42 @@ TEST_F(BarEditor, HidesNotAllWhereNothingIsSelected) {
     select_heights(2, 3);
     apply(editor_, ChangeHidden{HideStep::hide_unselected});
     EXPECT_GT(editor_.hidden, 0U);
+}
+
+TEST_F(BarEditor, FindsWhatLiesOffTheSurface) {
+    apply(editor_, ChangeSelection{SelectionStep::outliers});
+    EXPECT_EQ(editor_.selected, 0U);
+    ASSERT_EQ(editor_.notices.size(), 1U);
+    EXPECT_NE(editor_.notices[0].words.find("off the surface"), std::string::npos);
+
+    ShapeOptions options;
+    options.points = 3000;
+    options.outliers = 0.02;
+    SilentProgress silent;
+    Workers workers(1);
+    const PointCloud bar = make_shape(Shape::bar, options, workers, silent);
+    write_cloud(folder_ / "dusty.ply", bar, {}, silent);
+    OpenRequest request;
+    request.file = folder_ / "dusty.ply";
+    request.device = "reference";
+    open(editor_, request);
+    ASSERT_TRUE(wait_until([&] {
+        refresh(editor_);
+        return !editor_.opening && editor_.document->outliers;
+    }));
+    apply(editor_, ChangeSelection{SelectionStep::outliers});
+    EXPECT_GT(editor_.selected, 20U);
+    EXPECT_LE(editor_.selected, 60U);
+    for (std::size_t i = 0; i < editor_.marks.size(); ++i) {
+        if (!(editor_.marks[i] & mark_selected)) continue;
+        const Vec3d p = point_at(editor_.frame.positions(), i) + editor_.opened.cloud->origin;
+        const Vec3d beyond = p.cwiseAbs() - Vec3d(0.5, 0.5, 2.5); // of the bar's faces
+        const double off = beyond.maxCoeff() > 0 ? beyond.cwiseMax(0).norm() : -beyond.maxCoeff();
+        EXPECT_GT(off, 0.01) << i;
+    }
+    apply(editor_, ChangeHidden{HideStep::hide_selected});
+    apply(editor_, ChangeSelection{SelectionStep::outliers});
+    EXPECT_EQ(editor_.selected, 0U) << "hidden ones are left alone";
 }
 
 TEST_F(BarEditor, ASessionWithoutItsCloudIsToldInWordsOfTheWindow) {

@@ -151,7 +151,7 @@ TEST_F(PlayedBar, WhatDoesNotMoveIsRedoneAtOnce) {
     live_->play(step_);
     settle_down();
     EXPECT_EQ(live_->view()->handles.size(), 2U);
-    EXPECT_EQ(live_->view()->last_words, "moving handle \"high\"");
+    EXPECT_EQ(live_->view()->last_words, "new moving handle \"high\"");
 }
 
 // Two whole turns leave the handle where it was; only unwinding them brings the middle back.

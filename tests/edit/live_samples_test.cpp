@@ -102,7 +102,7 @@ TEST_F(ChoosingBar, WhatItChoosesBelongsToTheActThatLedToIt) {
     EXPECT_EQ(view->suited.samples, view->settings.samples);
     EXPECT_EQ(view->undoable_steps, 2U);
     EXPECT_GE(view->acts, 3U);
-    EXPECT_EQ(view->last_words, "moving handle \"high\"");
+    EXPECT_EQ(view->last_words, "new moving handle \"high\"");
 
     live_->undo(step_);
     live_->undo(step_ - 1);

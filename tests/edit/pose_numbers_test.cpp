@@ -3,6 +3,7 @@
 #include "edit/pose_numbers.h"
 
 #include "edit/handle_motion.h"
+#include "edit/view_vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -254,6 +255,33 @@ TEST(PoseNumbers, TakeAMoveOrAScalingBackAndNothingElse) {
         EXPECT_LT((scaled.turned - motion.turned).norm(), 1e-6) << i;
         EXPECT_LT((numbers_of(scaled, after(size, pivot)).place - pivot).norm(), 1e-9);
     }
+}
+
+TEST(PoseNumbers, TakeATurnBackFrameByFrame) {
+    std::mt19937 random(7);
+    for (int i = 0; i < 100; ++i) {
+        auto [motion, pivot] = any_case(random);
+        Transform twice; // more than whole turns
+        twice.pivot = to_glm(pivot);
+        twice.axis = {0, 0, 1};
+        twice.angle = 0.3;
+        for (int k = 0; k < 45; ++k) motion = followed_by(motion, twice);
+        const PoseNumbers before = numbers_of(motion, pivot);
+        const std::vector<HandleMotion> frames = unturned(motion, pivot);
+        ASSERT_FALSE(frames.empty());
+        const HandleMotion* last = &motion;
+        for (const HandleMotion& frame : frames) {
+            EXPECT_LE(last->rotation.angularDistance(frame.rotation), widest_turn + 1e-9);
+            EXPECT_GT(last->rotation.dot(frame.rotation), 0) << "the quaternion goes on";
+            EXPECT_LT((moved_on(pivot, motion, frame) - pivot).norm(), 1e-9 * (1 + pivot.norm()));
+            last = &frame;
+        }
+        EXPECT_LT(last->turned.norm(), 1e-6) << i;
+        EXPECT_GT(last->rotation.w(), 0.999999);
+        EXPECT_LT((numbers_of(*last, pivot).scaled - before.scaled).norm(), 1e-9);
+        EXPECT_TRUE(unturned(*last, pivot).empty() || last->turned.norm() > 1e-9);
+    }
+    EXPECT_TRUE(unturned({}, {1, 2, 3}).empty());
 }
 
 } // namespace

@@ -137,6 +137,14 @@ TEST(SampleChoice, GoesWhereMuchDoesAndLeavesNumbersThatItWouldNotChoose) {
     EXPECT_EQ(choose_samples_again(needs_of(900, plain, 0.003), 500).samples, std::nullopt);
 }
 
+TEST(SampleChoice, OneMachineIsFasterThanAnother) {
+    const FrameCost usual{2000, 0.01, 0.004};
+    EXPECT_TRUE(is_faster({2000, 0.008, 0.004}, usual));
+    EXPECT_FALSE(is_faster(usual, usual));
+    EXPECT_TRUE(is_faster({5000, 0.02, 0.004}, usual)) << "more samples in not as much more time";
+    EXPECT_FALSE(is_faster({2000, 0.01, 0.02}, usual)) << "moving the points counts as well";
+}
+
 // What 50 samples wait for, a window that is drawn beside them above all, is not theirs.
 TEST(SampleChoice, FewSamplesSayLittleOfMany) {
     const SampleNeeds after_few{36'000, {2, 0.2, 0.4}, FrameCost{50, 0.005, 0.001}};

@@ -83,7 +83,7 @@ public:
     void expect_replayed_as_it_is() {
         const std::filesystem::path cloud = folder_ / "now.ply", session = folder_ / "now.knead";
         shared_.change([](LiveShared& shared) { shared.saves = 2; });
-        carry_out(task::SaveCloud{cloud, {}, true});
+        carry_out(task::SaveCloud{.target = cloud, .anyway = true});
         carry_out(task::SaveSession{session, true});
         ReplayOptions options;
         options.out = folder_ / "replayed.ply";

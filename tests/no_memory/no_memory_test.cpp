@@ -1,7 +1,7 @@
 // What is left of an act where memory runs out on the way: nothing, and the act can be tried again.
 
+#include "edit/document_acts.h"
 #include "edit/editing.h"
-#include "edit/live_opening.h"
 #include "no_memory/failing_new.h"
 
 #include <limits>

@@ -48,8 +48,8 @@ TEST_F(RecentFiles, ASessionIsLookedAtFromWhereItWasLeft) {
     EXPECT_EQ(kept_view(folder_ / "." / "a.knead"), KeptView{camera}) << "to the last bit, by another name";
     EXPECT_EQ(kept_view(b), (KeptView{Camera{}, 1}));
     camera.distance = 3;
-    keep_view(a, {camera, 2});
-    EXPECT_EQ(kept_view(a), (KeptView{camera, 2})) << "the newest";
+    keep_view(a, {camera, 2, "left arm"});
+    EXPECT_EQ(kept_view(a), (KeptView{camera, 2, "left arm"})) << "the newest";
     write_text(folder_ / "state/knead/views",
                "0 0 0 -1 1 0 0 0 0 0 0 0 " + a.string() + "\nnan " + b.string() + '\n');
     EXPECT_FALSE(kept_view(a)) << "it stands nowhere";

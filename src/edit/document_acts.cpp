@@ -1,4 +1,4 @@
-#include "edit/session_acts.h"
+#include "edit/document_acts.h"
 
 namespace knead {
 

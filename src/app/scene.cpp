@@ -300,11 +300,18 @@ Picture Scene::picture(const Editor& editor, PointLook look, bool bare) {
         });
         renderer.set_marks(marks);
     }
-    Picture picture = draw_picture(renderer, editor.camera, size, look, 4 * pixels <= most_drawn ? 2 : 1);
-    // As the window has them.
-    renderer.set_overlay(scene_lines(editor, state_->lines));
-    if (bare) renderer.set_marks(editor.marks);
-    return picture;
+    const auto as_the_window_has_them = [&] {
+        renderer.set_overlay(scene_lines(editor, state_->lines));
+        if (bare) renderer.set_marks(editor.marks);
+    };
+    try {
+        Picture picture = draw_picture(renderer, editor.camera, size, look, 4 * pixels <= most_drawn ? 2 : 1);
+        as_the_window_has_them();
+        return picture;
+    } catch (...) { // for a large one there may be no memory
+        as_the_window_has_them();
+        throw;
+    }
 }
 
 bool Scene::is_drawn_in_software() const {

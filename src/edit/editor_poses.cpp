@@ -190,7 +190,11 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
     if (!number) return;
     const Handle& handle = editor.document->handles[*number];
     const std::span<const float> positions = rest_positions(editor);
-    const MirrorPlane plane = mirror_plane(positions, command.axis, editor.opened.spacing);
+    // Moves on both sides go on from the handle that was chosen, posed or not, across the plane that is seen.
+    const bool stays =
+        editor.symmetry && editor.symmetry->axis == command.axis && editor.chosen == handle.name;
+    const MirrorPlane plane = stays ? MirrorPlane{command.axis, editor.symmetry->at, false}
+                                    : mirror_plane(positions, command.axis, editor.opened.spacing);
     const PartAcross across =
         part_across({positions, editor.ordered}, *handle.points, plane, 3 * editor.opened.spacing);
     const double place = plane.at + editor.opened.cloud->origin[command.axis];
@@ -198,15 +202,12 @@ void carry_out(Editor& editor, const MirrorHandle& command) {
         return say(editor, Notice::Kind::error,
                    "There is nothing across " + words_about(plane, place) + ", where " + quoted(handle.name) +
                        " would be mirrored to.");
-    if (!plane.is_middle)
+    if (!plane.is_middle && !stays)
         say(editor, Notice::Kind::information, "Mirrored across " + words_about(plane, place) + ".");
     const bool moves = handle.role == HandleRole::moving;
     const HandleMotion motion = motion_now(editor, *number);
     const bool is_posed = moves && leaves_rest(motion);
     const Handle* const twin = moves ? moving_handle_at(editor, handle, across.points) : nullptr;
-    // Moves on both sides go on from the handle that was chosen, posed or not.
-    const bool stays =
-        editor.symmetry && editor.symmetry->axis == command.axis && editor.chosen == handle.name;
     if (moves && !is_posed && (twin || !stays)) tell_of_no_pose(editor, handle, twin != nullptr);
     if (twin && !is_posed) return stays ? void() : choose(editor, twin->name);
 

@@ -37,7 +37,7 @@ const Handle* handle_that_holds(const Editor& editor, Index ordered) {
 bool could_go_along(const Editor& editor, const Handle& handle) {
     const Handle* const chosen = chosen_handle(editor);
     return editor.selected == 0 && chosen && chosen->role == HandleRole::moving &&
-           handle.role == HandleRole::moving && handle.name != chosen->name;
+           handle.role == HandleRole::moving;
 }
 
 // Of what lies in a region: where less is seen, it is told.

@@ -66,9 +66,16 @@ void LiveWork::carry_out_line(const SessionAction& line, bool joins, bool pose_i
 void LiveWork::carry_out(task::Lines& lines) {
     const bool is_seen = shared_.with([](const LiveShared& s) { return s.view->posed; });
     StepSoFar step;
+    const struct FramesAreSeen {
+        Document& document;
+        ~FramesAreSeen() { document.on_frame = nullptr; }
+    } until_the_end{*document_};
     try {
         finish_settling();
         const bool joins = lines.joins_last && recording_->last_is_settings();
+        const auto is_drag = [](const SessionAction& line) { return std::holds_alternative<DragLine>(line); };
+        if (std::ranges::all_of(lines.lines, is_drag)) // what was wound up is seen to unwind
+            document_->on_frame = [this] { publish_shape(false); };
         for (const SessionAction& line : lines.lines) carry_out_line(line, joins, is_seen, step);
     } catch (...) {
         for (std::size_t i = 0; i < step.done; ++i) take_back_act(false); // first: half a step must not stay
@@ -160,15 +167,9 @@ std::vector<SessionAction> LiveWork::ways_back(const std::vector<std::string>& h
 }
 
 void LiveWork::carry_out(task::ResetPoses& task) {
-    const struct FramesAreSeen {
-        Document& document;
-        ~FramesAreSeen() { document.on_frame = nullptr; }
-    } until_the_end{*document_};
     carry_out_made(task.step, [&] {
         finish_settling();
-        std::vector<SessionAction> lines = ways_back(task.handles);
-        document_->on_frame = [this] { publish_shape(false); }; // what was wound up is seen to unwind
-        return lines;
+        return ways_back(task.handles);
     });
 }
 
@@ -220,10 +221,10 @@ void LiveWork::carry_out(task::SaveCloud& task) {
     come_to_rest();
     if (!task.anyway && hold_back({task.target, task.options})) return;
     look_for_others(task.target);
+    const std::vector<std::uint8_t> left_out = left_out_of(task);
     std::filesystem::path copy; // of the original; empty: none is kept
     if (task.keeps_original && real_name(task.target) == real_name(recording_->cloud()))
         copy = copy_original();
-    const std::vector<std::uint8_t> left_out = left_out_of(task);
     std::vector<std::string> heard;
     try {
         heard = write(task, left_out);
@@ -234,10 +235,8 @@ void LiveWork::carry_out(task::SaveCloud& task) {
     }
     if (!copy.empty()) go_by_copy(copy);
     take_note(files_.known, task.target);
-    const auto without = static_cast<std::size_t>(std::ranges::count(left_out, std::uint8_t{1}));
     say(Notice::Kind::information,
-        "Saved the cloud as " + task.target.string() +
-            (without > 0 ? ", without its " + counted(without, "hidden point") : std::string()));
+        "Saved the cloud as " + task.target.string() + words_about_left_out(left_out));
     if (!copy.empty())
         say(Notice::Kind::information, "The original is now " + copy.string() +
                                            ", and the session goes by that: save it (Ctrl+S) to go on "
@@ -284,13 +283,21 @@ std::vector<std::string> LiveWork::write(const task::SaveCloud& task,
     return write_part(task.target, document_->cloud(), shape, left_out, progress_);
 }
 
+std::string LiveWork::words_about_left_out(std::span<const std::uint8_t> left_out) const {
+    const auto all = static_cast<std::size_t>(std::ranges::count(left_out, std::uint8_t{1}));
+    if (all == 0) return {};
+    const std::size_t placeless = document_->cloud().size() - document_->pipeline().order().points();
+    return ", without its " + counted(all - placeless, "hidden point") +
+           (placeless > 0 ? " and " + counted(placeless, "point") + " without a place" : std::string());
+}
+
 // One a point of the file, 1 for those that are left out; empty where none is.
 std::vector<std::uint8_t> LiveWork::left_out_of(const task::SaveCloud& task) const {
     if (!task.options.without_hidden || std::ranges::find(task.hidden, std::uint8_t{1}) == task.hidden.end())
         return {};
     const std::vector<Index>& file_index = document_->pipeline().order().file_index;
     require(task.hidden.size() == file_index.size(), "it is said of each point whether it is hidden");
-    std::vector<std::uint8_t> left_out(document_->cloud().size(), 0);
+    std::vector<std::uint8_t> left_out(document_->cloud().size(), 1); // what has no place is not seen either
     for (std::size_t i = 0; i < task.hidden.size(); ++i) left_out[file_index[i]] = task.hidden[i];
     return left_out;
 }

@@ -50,7 +50,7 @@ SampleNeeds LiveWork::sample_needs() const {
 SampleChoice LiveWork::suited_samples() const {
     const std::optional<std::uint64_t> now = document_->settings().samples;
     SampleChoice suited = choose_samples_again(sample_needs(), now);
-    if (choice_.by_itself && !choice_.cost) suited.samples = now;
+    if (choice_.by_itself && !choice_.cost && suited.samples != now) suited = {now, SampleReason::machine};
     return suited;
 }
 
@@ -116,18 +116,27 @@ void LiveWork::learn_cost(std::vector<double> solving, std::vector<double> upsam
     const double moving = !upsampling.empty() ? median(std::move(upsampling))
                           : choice_.cost      ? choice_.cost->upsampling
                                               : 0;
-    const FrameCost learned{samples, median(std::move(solving)), moving};
-    const unsigned iterations = document_->settings().iterations;
-    if (choice_.cost && choice_.slower_drags < most_slower_drags) {
-        FrameCost known = *choice_.cost;
-        known.solving *= (1.0 + iterations) / (1.0 + choice_.cost_iterations);
-        if (is_faster(known, learned)) {
-            ++choice_.slower_drags;
-            return;
-        }
+    learn({{samples, median(std::move(solving)), moving}, document_->settings().iterations});
+}
+
+// What it measured is believed at once where the machine was as fast as before. Of drags that were slower it
+// is the fastest, and only after some of them.
+void LiveWork::learn(const MeasuredCost& learned) {
+    const auto at_iterations = [&](const MeasuredCost& measured) {
+        FrameCost cost = measured.cost;
+        cost.solving *= (1.0 + learned.iterations) / (1.0 + measured.iterations);
+        return cost;
+    };
+    if (choice_.cost && is_faster(at_iterations({*choice_.cost, choice_.cost_iterations}), learned.cost)) {
+        if (!choice_.slower || is_faster(learned.cost, at_iterations(*choice_.slower)))
+            choice_.slower = learned;
+        if (++choice_.slower_drags <= most_slower_drags) return;
+    } else {
+        choice_.slower = learned;
     }
-    choice_.cost = learned;
-    choice_.cost_iterations = iterations;
+    choice_.cost = choice_.slower->cost;
+    choice_.cost_iterations = choice_.slower->iterations;
+    choice_.slower.reset();
     choice_.slower_drags = 0;
 }
 

@@ -66,6 +66,7 @@ private:
     void carry_out(task::Redo& task);
     void carry_out(task::SaveCloud& task);
     std::vector<std::uint8_t> left_out_of(const task::SaveCloud& task) const;
+    std::string words_about_left_out(std::span<const std::uint8_t> left_out) const;
     std::vector<std::string> write(const task::SaveCloud& task, std::span<const std::uint8_t> left_out);
     std::filesystem::path copy_original();
     void go_by_copy(const std::filesystem::path& copy);
@@ -111,6 +112,11 @@ private:
     void look_at_handles();
     void measure_frame();
     SampleChoice suited_samples() const;
+    struct MeasuredCost {
+        FrameCost cost;
+        unsigned iterations = 0; // that the frames had
+    };
+    void learn(const MeasuredCost& learned);
     void learn_cost(std::vector<double> solving, std::vector<double> upsampling);
 
     // --- Playing (live_playing.cpp) ---
@@ -167,8 +173,9 @@ private:
         bool is_due = false; // since the last act
         HandleSpread spread; // of the handles as they were prepared last
         std::optional<FrameCost> cost;
-        unsigned cost_iterations = 0; // that the frames had
-        unsigned slower_drags = 0;    // since then
+        unsigned cost_iterations = 0;       // that the frames had
+        unsigned slower_drags = 0;          // since then, one after the other
+        std::optional<MeasuredCost> slower; // the fastest of them
     } choice_;
 
     struct {

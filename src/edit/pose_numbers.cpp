@@ -29,13 +29,6 @@ Vec3d axis_of_angle(const Vec3d& angles, int axis) {
     return about_z * (about_y * Vec3d::UnitX());
 }
 
-// That of these angles, as HandleMotion::turned has them: the quaternion goes on with them through whole
-// turns.
-Quatd rotation_by(const Vec3d& angles) {
-    return Eigen::AngleAxisd(angles.z(), Vec3d::UnitZ()) * Eigen::AngleAxisd(angles.y(), Vec3d::UnitY()) *
-           Eigen::AngleAxisd(angles.x(), Vec3d::UnitX());
-}
-
 void turn_by(double angle, const Vec3d& axis, Transform& transform) {
     transform.axis = to_glm(axis);
     transform.angle = angle;
@@ -52,6 +45,14 @@ void map_by(const Mat3d& map, Transform& transform) {
     turn_by(turn.angle(), turn.axis(), transform);
     transform.scale = to_glm(scale);
     transform.axes = to_glm(Quatd(axes));
+}
+
+// Exactly at rest where all that is left is rounding. `reach`: how far from the origin it was turned about.
+HandleMotion at_rest_but_for_rounding(const HandleMotion& motion, double reach) {
+    constexpr double rounding = 1e-12;
+    const bool is_rest = (motion.linear - Mat3d::Identity()).cwiseAbs().maxCoeff() < rounding &&
+                         motion.offset.norm() <= rounding * reach;
+    return is_rest ? HandleMotion{} : motion;
 }
 
 bool is_sheared(const HandleMotion& motion) {
@@ -142,21 +143,21 @@ Transform unscaled(const HandleMotion& motion, const Vec3d& pivot) {
     return transform;
 }
 
+// One angle after the other, as they are about each other: each by itself leaves the others what they are.
+// All at once would go past the pole, beyond which the angles of the same rotation are others.
 std::vector<HandleMotion> unturned(const HandleMotion& motion, const Vec3d& pivot) {
     std::vector<HandleMotion> frames;
-    const double whole = motion.turned.cwiseAbs().sum(); // no turn between two of the rotations is longer
-    if (!(whole > least_turn)) return frames;
-    const auto count = static_cast<int>(std::ceil(whole / widest_turn));
-    Quatd before = rotation_by(motion.turned);
-    for (int k = 1; k <= count; ++k) {
-        const Quatd now = rotation_by(motion.turned * (1 - static_cast<double>(k) / count));
-        const Eigen::AngleAxisd step(now * before.conjugate());
-        Transform transform;
-        transform.pivot = to_glm(pivot);
-        turn_by(step.angle(), step.axis(), transform);
-        frames.push_back(followed_by(frames.empty() ? motion : frames.back(), transform));
-        before = now;
+    HandleMotion now = motion;
+    for (const int axis : {2, 1, 0}) {
+        const double angle = motion.turned[axis];
+        if (!(std::abs(angle) > least_turn)) continue;
+        const auto count = static_cast<int>(std::ceil(std::abs(angle) / widest_turn));
+        Transform step;
+        step.pivot = to_glm(pivot);
+        turn_by(-angle / count, axis_of_angle(now.turned, axis), step);
+        for (int k = 0; k < count; ++k) frames.push_back(now = followed_by(now, step));
     }
+    if (!frames.empty()) frames.back() = at_rest_but_for_rounding(frames.back(), pivot.norm());
     return frames;
 }
 

@@ -23,8 +23,8 @@ struct Shortcut {
 };
 
 // Everything that is one command, whatever the tools are doing.
-const std::array<Shortcut, 27>& shortcuts() {
-    static const std::array<Shortcut, 27> all{{
+const std::array<Shortcut, 28>& shortcuts() {
+    static const std::array<Shortcut, 28> all{{
         {key('A'), plain, ChangeSelection{SelectionStep::all}},
         {key('A'), alt, ChangeSelection{SelectionStep::none}},
         {Key::escape, plain, DropChoice{}},
@@ -32,6 +32,7 @@ const std::array<Shortcut, 27>& shortcuts() {
         {key('='), ctrl, ChangeSelection{SelectionStep::grow}},
         {key('='), ctrl_shift, ChangeSelection{SelectionStep::grow}}, // the plus of a US keyboard
         {key('+'), ctrl, ChangeSelection{SelectionStep::grow}},
+        {key('+'), ctrl_shift, ChangeSelection{SelectionStep::grow}},
         {key('-'), ctrl, ChangeSelection{SelectionStep::shrink}},
         {key('L'), plain, ChangeSelection{SelectionStep::connected}},
         {key('V'), plain, ChangeHidden{HideStep::hide_selected}},

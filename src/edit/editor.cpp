@@ -107,8 +107,7 @@ void carry_out(Editor& editor, const SetPivotUnder& command) {
     set_pivot(editor.camera, {p[0], p[1], p[2]});
     const auto first_click = std::exchange(editor.just_clicked, std::nullopt);
     constexpr double farthest = 3 * click_radius; // between two clicks, on a screen of whatever resolution
-    if (first_click && glm::distance(*first_click, command.pixel) <= farthest)
-        forget_last_selection(editor);
+    if (first_click && glm::distance(*first_click, command.pixel) <= farthest) forget_last_selection(editor);
 }
 
 // --- Looking back ----------------------------------------------------------------------------------------

@@ -126,9 +126,10 @@ bool LiveWork::is_too_slow() const {
     const Pipeline& pipeline = document_->pipeline();
     const auto samples = static_cast<double>(pipeline.samples().size());
     const double iterations = 1.0 + document_->settings().iterations;
-    const double each = choice_.cost ? choice_.cost->solving / static_cast<double>(choice_.cost->samples) /
-                                           (1.0 + choice_.cost_iterations)
-                                     : usual_iteration;
+    const auto& newest = choice_.newest; // a machine that is busy otherwise is slow now
+    const double each =
+        newest ? newest->cost.solving / static_cast<double>(newest->cost.samples) / (1.0 + newest->iterations)
+               : usual_iteration;
     return pipeline.has_coarse_samples() && samples * iterations * each > request_.quick;
 }
 

@@ -36,12 +36,16 @@ void LiveWork::carry_out(task::ChooseSamples& task) {
     publish_view();
 }
 
-// A frame's start costs about what an iteration does.
+// What frames of so many iterations take. A frame's start costs about what an iteration does.
+FrameCost LiveWork::at_iterations(const MeasuredCost& measured, unsigned iterations) {
+    FrameCost cost = measured.cost;
+    cost.solving *= (1.0 + iterations) / (1.0 + measured.iterations);
+    return cost;
+}
+
 SampleNeeds LiveWork::sample_needs() const {
-    const PointOrder& order = document_->pipeline().order();
-    SampleNeeds needs{order.vertices(), choice_.spread, choice_.cost};
-    if (needs.cost)
-        needs.cost->solving *= (1.0 + document_->settings().iterations) / (1.0 + choice_.cost_iterations);
+    SampleNeeds needs{document_->pipeline().order().vertices(), choice_.spread, {}};
+    if (choice_.measured) needs.cost = at_iterations(*choice_.measured, document_->settings().iterations);
     return needs;
 }
 
@@ -50,7 +54,8 @@ SampleNeeds LiveWork::sample_needs() const {
 SampleChoice LiveWork::suited_samples() const {
     const std::optional<std::uint64_t> now = document_->settings().samples;
     SampleChoice suited = choose_samples_again(sample_needs(), now);
-    if (choice_.by_itself && !choice_.cost && suited.samples != now) suited = {now, SampleReason::machine};
+    if (choice_.by_itself && !choice_.measured && suited.samples != now)
+        suited = {now, SampleReason::machine};
     return suited;
 }
 
@@ -59,7 +64,7 @@ void LiveWork::choose_samples() {
     look_at_handles();
     const bool now = choice_.by_itself && choice_.is_due && !document_->is_posed() && recording_->can_undo();
     if (!now) return;
-    if (!choice_.cost) measure_frame();
+    if (!choice_.measured) measure_frame();
     choice_.is_due = false;
     const std::optional<std::uint64_t> samples = suited_samples().samples;
     if (samples == document_->settings().samples) return;
@@ -114,7 +119,7 @@ void LiveWork::learn_cost(std::vector<double> solving, std::vector<double> upsam
     const std::uint64_t samples = std::min(document_->settings().samples.value_or(points), points);
     // Frames that are drawn on the device tell nothing of those that are not.
     const double moving = !upsampling.empty() ? median(std::move(upsampling))
-                          : choice_.cost      ? choice_.cost->upsampling
+                          : choice_.newest    ? choice_.newest->cost.upsampling
                                               : 0;
     learn({{samples, median(std::move(solving)), moving}, document_->settings().iterations});
 }
@@ -122,20 +127,17 @@ void LiveWork::learn_cost(std::vector<double> solving, std::vector<double> upsam
 // What it measured is believed at once where the machine was as fast as before. Of drags that were slower it
 // is the fastest, and only after some of them.
 void LiveWork::learn(const MeasuredCost& learned) {
-    const auto at_iterations = [&](const MeasuredCost& measured) {
-        FrameCost cost = measured.cost;
-        cost.solving *= (1.0 + learned.iterations) / (1.0 + measured.iterations);
-        return cost;
+    choice_.newest = learned;
+    const auto is_slower_than = [&](const MeasuredCost& known) {
+        return is_faster(at_iterations(known, learned.iterations), learned.cost);
     };
-    if (choice_.cost && is_faster(at_iterations({*choice_.cost, choice_.cost_iterations}), learned.cost)) {
-        if (!choice_.slower || is_faster(learned.cost, at_iterations(*choice_.slower)))
-            choice_.slower = learned;
+    if (choice_.measured && is_slower_than(*choice_.measured)) {
+        if (!choice_.slower || !is_slower_than(*choice_.slower)) choice_.slower = learned;
         if (++choice_.slower_drags <= most_slower_drags) return;
+        choice_.measured = choice_.slower;
     } else {
-        choice_.slower = learned;
+        choice_.measured = learned;
     }
-    choice_.cost = choice_.slower->cost;
-    choice_.cost_iterations = choice_.slower->iterations;
     choice_.slower.reset();
     choice_.slower_drags = 0;
 }

@@ -116,6 +116,7 @@ private:
         FrameCost cost;
         unsigned iterations = 0; // that the frames had
     };
+    static FrameCost at_iterations(const MeasuredCost& measured, unsigned iterations);
     void learn(const MeasuredCost& learned);
     void learn_cost(std::vector<double> solving, std::vector<double> upsampling);
 
@@ -170,12 +171,12 @@ private:
     // The number of samples.
     struct {
         bool by_itself = false;
-        bool is_due = false; // since the last act
-        HandleSpread spread; // of the handles as they were prepared last
-        std::optional<FrameCost> cost;
-        unsigned cost_iterations = 0;       // that the frames had
-        unsigned slower_drags = 0;          // since then, one after the other
-        std::optional<MeasuredCost> slower; // the fastest of them
+        bool is_due = false;                  // since the last act
+        HandleSpread spread;                  // of the handles as they were prepared last
+        std::optional<MeasuredCost> newest;   // what the machine did last; nothing: it was not measured yet
+        std::optional<MeasuredCost> measured; // what it can, when nothing else is to be done
+        unsigned slower_drags = 0;            // since then, one after the other
+        std::optional<MeasuredCost> slower;   // the fastest of them
     } choice_;
 
     struct {

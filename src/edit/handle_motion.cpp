@@ -95,6 +95,13 @@ Vec3d moved_on(const Vec3d& place, const HandleMotion& before, const HandleMotio
     return moved_point(after, point_at_rest(before, place));
 }
 
+HandleMotion without_rounding(HandleMotion motion, double reach) {
+    const bool is_rest = (motion.linear - Mat3d::Identity()).cwiseAbs().maxCoeff() < unit_scale &&
+                         motion.offset.norm() <= unit_scale * reach;
+    if (is_rest) motion.linear.setIdentity(), motion.offset.setZero();
+    return motion;
+}
+
 bool leaves_rest(const HandleMotion& motion) {
     return motion.linear != Mat3d::Identity() || motion.offset != Vec3d::Zero();
 }
@@ -166,10 +173,7 @@ HandleMotion gone_along(const HandleMotion& motion, const HandleMotion& from, co
     result.offset = map * (motion.offset - from.offset) + to.offset;
     if (to.linear == from.linear && to.offset == from.offset) // as it was, to the last bit
         result.linear = motion.linear, result.offset = motion.offset;
-    const double reach = motion.offset.norm() + from.offset.norm() + to.offset.norm();
-    if ((result.linear - Mat3d::Identity()).cwiseAbs().maxCoeff() < unit_scale &&
-        result.offset.norm() <= unit_scale * reach) // at rest but for rounding
-        result.linear.setIdentity(), result.offset.setZero();
+    result = without_rounding(result, motion.offset.norm() + from.offset.norm() + to.offset.norm());
     result.rotation = (to.rotation * from.rotation.conjugate() * motion.rotation).normalized();
     const bool scales = (map * map.transpose() - Mat3d::Identity()).cwiseAbs().maxCoeff() > unit_scale;
     if (scales) result.rotation = rotation_in(result.linear, result.rotation);

@@ -23,6 +23,10 @@ Vec3d point_at_rest(const HandleMotion& motion, const Vec3d& point);
 // Where a place on a handle goes when the handle leaves one motion for another.
 Vec3d moved_on(const Vec3d& place, const HandleMotion& before, const HandleMotion& after);
 
+// The same, with its points exactly where they were at rest if that is where they are but for rounding; how
+// it is wound up stays. `reach`: how large what its offset was made of is.
+HandleMotion without_rounding(HandleMotion motion, double reach);
+
 // The angles x, y and z, in radians, of a rotation that turns about the axis x, then y, then z of the world:
 // R = R_z(z) R_y(y) R_x(x). Of all that there are, those nearest to `before`. With y at a right angle, where
 // x and z turn about the same axis, x stays as it was.

@@ -22,7 +22,7 @@ constexpr double trial_step = 1e-9;
 constexpr std::size_t telling_frames = 3;
 
 // So many drags in a row may be slower than what was measured before them: a machine is as fast as it was,
-// and what else it has to do comes and goes. After them it is believed.
+// and what else it has to do comes and goes. After them the fastest of them is believed.
 constexpr unsigned most_slower_drags = 4;
 
 // From so many samples on, how far apart the handles are is not asked.

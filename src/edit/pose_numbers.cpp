@@ -47,14 +47,6 @@ void map_by(const Mat3d& map, Transform& transform) {
     transform.axes = to_glm(Quatd(axes));
 }
 
-// Exactly at rest where all that is left is rounding. `reach`: how far from the origin it was turned about.
-HandleMotion at_rest_but_for_rounding(const HandleMotion& motion, double reach) {
-    constexpr double rounding = 1e-12;
-    const bool is_rest = (motion.linear - Mat3d::Identity()).cwiseAbs().maxCoeff() < rounding &&
-                         motion.offset.norm() <= rounding * reach;
-    return is_rest ? HandleMotion{} : motion;
-}
-
 bool is_sheared(const HandleMotion& motion) {
     const Mat3d stretch = motion.rotation.toRotationMatrix().transpose() * motion.linear;
     const Mat3d apart = stretch - Mat3d(stretch.diagonal().asDiagonal());
@@ -157,7 +149,7 @@ std::vector<HandleMotion> unturned(const HandleMotion& motion, const Vec3d& pivo
         turn_by(-angle / count, axis_of_angle(now.turned, axis), step);
         for (int k = 0; k < count; ++k) frames.push_back(now = followed_by(now, step));
     }
-    if (!frames.empty()) frames.back() = at_rest_but_for_rounding(frames.back(), pivot.norm());
+    if (!frames.empty() && !leaves_rest(without_rounding(frames.back(), pivot.norm()))) frames.back() = {};
     return frames;
 }
 
